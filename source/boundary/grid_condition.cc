@@ -72,10 +72,9 @@ namespace moraine
           {
             const Point<dim> &x = space.node_position(node);
             if ((condition.side && !on_side[node]) ||
-                (condition.region &&
-                 !inside(*condition.region,
-                         x,
-                         1e-9 * space.mesh().cell_size())))
+                (condition.region && !inside(*condition.region,
+                                             x,
+                                             1e-9 * space.mesh().cell_size())))
               continue;
             for (unsigned int d = 0; d < dim; ++d)
               if (condition.component[d])

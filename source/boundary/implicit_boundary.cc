@@ -304,6 +304,8 @@ namespace moraine
   ImplicitBoundary<dim>::accept(const std::vector<Tensor<1, dim>> &tractions,
                                 const std::vector<Tensor<1, dim>> &violations)
   {
+    if (!how.carries_reaction)
+      return;
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
         boundary_points[q].committed_reaction = tractions[q];

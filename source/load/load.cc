@@ -29,9 +29,9 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedLoad<dim>::find_cells(const GridSpace<dim>       &space,
+  CarriedLoad<dim>::find_cells(const GridSpace<dim>        &space,
                                const GridTools::Cache<dim> &cache,
-                               const double                reach)
+                               const double                 reach)
   {
     typename GridSpace<dim>::CellIterator hint;
     for (Place &place : load_places)

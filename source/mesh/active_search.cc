@@ -41,8 +41,10 @@ namespace moraine
       Point<dim>             X[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = space.node_position(nodes[a]);
-      CellShapes<dim, degree>::evaluate(
-        CellShapes<dim, degree>::inverse(x, X), X, N, grad_N);
+      CellShapes<dim, degree>::evaluate(CellShapes<dim, degree>::inverse(x, X),
+                                        X,
+                                        N,
+                                        grad_N);
     }
   } // namespace
 
@@ -94,16 +96,16 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                \
-  template GridSpace<dim>::CellIterator nearest_active_cell(            \
-    const GridSpace<dim> &,                                             \
-    const GridSpace<dim>::CellIterator &,                               \
-    const Point<dim> &,                                                 \
-    const double);                                                      \
-  template void evaluate_shapes(const GridSpace<dim> &,                 \
-                                const unsigned int,                     \
-                                const Point<dim> &,                     \
-                                double *,                               \
+#define INSTANTIATE(dim)                                     \
+  template GridSpace<dim>::CellIterator nearest_active_cell( \
+    const GridSpace<dim> &,                                  \
+    const GridSpace<dim>::CellIterator &,                    \
+    const Point<dim> &,                                      \
+    const double);                                           \
+  template void evaluate_shapes(const GridSpace<dim> &,      \
+                                const unsigned int,          \
+                                const Point<dim> &,          \
+                                double *,                    \
                                 Tensor<1, dim> *);
   INSTANTIATE(2)
   INSTANTIATE(3)

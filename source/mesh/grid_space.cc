@@ -148,6 +148,26 @@ namespace moraine
 
 
   template <int dim>
+  LA::Vector
+  GridSpace<dim>::vector() const
+  {
+    return LA::Vector(owned, communicator());
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  GridSpace<dim>::writable_vector() const
+  {
+    LA::Vector vector;
+    vector.reinit(owned, relevant, communicator(), true);
+    return vector;
+  }
+
+
+
+  template <int dim>
   void
   GridSpace<dim>::move_nodes(const std::vector<Tensor<1, dim>> &displacement)
   {

@@ -119,6 +119,13 @@ namespace moraine
     constraint_state(const BoundaryPoint<dim>     &point,
                      const dealii::Tensor<1, dim> &du) const;
 
+    /** @f$M@f$ for a normal. */
+    dealii::SymmetricTensor<2, dim>
+    projection(const dealii::Tensor<1, dim> &normal) const
+    {
+      return constraint.projection(normal);
+    }
+
     /** Commit the reactions and violations of the trial state. */
     void
     accept(const std::vector<dealii::Tensor<1, dim>> &tractions,

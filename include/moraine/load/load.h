@@ -17,8 +17,9 @@ namespace moraine
 {
   /** A vector prescribed at places and times. */
   template <int dim>
-  using VectorFunction = std::function<
-    dealii::Tensor<1, dim>(const dealii::Point<dim> &, const double)>;
+  using VectorFunction =
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
+                                         const double)>;
 
   /**
    * A force per volume in some of the bodies: b(x, t), or gravity
@@ -59,7 +60,7 @@ namespace moraine
       unsigned int active_cell_index = GridSpace<dim>::no_cell;
     };
 
-    CarriedLoad(const std::string        &name,
+    CarriedLoad(const std::string         &name,
                 const VectorFunction<dim> &value,
                 std::vector<Place>         places);
 
@@ -69,7 +70,7 @@ namespace moraine
      * material.
      */
     void
-    find_cells(const GridSpace<dim>               &space,
+    find_cells(const GridSpace<dim>                &space,
                const dealii::GridTools::Cache<dim> &cache,
                const double                         reach);
 

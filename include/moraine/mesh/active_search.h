@@ -12,8 +12,8 @@ namespace moraine
    * The active cell whose functions serve a place @p x that lies in @p cell:
    * the cell itself, or else the nearest active one around it that is not
    * further than @p reach, because the material that points close to an edge
-   * stand for reaches over it. Returns end() if there is none. All ranks get the
-   * same answer.
+   * stand for reaches over it. Returns end() if there is none. All ranks get
+   * the same answer.
    */
   template <int dim>
   typename GridSpace<dim>::CellIterator

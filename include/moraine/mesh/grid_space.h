@@ -114,6 +114,14 @@ namespace moraine
     node_values(const LA::Vector                    &vector,
                 std::vector<dealii::Tensor<1, dim>> &values) const;
 
+    /** A zero vector of the owned unknowns. */
+    LA::Vector
+    vector() const;
+
+    /** A zero vector that takes additions to all unknowns this rank knows. */
+    LA::Vector
+    writable_vector() const;
+
     /** Move every node by its value in @p displacement. */
     void
     move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);

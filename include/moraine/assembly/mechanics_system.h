@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_mechanics_system_h
+#define moraine_assembly_mechanics_system_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/grid_condition.h>
+#include <moraine/boundary/implicit_boundary.h>
+#include <moraine/load/load.h>
+#include <moraine/solver/nonlinear_system.h>
+#include <moraine/state/state.h>
+
+#include <deal.II/base/timer.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** Reaction force and worst violation of a boundary in an accepted step. */
+  template <int dim>
+  struct BoundaryReport
+  {
+    std::string            name;
+    dealii::Tensor<1, dim> reaction;    ///< force on the body
+    double                 violation;   ///< largest |M(u - g)| of the step
+    double                 penetration; ///< largest depth of a point behind it
+  };
+
+  /**
+   * Quasi-static equilibrium of one step, in the increment @f$\Delta u@f$:
+   *
+   * @f[ r(\Delta u) = f_{ext}(t_{n+1}) - \sum_p B_p^T \sigma_p(\Delta u) v_p
+   *     + \text{boundaries} @f]
+   *
+   * (Cortis et al. 2017, eqs. 6-12). It is a sum of terms that see stencils and
+   * know no method. Unknowns on grid conditions are condensed.
+   */
+  template <int dim>
+  class MechanicsSystem : public NonlinearSystem
+  {
+  public:
+    MechanicsSystem(State<dim>                            &state,
+                    std::vector<ImplicitBoundary<dim>>    &boundaries,
+                    const std::vector<GridCondition<dim>> &conditions,
+                    Loads<dim>                            &loads,
+                    const std::vector<std::string>        &body_names,
+                    dealii::TimerOutput                   &timer);
+
+    /**
+     * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
+     * of boundaries up to date.
+     */
+    void
+    begin_step(const double t);
+
+    /** Aim at @p t_end from the committed state; undoes an earlier trial. */
+    void
+    set_target(const double t_end);
+
+    /** Commit the trial increment @p x. Reports are collective. */
+    std::vector<BoundaryReport<dim>>
+    accept(const LA::Vector &x);
+
+    /**
+     * Depth of points behind each boundary if the trial increment @p x were
+     * accepted, over the boundary's limit; the largest of all boundaries that
+     * have a limit, or 0. At most 1 is fine.
+     */
+    double
+    worst_penetration_over_limit(const LA::Vector &x);
+
+    /**
+     * Throws if a connected part of the material can move as a rigid body,
+     * naming it and the motion. Needs an assembled tangent.
+     */
+    void
+    check_that_it_is_held(const bool first_step) const;
+
+    void
+    initial_guess(LA::Vector &x) const override;
+
+    void
+    assemble(const LA::Vector &x, const bool tangent) override;
+
+    const LA::SparseMatrix &
+    tangent() const override
+    {
+      return matrix;
+    }
+
+    const LA::Vector &
+    residual() const override
+    {
+      return residual_vector;
+    }
+
+    double
+    force_scale() const override
+    {
+      return scale;
+    }
+
+    bool
+    symmetric() const override;
+
+    const std::vector<LA::Vector> &
+    near_null_space() const override
+    {
+      return rigid_modes;
+    }
+
+    void
+    apply_constraints(LA::Vector &dx) const override;
+
+    bool
+    augment(const LA::Vector &x) override;
+
+    /** Whether cells or couplings changed at the last begin_step(). */
+    bool
+    coupling_changed() const
+    {
+      return changed;
+    }
+
+    /** Number of surface points of each boundary, over all ranks. */
+    std::vector<unsigned int>
+    n_boundary_points() const;
+
+  private:
+    void
+    set_up_unknowns();
+
+    void
+    make_rigid_modes();
+
+    void
+    make_constraints();
+
+    void
+    assemble_external_forces();
+
+    void
+    assemble_points(const bool tangent, LA::Vector &force);
+
+    void
+    assemble_boundaries(const bool tangent, LA::Vector &force);
+
+    void
+    add_to_system(const LocalSystem<dim> &local,
+                  const bool              tangent,
+                  LA::Vector             &force);
+
+    std::vector<BoundaryReport<dim>>
+    report_boundaries();
+
+    std::vector<BoundaryReport<dim>>
+    report_grid_conditions();
+
+    /** Tension and violation of each point of a boundary in the trial state. */
+    void
+    boundary_state(const ImplicitBoundary<dim>         &boundary,
+                   std::vector<dealii::Tensor<1, dim>> &tractions,
+                   std::vector<dealii::Tensor<1, dim>> &violations) const;
+
+    [[noreturn]] void
+    report_free_part(const std::vector<unsigned int> &part,
+                     const unsigned int               k,
+                     const dealii::Vector<double>    &motion,
+                     const bool                       first_step) const;
+
+    /** Typical size of the largest point. */
+    double
+    point_size() const;
+
+    State<dim>                                    &state;
+    std::vector<ImplicitBoundary<dim>>            &boundaries;
+    const std::vector<GridCondition<dim>>         &conditions;
+    Loads<dim>                                    &loads;
+    const std::vector<std::string>                 body_names;
+    dealii::TimerOutput                           &timer;
+    std::unique_ptr<dealii::GridTools::Cache<dim>> cell_cache;
+    std::vector<std::unique_ptr<PointTerm<dim>>>   point_terms;
+    std::vector<unsigned int>                      body_of_cell;
+    PrescribedNodes<dim>                           prescribed;
+    dealii::AffineConstraints<double>              constraints;
+    LA::SparseMatrix                               matrix;
+    LA::Vector                                     residual_vector;
+    LA::Vector                                     external;
+    std::vector<LA::Vector>                        rigid_modes;
+    double                                         scale          = 0;
+    double                                         external_scale = 0;
+    double                                         local_scale    = 0;
+    double                                         t_start        = 0;
+    double                                         t_target       = 0;
+    double                                         reach          = 0;
+    double                                         last_violation = 0;
+    bool                                           changed        = true;
+  };
+} // namespace moraine
+
+#endif

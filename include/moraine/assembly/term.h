@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_term_h
+#define moraine_assembly_term_h
+
+#include <moraine/boundary/implicit_boundary.h>
+#include <moraine/state/state.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Matrix and force of the unknowns of one group of points or one cell, in
+   * node major order, with the scratch arrays the terms share.
+   */
+  template <int dim>
+  struct LocalSystem
+  {
+    dealii::FullMatrix<double>                   matrix;
+    dealii::Vector<double>                       force;
+    std::vector<dealii::types::global_dof_index> dofs;
+    std::vector<dealii::Tensor<1, dim>>          nodal_increments;
+    /** Moments of gradients, upper triangle used. */
+    std::vector<double>                        moments;
+    std::vector<dealii::SymmetricTensor<2, 3>> strains;
+    std::vector<dealii::SymmetricTensor<2, 3>> stresses;
+    /** Boundary fluxes of unit displacements of the unknowns. */
+    std::vector<dealii::Tensor<1, dim>> fluxes;
+
+    /** Take the unknowns and increments of @p n_nodes nodes and zero the rest.
+     */
+    void
+    reinit(const State<dim>   &state,
+           const unsigned int *nodes,
+           const unsigned int  n_nodes,
+           const bool          tangent);
+  };
+
+  /** A term of the weak form that is integrated by the material points. */
+  template <int dim>
+  class PointTerm
+  {
+  public:
+    virtual ~PointTerm() = default;
+
+    /**
+     * Add the forces of the points of a block (positive where they push the
+     * nodes along) and, if asked, minus their derivative to the matrix.
+     */
+    virtual void
+    add(const State<dim>        &state,
+        const StencilBlock<dim> &block,
+        const bool               tangent,
+        LocalSystem<dim>        &local) const = 0;
+  };
+
+  /**
+   * @f$-\sum_p B_p^T \sigma_p v_p@f$ with trial stresses, and
+   * @f$K = \sum_p B_p^T C B_p v_p@f$ (Cortis et al. 2017, eqs. 7-9).
+   *
+   * With a constant isotropic C the sum over points needs only the moments
+   * @f$G_{ai,bj} = \sum_p v_p\, \partial_i N_a\, \partial_j N_b@f$; then
+   * @f$K_{ai,bj} = \lambda G_{ai,bj} + \mu G_{aj,bi}
+   *  + \mu\, \delta_{ij} \sum_k G_{ak,bk}@f$, so that many points in a cell
+   * cost little more than few.
+   */
+  template <int dim>
+  class InternalForce : public PointTerm<dim>
+  {
+  public:
+    void
+    add(const State<dim>        &state,
+        const StencilBlock<dim> &block,
+        const bool               tangent,
+        LocalSystem<dim>        &local) const override;
+  };
+
+  /**
+   * The force of a point of an implicit boundary and its derivative; see
+   * Enforcement for the weak form.
+   *
+   * @param du, grad_du trial increment and its gradient at the point.
+   * @return the traction on the body, t plus what the trial state adds.
+   */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  boundary_traction(const BoundaryPoint<dim>     &point,
+                    const ConstraintState<dim>   &constraint,
+                    const Enforcement            &enforcement,
+                    const LameConstants          &stiffness,
+                    const dealii::Tensor<2, dim> &grad_du);
+
+  template <int dim>
+  void
+  add_boundary_point(const BoundaryPoint<dim>     &point,
+                     const ConstraintState<dim>   &constraint,
+                     const Enforcement            &enforcement,
+                     const LameConstants          &stiffness,
+                     const double                 *N,
+                     const dealii::Tensor<1, dim> *grad_N,
+                     const dealii::Tensor<2, dim> &grad_du,
+                     const bool                    tangent,
+                     LocalSystem<dim>             &local);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/mechanics_system.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/mesh/active_search.h>
+#include <moraine/mesh/cell_shapes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/qprojector.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <set>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    void
+    add_body_forces(const State<dim>                  &state,
+                    const std::vector<BodyForce<dim>> &body_forces,
+                    const double                       t,
+                    const StencilBlock<dim>           &block,
+                    LocalSystem<dim>                  &local)
+    {
+      const PointSet<dim> &points = state.material_points();
+      for (unsigned int p = 0; p < block.n_points; ++p)
+        {
+          const unsigned int point = block.points[p];
+          const unsigned int body  = points.body(point);
+          Tensor<1, dim>     b;
+          for (const auto &force : body_forces)
+            if (force.acts_on[body])
+              b += (force.times_density ? state.material(body).density() : 1.) *
+                   force.value(points.position(point), t);
+          for (unsigned int a = 0; a < block.n_nodes; ++a)
+            for (unsigned int i = 0; i < dim; ++i)
+              local.force[dim * a + i] +=
+                points.volume(point) * block.N(p)[a] * b[i];
+        }
+    }
+
+
+
+    /** A traction on the faces of one cell that lie on the side. */
+    template <int dim, int degree>
+    void
+    add_side_traction(const State<dim>                            &state,
+                      const SideTraction<dim>                     &load,
+                      const double                                 t,
+                      const typename GridSpace<dim>::CellIterator &cell,
+                      LocalSystem<dim>                            &local)
+    {
+      constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
+      const unsigned int    *nodes = state.grid().cell_nodes(cell);
+      const QGauss<dim - 1>  quadrature(degree + 1);
+      Point<dim>             X[n];
+      double                 N[n];
+      Tensor<1, dim>         grad_N[n];
+      for (unsigned int a = 0; a < n; ++a)
+        X[a] = state.grid().node_position(nodes[a]);
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() &&
+            cell->face(f)->boundary_id() == load.side)
+          {
+            const auto on_face = QProjector<dim>::project_to_face(
+              ReferenceCells::get_hypercube<dim>(), quadrature, f);
+            for (unsigned int q = 0; q < on_face.size(); ++q)
+              {
+                CellShapes<dim, degree>::evaluate(on_face.point(q),
+                                                  X,
+                                                  N,
+                                                  grad_N);
+                // |dx/dxi_face| from the face's share of a straight cell
+                const double JxW =
+                  quadrature.weight(q) * cell->face(f)->measure();
+                Point<dim> x;
+                for (unsigned int a = 0; a < n; ++a)
+                  x += N[a] * X[a];
+                const Tensor<1, dim> traction = load.value(x, t);
+                for (unsigned int a = 0; a < n; ++a)
+                  for (unsigned int i = 0; i < dim; ++i)
+                    local.force[dim * a + i] += JxW * N[a] * traction[i];
+              }
+          }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_external_forces()
+  {
+    const GridSpace<dim> &space = state.grid();
+    LA::Vector            force = state.grid().writable_vector();
+    LocalSystem<dim>      local;
+    local_scale = 0;
+    if (!loads.body_forces.empty())
+      {
+        StencilBlock<dim> block;
+        for (unsigned int g = 0; g < state.point_basis().n_groups(); ++g)
+          {
+            state.point_basis().evaluate(g, block);
+            local.reinit(state, block.nodes, block.n_nodes, false);
+            add_body_forces(state, loads.body_forces, t_target, block, local);
+            add_to_system(local, false, force);
+          }
+      }
+    for (const auto &load : loads.side_tractions)
+      for (const auto &cell :
+           space.mesh().triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary() &&
+            space.is_active(cell))
+          {
+            local.reinit(state,
+                         space.cell_nodes(cell),
+                         space.nodes_per_cell(),
+                         false);
+            if (space.degree() == 1)
+              add_side_traction<dim, 1>(state, load, t_target, cell, local);
+            else
+              add_side_traction<dim, 2>(state, load, t_target, cell, local);
+            add_to_system(local, false, force);
+          }
+    std::vector<double>         N(space.nodes_per_cell());
+    std::vector<Tensor<1, dim>> grad_N(space.nodes_per_cell());
+    for (const auto &load : loads.carried)
+      for (const auto &place : load.places())
+        if (place.active_cell_index != GridSpace<dim>::no_cell)
+          {
+            evaluate_shapes(
+              space, place.active_cell_index, place.x, N.data(), grad_N.data());
+            local.reinit(state,
+                         space.cell_nodes(place.active_cell_index),
+                         space.nodes_per_cell(),
+                         false);
+            const Tensor<1, dim> value = load.value(place.x, t_target);
+            for (unsigned int a = 0; a < N.size(); ++a)
+              for (unsigned int i = 0; i < dim; ++i)
+                local.force[dim * a + i] += place.weight * N[a] * value[i];
+            add_to_system(local, false, force);
+          }
+    force.compress(VectorOperation::add);
+    external       = force;
+    external_scale = Utilities::MPI::sum(local_scale, space.communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<BoundaryReport<dim>>
+  MechanicsSystem<dim>::report_grid_conditions()
+  {
+    std::vector<BoundaryReport<dim>> reports;
+    for (const auto &condition : conditions)
+      reports.push_back({condition.name, {}, 0., 0.});
+    if (conditions.empty())
+      return reports;
+
+    // The force that is missing at the prescribed unknowns, from the loops that
+    // make the residual but without condensing them.
+    AffineConstraints<double> no_constraints;
+    no_constraints.close();
+    std::swap(constraints, no_constraints);
+    LA::Vector force = state.grid().writable_vector();
+    assemble_points(false, force);
+    assemble_boundaries(false, force);
+    force.compress(VectorOperation::add);
+    LA::Vector unbalanced = state.grid().vector();
+    unbalanced            = force;
+    assemble_external_forces();
+    unbalanced += external;
+    std::swap(constraints, no_constraints);
+
+    for (const auto &entry : prescribed.entries)
+      {
+        const auto dof = state.grid().node_dof(entry.node) + entry.component;
+        if (state.grid().locally_owned().is_element(dof))
+          reports[entry.condition].reaction[entry.component] -= unbalanced(dof);
+      }
+    for (auto &report : reports)
+      report.reaction =
+        Utilities::MPI::sum(report.reaction, state.grid().communicator());
+    return reports;
+  }
+
+
+
+  template void
+  MechanicsSystem<2>::assemble_external_forces();
+  template std::vector<BoundaryReport<2>>
+  MechanicsSystem<2>::report_grid_conditions();
+  template void
+  MechanicsSystem<3>::assemble_external_forces();
+  template std::vector<BoundaryReport<3>>
+  MechanicsSystem<3>::report_grid_conditions();
+} // namespace moraine

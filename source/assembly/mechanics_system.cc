@@ -1,0 +1,548 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/mechanics_system.h>
+
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  MechanicsSystem<dim>::MechanicsSystem(
+    State<dim>                            &state,
+    std::vector<ImplicitBoundary<dim>>    &boundaries,
+    const std::vector<GridCondition<dim>> &conditions,
+    Loads<dim>                            &loads,
+    const std::vector<std::string>        &body_names,
+    TimerOutput                           &timer)
+    : state(state)
+    , boundaries(boundaries)
+    , conditions(conditions)
+    , loads(loads)
+    , body_names(body_names)
+    , timer(timer)
+  {
+    point_terms.push_back(std::make_unique<InternalForce<dim>>());
+    if (!loads.carried.empty())
+      cell_cache = std::make_unique<GridTools::Cache<dim>>(
+        state.grid().mesh().triangulation(), state.grid().mesh().mapping());
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::point_size() const
+  {
+    double               volume = 0;
+    const PointSet<dim> &points = state.material_points();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      volume = std::max(volume, points.volume(p));
+    return std::pow(Utilities::MPI::max(volume, state.grid().communicator()),
+                    1. / dim);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::begin_step(const double t)
+  {
+    {
+      TimerOutput::Scope scope(timer, "stencils");
+      changed = state.begin_step();
+    }
+    t_start = t;
+    if (!boundaries.empty() || !loads.carried.empty())
+      reach = point_size();
+    const bool cells_moved =
+      changed || state.mesh_after_step() == MeshAfterStep::follow_material;
+    {
+      TimerOutput::Scope scope(timer, "boundary pieces");
+      for (auto &boundary : boundaries)
+        boundary.begin_step(state.grid(),
+                            t,
+                            reach,
+                            state.mesh_after_step() != MeshAfterStep::keep,
+                            cells_moved);
+    }
+    for (auto &load : loads.carried)
+      load.find_cells(state.grid(), *cell_cache, reach);
+    if (changed)
+      set_up_unknowns();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::set_up_unknowns()
+  {
+    TimerOutput::Scope    scope(timer, "set up unknowns");
+    const GridSpace<dim> &space = state.grid();
+
+    body_of_cell.assign(space.mesh().triangulation().n_active_cells(), 0);
+    for (const auto &in_cell : state.material_points().cells())
+      body_of_cell[in_cell.cell->active_cell_index()] =
+        state.material_points().body(in_cell.first);
+
+    prescribed.entries.clear();
+    if (!conditions.empty())
+      prescribed = find_prescribed_nodes(conditions, space, t_start);
+    make_constraints();
+
+    LA::SparsityPattern                  pattern(space.locally_owned(),
+                                space.locally_owned(),
+                                space.locally_relevant(),
+                                space.communicator(),
+                                Utilities::pow(3, dim) * dim);
+    std::vector<types::global_dof_index> dofs;
+    const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
+      dofs.clear();
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int c = 0; c < dim; ++c)
+          dofs.push_back(space.node_dof(nodes[a]) + c);
+      constraints.add_entries_local_to_global(dofs, pattern, false);
+    };
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && space.is_active(cell))
+        couple(space.cell_nodes(cell), space.nodes_per_cell());
+    for (unsigned int g = 0; g < state.point_basis().n_groups(); ++g)
+      {
+        const auto nodes = state.point_basis().group_nodes(g);
+        if (nodes.size() != space.nodes_per_cell())
+          couple(nodes.data(), nodes.size());
+      }
+    pattern.compress();
+    matrix.reinit(pattern);
+    residual_vector.reinit(space.locally_owned(), space.communicator());
+    external.reinit(space.locally_owned(), space.communicator());
+    make_rigid_modes();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::make_constraints()
+  {
+    constraints.clear();
+    constraints.reinit(state.grid().locally_relevant());
+    for (const auto &entry : prescribed.entries)
+      constraints.add_line(state.grid().node_dof(entry.node) + entry.component);
+    constraints.close();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::make_rigid_modes()
+  {
+    const GridSpace<dim> &space       = state.grid();
+    constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
+    rigid_modes.assign(dim + n_rotations,
+                       LA::Vector(space.locally_owned(), space.communicator()));
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto dof = space.node_dof(node) + c;
+          if (!space.locally_owned().is_element(dof))
+            continue;
+          rigid_modes[c](dof) = 1;
+          const Point<dim> &x = space.node_position(node);
+          // Rotation r turns direction i towards direction j.
+          constexpr unsigned int turn[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+          for (unsigned int r = 0; r < n_rotations; ++r)
+            {
+              if (c == turn[r][0])
+                rigid_modes[dim + r](dof) = -x[turn[r][1]];
+              if (c == turn[r][1])
+                rigid_modes[dim + r](dof) = x[turn[r][0]];
+            }
+        }
+    for (auto &mode : rigid_modes)
+      mode.compress(VectorOperation::insert);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::set_target(const double t_end)
+  {
+    t_target       = t_end;
+    last_violation = std::numeric_limits<double>::max();
+    for (auto &boundary : boundaries)
+      boundary.set_target(t_end);
+    TimerOutput::Scope scope(timer, "external forces");
+    assemble_external_forces();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::initial_guess(LA::Vector &x) const
+  {
+    x.reinit(state.grid().locally_owned(), state.grid().communicator());
+    for (const auto &entry : prescribed.entries)
+      {
+        const auto dof = state.grid().node_dof(entry.node) + entry.component;
+        if (!state.grid().locally_owned().is_element(dof))
+          continue;
+        const Point<dim> &X     = state.grid().node_position(entry.node);
+        const auto       &value = conditions[entry.condition].value;
+        x(dof)                  = value(X, t_target)[entry.component] -
+                 value(X, t_start)[entry.component];
+      }
+    x.compress(VectorOperation::insert);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::apply_constraints(LA::Vector &dx) const
+  {
+    constraints.set_zero(dx);
+  }
+
+
+
+  template <int dim>
+  bool
+  MechanicsSystem<dim>::symmetric() const
+  {
+    return std::all_of(boundaries.begin(),
+                       boundaries.end(),
+                       [](const auto &boundary) {
+                         return boundary.enforcement().adjoint_sign >= 0 &&
+                                (boundary.enforcement().adjoint_sign > 0 ||
+                                 boundary.enforcement().w_free == 0);
+                       });
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::add_to_system(const LocalSystem<dim> &local,
+                                      const bool              tangent,
+                                      LA::Vector             &force)
+  {
+    local_scale += local.force.norm_sqr();
+    if (tangent)
+      constraints.distribute_local_to_global(
+        local.matrix, local.force, local.dofs, matrix, force);
+    else
+      constraints.distribute_local_to_global(local.force, local.dofs, force);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble(const LA::Vector &x, const bool tangent)
+  {
+    TimerOutput::Scope scope(timer, tangent ? "assembly" : "residual");
+    state.set_trial(x);
+    LA::Vector force = state.grid().writable_vector();
+    if (tangent)
+      matrix = 0;
+    local_scale = 0;
+    assemble_points(tangent, force);
+    assemble_boundaries(tangent, force);
+    if (tangent)
+      matrix.compress(VectorOperation::add);
+    force.compress(VectorOperation::add);
+    residual_vector = force;
+    residual_vector += external;
+    constraints.set_zero(residual_vector);
+    scale =
+      std::sqrt(Utilities::MPI::sum(local_scale, state.grid().communicator()) +
+                external_scale);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_points(const bool tangent, LA::Vector &force)
+  {
+    StencilBlock<dim> block;
+    LocalSystem<dim>  local;
+    const Basis<dim> &basis = state.point_basis();
+    for (unsigned int g = 0; g < basis.n_groups(); ++g)
+      {
+        basis.evaluate(g, block);
+        local.reinit(state, block.nodes, block.n_nodes, tangent);
+        for (const auto &term : point_terms)
+          term->add(state, block, tangent, local);
+        add_to_system(local, tangent, force);
+      }
+  }
+
+
+
+  namespace
+  {
+    /** Value and gradient of the trial increment at a place of a boundary. */
+    template <int dim>
+    std::pair<Tensor<1, dim>, Tensor<2, dim>>
+    increment_at(const std::vector<Tensor<1, dim>> &nodal,
+                 const unsigned int                *nodes,
+                 const unsigned int                 n_nodes,
+                 const double                      *N,
+                 const Tensor<1, dim>              *grad_N)
+    {
+      Tensor<1, dim> du;
+      Tensor<2, dim> grad_du;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          const Tensor<1, dim> &u = nodal[nodes ? nodes[a] : a];
+          du += N[a] * u;
+          grad_du += outer_product(u, grad_N[a]);
+        }
+      return {du, grad_du};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_boundaries(const bool  tangent,
+                                            LA::Vector &force)
+  {
+    LocalSystem<dim>      local;
+    const GridSpace<dim> &space = state.grid();
+    const unsigned int    n     = space.nodes_per_cell();
+    for (const auto &boundary : boundaries)
+      {
+        const auto &points = boundary.points();
+        for (unsigned int begin = 0, end = 0; begin < points.size();
+             begin = end)
+          {
+            const unsigned int  cell  = points[begin].cell;
+            const unsigned int *nodes = space.cell_nodes(cell);
+            local.reinit(state, nodes, n, tangent);
+            for (; end < points.size() && points[end].cell == cell; ++end)
+              {
+                const auto [du, grad_du] =
+                  increment_at<dim>(local.nodal_increments,
+                                    nullptr,
+                                    n,
+                                    boundary.N(end),
+                                    boundary.grad_N(end));
+                add_boundary_point(
+                  points[end],
+                  boundary.constraint_state(points[end], du),
+                  boundary.enforcement(),
+                  state.material(body_of_cell[cell]).elastic_stiffness(),
+                  boundary.N(end),
+                  boundary.grad_N(end),
+                  grad_du,
+                  tangent,
+                  local);
+              }
+            add_to_system(local, tangent, force);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::boundary_state(
+    const ImplicitBoundary<dim> &boundary,
+    std::vector<Tensor<1, dim>> &tractions,
+    std::vector<Tensor<1, dim>> &violations) const
+  {
+    const GridSpace<dim> &space  = state.grid();
+    const auto           &points = boundary.points();
+    tractions.resize(points.size());
+    violations.resize(points.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const auto [du, grad_du] =
+          increment_at<dim>(state.nodal_increments(),
+                            space.cell_nodes(points[q].cell),
+                            space.nodes_per_cell(),
+                            boundary.N(q),
+                            boundary.grad_N(q));
+        const auto constraint = boundary.constraint_state(points[q], du);
+        violations[q]         = constraint.violation;
+        tractions[q]          = boundary_traction(
+          points[q],
+          constraint,
+          boundary.enforcement(),
+          state.material(body_of_cell[points[q].cell]).elastic_stiffness(),
+          grad_du);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  MechanicsSystem<dim>::augment(const LA::Vector &x)
+  {
+    const MPI_Comm communicator = state.grid().communicator();
+    state.set_trial(x);
+    double violation = 0, motion = 0;
+    for (const auto &u : state.nodal_increments())
+      motion = std::max(motion, u.norm());
+
+    std::vector<Tensor<1, dim>> tractions, violations;
+    for (auto &boundary : boundaries)
+      if (boundary.enforcement().augments)
+        {
+          boundary_state(boundary, tractions, violations);
+          for (const auto &v : violations)
+            violation = std::max(violation, v.norm());
+        }
+    violation = Utilities::MPI::max(violation, communicator);
+    motion    = Utilities::MPI::max(motion, communicator);
+    // Stop when the constraint holds to round-off or gets no better.
+    if (violation <= 1e-14 * motion || violation > 0.5 * last_violation)
+      return false;
+    last_violation = violation;
+
+    for (auto &boundary : boundaries)
+      if (boundary.enforcement().augments)
+        {
+          boundary_state(boundary, tractions, violations);
+          Enforcement no_flux   = boundary.enforcement();
+          no_flux.w_constrained = no_flux.w_free = 0;
+          for (unsigned int q = 0; q < boundary.points().size(); ++q)
+            {
+              auto                &point = boundary.points()[q];
+              ConstraintState<dim> constraint;
+              constraint.normal    = point.normal;
+              constraint.violation = violations[q];
+              constraint.M         = boundary.projection(point.normal);
+              point.reaction       = boundary_traction(
+                point,
+                constraint,
+                no_flux,
+                state.material(body_of_cell[point.cell]).elastic_stiffness(),
+                Tensor<2, dim>());
+            }
+        }
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  MechanicsSystem<dim>::n_boundary_points() const
+  {
+    std::vector<unsigned int> n;
+    for (const auto &boundary : boundaries)
+      n.push_back(
+        Utilities::MPI::sum<unsigned int>(boundary.points().size(),
+                                          state.grid().communicator()));
+    return n;
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::worst_penetration_over_limit(const LA::Vector &x)
+  {
+    double worst = 0;
+    if (std::none_of(boundaries.begin(), boundaries.end(), [](const auto &b) {
+          return b.penetration_limit() > 0;
+        }))
+      return worst;
+    state.set_trial(x);
+    const double h          = state.grid().mesh().cell_size();
+    const auto   increments = state.point_increments();
+    for (unsigned int p = 0; p < increments.size(); ++p)
+      for (const auto &boundary : boundaries)
+        if (boundary.penetration_limit() > 0)
+          worst =
+            std::max(worst,
+                     boundary.penetration(state.material_points().position(p) +
+                                            increments[p],
+                                          2 * h) /
+                       (boundary.penetration_limit() * h));
+    return Utilities::MPI::max(worst, state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<BoundaryReport<dim>>
+  MechanicsSystem<dim>::accept(const LA::Vector &x)
+  {
+    state.set_trial(x);
+    auto reports = report_boundaries();
+    for (const auto &report : report_grid_conditions())
+      reports.push_back(report);
+    for (auto &load : loads.carried)
+      if (state.mesh_after_step() != MeshAfterStep::keep)
+        load.move(state.grid(), state.nodal_increments());
+    {
+      TimerOutput::Scope scope(timer, "update and search");
+      state.accept();
+    }
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      {
+        const double range = 2 * state.grid().mesh().cell_size();
+        for (unsigned int p = 0; p < state.material_points().n_local(); ++p)
+          reports[b].penetration =
+            std::max(reports[b].penetration,
+                     boundaries[b].penetration(
+                       state.material_points().position(p), range));
+        reports[b].penetration =
+          Utilities::MPI::max(reports[b].penetration,
+                              state.grid().communicator());
+      }
+    return reports;
+  }
+
+
+
+  template <int dim>
+  std::vector<BoundaryReport<dim>>
+  MechanicsSystem<dim>::report_boundaries()
+  {
+    std::vector<BoundaryReport<dim>> reports;
+    std::vector<Tensor<1, dim>>      tractions, violations;
+    for (auto &boundary : boundaries)
+      {
+        boundary_state(boundary, tractions, violations);
+        BoundaryReport<dim> report{boundary.name(), {}, 0., 0.};
+        for (unsigned int q = 0; q < tractions.size(); ++q)
+          {
+            report.reaction += boundary.points()[q].JxW * tractions[q];
+            report.violation = std::max(report.violation, violations[q].norm());
+          }
+        report.reaction =
+          Utilities::MPI::sum(report.reaction, state.grid().communicator());
+        report.violation =
+          Utilities::MPI::max(report.violation, state.grid().communicator());
+        boundary.accept(tractions, violations);
+        reports.push_back(report);
+      }
+    return reports;
+  }
+
+
+
+  template class MechanicsSystem<2>;
+  template class MechanicsSystem<3>;
+} // namespace moraine

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/mechanics_system.h>
+
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * The part of the material each active cell belongs to: parts share no
+     * vertex. Every rank knows every cell, so all get the same numbers.
+     */
+    template <int dim>
+    std::pair<std::vector<unsigned int>, unsigned int>
+    connected_parts(const GridSpace<dim> &space)
+    {
+      const auto               &tria = space.mesh().triangulation();
+      std::vector<unsigned int> root(tria.n_vertices());
+      std::iota(root.begin(), root.end(), 0u);
+      const auto find = [&root](unsigned int v) {
+        while (root[v] != v)
+          v = root[v] = root[root[v]];
+        return v;
+      };
+      for (const auto &cell : tria.active_cell_iterators())
+        if (space.is_active(cell))
+          for (const unsigned int v : cell->vertex_indices())
+            root[find(cell->vertex_index(v))] = find(cell->vertex_index(0));
+
+      std::vector<unsigned int> number(tria.n_vertices(),
+                                       numbers::invalid_unsigned_int);
+      std::vector<unsigned int> part(tria.n_active_cells(), 0);
+      unsigned int              n_parts = 0;
+      for (const auto &cell : tria.active_cell_iterators())
+        if (space.is_active(cell))
+          {
+            unsigned int &n = number[find(cell->vertex_index(0))];
+            if (n == numbers::invalid_unsigned_int)
+              n = n_parts++;
+            part[cell->active_cell_index()] = n;
+          }
+      return {part, n_parts};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::check_that_it_is_held(const bool first_step) const
+  {
+    const GridSpace<dim> &space = state.grid();
+    const auto [part, n_parts]  = connected_parts(space);
+    const unsigned int n_modes  = rigid_modes.size();
+
+    std::vector<unsigned int> part_of_node(space.n_nodes(), 0);
+    Point<dim>                centre;
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (space.knows(cell))
+        for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+          part_of_node[space.cell_nodes(cell)[a]] =
+            part[cell->active_cell_index()];
+
+    // Gram matrices of free rigid motions with 1 and with K, part by part.
+    const unsigned int      size = n_modes * n_modes;
+    std::vector<double>     gram(2 * size * n_parts, 0.);
+    std::vector<LA::Vector> modes = rigid_modes, forces = rigid_modes;
+    for (unsigned int m = 0; m < n_modes; ++m)
+      {
+        constraints.set_zero(modes[m]);
+        matrix.vmult(forces[m], modes[m]);
+      }
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto dof = space.node_dof(node) + c;
+          if (space.locally_owned().is_element(dof))
+            for (unsigned int i = 0; i < n_modes; ++i)
+              for (unsigned int j = 0; j < n_modes; ++j)
+                {
+                  const unsigned int entry =
+                    2 * size * part_of_node[node] + i * n_modes + j;
+                  gram[entry] += rigid_modes[i](dof) * rigid_modes[j](dof);
+                  gram[entry + size] += modes[i](dof) * forces[j](dof);
+                }
+        }
+    Utilities::MPI::sum(gram, space.communicator(), gram);
+    const double stiffness = matrix.linfty_norm();
+
+    for (unsigned int k = 0; k < n_parts; ++k)
+      {
+        // Smallest Rayleigh quotient: K a = lambda M a with M > 0.
+        LAPACKFullMatrix<double> K(n_modes), M(n_modes);
+        for (unsigned int i = 0; i < n_modes; ++i)
+          for (unsigned int j = 0; j < n_modes; ++j)
+            {
+              const double *G = &gram[2 * size * k];
+              M(i, j)         = G[i * n_modes + j];
+              K(i, j) =
+                0.5 * (G[size + i * n_modes + j] + G[size + j * n_modes + i]);
+            }
+        std::vector<Vector<double>> vectors(n_modes, Vector<double>(n_modes));
+        K.compute_generalized_eigenvalues_symmetric(M, vectors, 1);
+        unsigned int softest = 0;
+        for (unsigned int m = 1; m < n_modes; ++m)
+          if (K.eigenvalue(m).real() < K.eigenvalue(softest).real())
+            softest = m;
+        if (K.eigenvalue(softest).real() > 1e-13 * stiffness)
+          continue;
+        report_free_part(part, k, vectors[softest], first_step);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::report_free_part(const std::vector<unsigned int> &part,
+                                         const unsigned int               k,
+                                         const Vector<double> &motion,
+                                         const bool            first_step) const
+  {
+    Point<dim>   centre;
+    unsigned int n_cells = 0;
+    int          body    = -1;
+    for (const auto &cell :
+         state.grid().mesh().triangulation().active_cell_iterators())
+      if (state.grid().is_active(cell) && part[cell->active_cell_index()] == k)
+        {
+          centre += cell->center();
+          ++n_cells;
+          if (cell->is_locally_owned())
+            body = std::max<int>(body, body_of_cell[cell->active_cell_index()]);
+        }
+    centre /= n_cells;
+    body = Utilities::MPI::max(body, state.grid().communicator());
+
+    // A rotation with the translation that belongs to it, or a translation.
+    double rotation = 0, translation = 0;
+    for (unsigned int m = 0; m < motion.size(); ++m)
+      if (m < dim)
+        translation = std::max(translation, std::abs(motion[m]));
+      else
+        rotation = std::max(rotation, std::abs(motion[m]));
+    const bool turns =
+      rotation * state.grid().mesh().cell_size() > 1e-6 * translation;
+
+    std::ostringstream message;
+    message << "the scene is not held: body '" << body_names.at(body)
+            << "' around (" << centre << ") is free to ";
+    if (turns)
+      message << "rotate";
+    else
+      {
+        message << "move along (";
+        for (unsigned int d = 0; d < dim; ++d)
+          message << (d > 0 ? ", " : "")
+                  << std::round(1e3 * motion[d] / translation) / 1e3 + 0.;
+        message << ")";
+      }
+    message << "; hold it by a boundary or a grid condition";
+    if (first_step)
+      throw InputError(message.str());
+    throw ComputationError(message.str());
+  }
+
+
+
+  template void
+  MechanicsSystem<2>::check_that_it_is_held(const bool) const;
+  template void
+  MechanicsSystem<2>::report_free_part(const std::vector<unsigned int> &,
+                                       const unsigned int,
+                                       const Vector<double> &,
+                                       const bool) const;
+  template void
+  MechanicsSystem<3>::check_that_it_is_held(const bool) const;
+  template void
+  MechanicsSystem<3>::report_free_part(const std::vector<unsigned int> &,
+                                       const unsigned int,
+                                       const Vector<double> &,
+                                       const bool) const;
+} // namespace moraine
