@@ -403,10 +403,32 @@ namespace moraine
       return true;
     }
 
+    /** Whether a surface surely keeps away from the image of a box. */
+    template <int dim>
+    bool
+    far_from(const LevelSetSurface<dim> &surface,
+             const CellMap<dim>         &map,
+             const BoundingBox<dim>     &box)
+    {
+      const Point<dim> middle = map.place(box.center());
+      const bool       inside = surface.function_value(middle) > 0.;
+      double           reach  = 0.;
+      for (unsigned int v = 0; v < (1 << dim); ++v)
+        {
+          const Point<dim> x = map.place(box.vertex(v));
+          if ((surface.function_value(x) > 0.) != inside)
+            return false;
+          reach = std::max(reach, x.distance(middle));
+        }
+      // twice the reach: the level of an expression is only an estimate
+      return std::abs(surface.level(middle)) > 2. * reach;
+    }
+
     /** Boxes that make up the part of the unit box within the limits. */
     template <int dim>
     void
-    boxes_within(const CellVertices<dim>           &cell,
+    boxes_within(const LevelSetSurface<dim>        &surface,
+                 const CellVertices<dim>           &cell,
                  const CellMap<dim>                &map,
                  const std::vector<HalfSpace<dim>> &limits,
                  BoundingBox<dim>                   box,
@@ -414,14 +436,14 @@ namespace moraine
                  std::vector<BoundingBox<dim>>     &result)
     {
       bool exact = true;
-      if (!trim(cell, map, limits, box, exact))
+      if (far_from(surface, map, box) || !trim(cell, map, limits, box, exact))
         return;
       if (exact || halvings == 0)
         result.push_back(box);
       else
         for (unsigned int child = 0; child < (1 << dim); ++child)
           boxes_within(
-            cell, map, limits, box.child(child), halvings - 1, result);
+            surface, cell, map, limits, box.child(child), halvings - 1, result);
     }
   } // namespace
 
@@ -445,30 +467,17 @@ namespace moraine
   {
     if (!may_touch<dim>(cell, this->bounding_box()))
       return;
-    const CellMap<dim> map(cell);
-    Point<dim>         middle;
-    for (unsigned int d = 0; d < dim; ++d)
-      middle[d] = 0.5;
-    middle           = map.place(middle);
-    double reach     = 0.;
-    bool   one_sided = true;
-    for (const auto &vertex : cell)
-      {
-        reach     = std::max(reach, vertex.distance(middle));
-        one_sided = one_sided && (function_value(vertex) > 0.) ==
-                                   (function_value(cell[0]) > 0.);
-      }
-    // twice the reach: the level of an expression is only an estimate
-    if (one_sided && std::abs(this->level(middle)) > 2. * reach)
-      return;
-
+    const CellMap<dim>            map(cell);
     std::vector<BoundingBox<dim>> boxes;
-    boxes_within(cell, map, limits, create_unit_bounding_box<dim>(), 4, boxes);
+    boxes_within(
+      *this, cell, map, limits, create_unit_bounding_box<dim>(), 4, boxes);
     if (boxes.empty())
       return;
+    const double reach = cell_size<dim>(cell);
     // a surface that follows a face is moved into the body, to be found once
     const double shift =
-      1e-10 * reach * function_gradient(middle, reach).norm();
+      1e-10 * reach *
+      function_gradient(map.place(boxes[0].center()), reach).norm();
     const ReferenceLevelSet<dim>          level_set(*this, map, reach, shift);
     const hp::QCollection<1>              gauss((QGauss<1>(n_gauss)));
     NonMatching::QuadratureGenerator<dim> generator(gauss);
@@ -628,8 +637,11 @@ namespace moraine
   Point<3>
   Cylinder::foot_point(const Point<3> &x) const
   {
-    const Tensor<1, 3> r = radial(x);
-    return x - r + radius * unit_or_any<3>(r);
+    const Tensor<1, 3> r       = radial(x);
+    Tensor<1, 3>       outward = unit_or_any<3>(r);
+    // on the axis r is round-off in any direction
+    outward -= (outward * axis) * axis;
+    return x - r + radius * unit_or_any<3>(outward);
   }
 
   namespace

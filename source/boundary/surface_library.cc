@@ -140,6 +140,15 @@ namespace moraine
         return numbers(key, texts.at(key), 1)[0];
       }
 
+      double
+      positive_number(const std::string &key) const
+      {
+        const double value = number(key);
+        if (!(value > 0.))
+          reject(key, "'" + texts.at(key) + "'", "a number > 0");
+        return value;
+      }
+
       Point<dim>
       place(const std::string &key) const
       {
@@ -249,7 +258,7 @@ namespace moraine
             return std::make_unique<Polyline>(entries.places("Points"), flip);
           const bool is_arc = kind == "arc";
           return std::make_unique<Arc>(entries.place("Centre"),
-                                       entries.number("Radius"),
+                                       entries.positive_number("Radius"),
                                        entries.body_inside(),
                                        is_arc ? entries.number("Start angle") :
                                                 0.,
@@ -262,11 +271,12 @@ namespace moraine
             return std::make_unique<PlanePatch>(entries.places("Points"), flip);
           if (kind == "sphere")
             return std::make_unique<Sphere<3>>(entries.place("Centre"),
-                                               entries.number("Radius"),
+                                               entries.positive_number(
+                                                 "Radius"),
                                                entries.body_inside());
           return std::make_unique<Cylinder>(entries.place("Axis start"),
                                             entries.place("Axis end"),
-                                            entries.number("Radius"),
+                                            entries.positive_number("Radius"),
                                             entries.body_inside());
         }
     }

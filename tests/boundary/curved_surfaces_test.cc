@@ -116,19 +116,21 @@ TEST(Arc, ExtentAndMistakes)
 
 TEST(Sphere, CircleByTheGenerator)
 {
-  // error of the length at r/h = 3.3; order 2n in the cell size
+  // errors of the length with 2 and 3 points; they fall with the cell size
   const Sphere<2> circle({5.03, 4.96}, 3.3, true);
-  const double    exact = 2. * pi * 3.3;
-  for (const double distortion : {0., 0.2})
+  const double    exact  = 2. * pi * 3.3;
+  const auto      coarse = box_cells<2>(10, 10., 0.),
+             fine        = box_cells<2>(40, 10., 0.),
+             bent        = box_cells<2>(40, 10., 0.2);
+  EXPECT_LT(relative_error<2>(circle, coarse, 2, exact), 1e-4);
+  EXPECT_LT(relative_error<2>(circle, coarse, 3, exact), 2e-6);
+  EXPECT_LT(relative_error<2>(circle, fine, 2, exact), 1e-6);
+  EXPECT_LT(relative_error<2>(circle, fine, 3, exact), 1e-9);
+  EXPECT_LT(relative_error<2>(circle, bent, 3, exact), 2e-6);
+  for (const auto &p : all_pieces<2>(circle, bent, 3))
     {
-      const auto coarse = box_cells<2>(10, 10., distortion),
-                 fine   = box_cells<2>(40, 10., distortion);
-      for (unsigned int n = 1; n <= 4; ++n)
-        std::printf("circle, distortion %.1f, %u points: %.2e %.2e\n",
-                    distortion,
-                    n,
-                    relative_error<2>(circle, coarse, n, exact),
-                    relative_error<2>(circle, fine, n, exact));
+      EXPECT_NEAR(circle.level(p.x), 0., 1e-11);
+      EXPECT_NEAR((p.normal - circle.normal(p.x)).norm(), 0., 1e-12);
     }
 }
 
@@ -136,32 +138,27 @@ TEST(Sphere, Area)
 {
   const Sphere<3> sphere({1.03, 0.96, 1.01}, 0.7, false);
   const double    exact = 4. * pi * 0.49;
-  for (const double distortion : {0., 0.1})
-    {
-      const auto coarse = box_cells<3>(6, 2., distortion),
-                 fine   = box_cells<3>(12, 2., distortion);
-      for (unsigned int n = 1; n <= 4; ++n)
-        std::printf("sphere, distortion %.1f, %u points: %.2e %.2e\n",
-                    distortion,
-                    n,
-                    relative_error<3>(sphere, coarse, n, exact),
-                    relative_error<3>(sphere, fine, n, exact));
-    }
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 2, exact), 3e-3);
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 3, exact), 4e-4);
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(10, 2., 0.1), 3, exact),
+            1e-5);
+  EXPECT_DOUBLE_EQ(sphere.level({1.03, 0.96, 2.01}), 0.3);
 }
 
 TEST(Cylinder, Area)
 {
+  // ends exact where the axis follows the mesh, else chosen point by point
   const double       exact = 2. * pi * 0.6 * 1.1;
-  const auto         cells = box_cells<3>(8, 2., 0.);
+  const auto         cells = box_cells<3>(6, 2., 0.);
   const Cylinder     along({1.03, 0.96, 0.37}, {1.03, 0.96, 1.47}, 0.6, true);
   const Tensor<1, 3> axis = Point<3>(1., 2., 3.) / std::sqrt(14.);
   const Point<3>     middle(1.01, .99, 1.02);
-  const Cylinder tilted(middle - .55 * axis, middle + .55 * axis, 0.6, true);
-  for (unsigned int n = 2; n <= 4; ++n)
-    std::printf("cylinder, %u points: along %.2e, tilted %.2e\n",
-                n,
-                relative_error<3>(along, cells, n, exact),
-                relative_error<3>(tilted, cells, n, exact));
+  const Cylinder tilted(middle - .55 * axis, middle + .55 * axis, 0.6, false);
+  EXPECT_LT(relative_error<3>(along, cells, 3, exact), 2e-4);
+  EXPECT_LT(relative_error<3>(tilted, cells, 2, exact), 2e-3);
+  EXPECT_TRUE(tilted.in_extent(middle + .54 * axis));
+  EXPECT_FALSE(tilted.in_extent(middle + .56 * axis));
+  EXPECT_NEAR(tilted.level(middle + .3 * axis), -.6, 1e-15);
 }
 
 TEST(ExpressionSurface, AgreesWithTheCircle)
@@ -169,13 +166,42 @@ TEST(ExpressionSurface, AgreesWithTheCircle)
   const std::string          text = "3.3 - sqrt((x-5.03)^2 + (y-4.96)^2)";
   const ExpressionSurface<2> circle(text),
     half(text, BoundingBox<2>({{0., 4.96}, {10., 10.}}));
-  for (const double distortion : {0., 0.2})
+  const auto cells = box_cells<2>(10, 10., 0.);
+  EXPECT_LT(relative_error<2>(circle, cells, 3, 2. * pi * 3.3), 2e-6);
+  EXPECT_LT(relative_error<2>(half, cells, 3, pi * 3.3), 2e-6);
+  EXPECT_LT(relative_error<2>(half, box_cells<2>(10, 10., .2), 3, pi * 3.3),
+            1e-3);
+  EXPECT_NEAR(circle.level({5.03, 7.96}), 0.3, 1e-9);
+  EXPECT_NEAR((circle.normal({5.03, 7.96}) - Point<2>(0, 1)).norm(), 0., 1e-9);
+  EXPECT_FALSE(half.in_extent({5.03, 2.}));
+  const auto hessian = circle.function_hessian({8.03, 4.96}, 1.);
+  EXPECT_NEAR(hessian[0][0], 0., 1e-7);
+  EXPECT_NEAR(hessian[1][1], -1. / 3., 1e-7);
+  EXPECT_NEAR(hessian[0][1], 0., 1e-7);
+  EXPECT_THROW(ExpressionSurface<2>("x + "), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + z"), InputError);
+}
+
+TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
+{
+  // y = 0.5 is a mesh line of both meshes; the text is not a distance
+  for (const double sign : {-1., 1.})
     {
-      const auto cells = box_cells<2>(10, 10., distortion);
-      for (unsigned int n = 2; n <= 4; ++n)
-        std::printf("expression, %u points: %.2e, half %.2e\n",
-                    n,
-                    relative_error<2>(circle, cells, n, 2. * pi * 3.3),
-                    relative_error<2>(half, cells, n, pi * 3.3));
+      const ExpressionSurface<2> line((sign > 0. ? "" : "-") +
+                                      std::string("(3*y - 1.5)"));
+      double                     sum = 0.;
+      for (const auto &cell : box_cells<2>(4, 1., 0.))
+        {
+          std::vector<SurfacePoint<2>> points;
+          line.pieces(cell, 2, points);
+          if (!points.empty())
+            {
+              EXPECT_GT(line.level(centre<2>(cell)), 0.);
+            }
+          for (const auto &p : points)
+            EXPECT_NEAR(p.x[1], .5, 1e-15);
+          sum += measure(points);
+        }
+      EXPECT_NEAR(sum, 1., 1e-9);
     }
 }
