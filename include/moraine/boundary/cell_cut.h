@@ -17,7 +17,7 @@ namespace moraine
    * the crossing point of an edge, computed in an order of its ends that does
    * not depend on the cell. So neighbours agree to the last bit, and
    * the pieces of a mesh fit without gap or overlap. Vertices nearer to the
-   * plane than 2⁻⁴⁰ of the coordinates' size (at least @p magnitude) are on it
+   * plane than 2⁻⁴⁴ of the coordinates' size (at least @p magnitude) are on it
    * and count as outside the body; hence a plane through a face cuts the cell
    * on the body's side only.
    */
@@ -26,6 +26,21 @@ namespace moraine
   cut_cell(const CellVertices<dim>              &cell,
            const std::array<double, (1 << dim)> &distance,
            const double                          magnitude);
+
+  /** Whether a cell comes near a box at all; quick and on the safe side. */
+  template <int dim>
+  bool
+  may_touch(const CellVertices<dim> &cell, const dealii::BoundingBox<dim> &box);
+
+  /** The largest distance of a vertex from the first one. */
+  template <int dim>
+  double
+  cell_size(const CellVertices<dim> &cell);
+
+  /** Largest absolute coordinate. */
+  template <int dim>
+  double
+  coordinate_magnitude(const dealii::Point<dim> &x);
 
   /**
    * Gauss points on a chord given by abscissae @p from < @p to along
