@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_points_point_set_h
+#define moraine_points_point_set_h
+
+#include <moraine/mesh/background_mesh.h>
+#include <moraine/points/point_fields.h>
+
+#include <deal.II/grid/grid_tools_cache.h>
+
+#include <deal.II/particles/particle_handler.h>
+
+#include <memory>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The material points: deal.II's ParticleHandler stores, finds and migrates
+   * them. This class adds named fields, a flat numbering of the local points in
+   * cell order (valid until the next search), ids that do not depend on the
+   * number of ranks, and the promise that no point is ever lost silently.
+   *
+   * Every point has the fields
+   *
+   * | field        | components | meaning                                   |
+   * |--------------|------------|-------------------------------------------|
+   * | volume       | 1          | @f$v_p@f$                                 |
+   * | body         | 1          | index of the body it belongs to           |
+   * | displacement | dim        | @f$u_p@f$ since the start                 |
+   * | stress       | 4 or 6     | Cauchy stress @f$\sigma_p@f$              |
+   */
+  template <int dim>
+  class PointSet
+  {
+  public:
+    using CellIterator =
+      typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /** The points [first, last) of the flat numbering that lie in one cell. */
+    struct CellPoints
+    {
+      CellIterator cell;
+      unsigned int first;
+      unsigned int last;
+    };
+
+    /**
+     * @param fields The layout; the fields of the table above are added to it.
+     */
+    PointSet(const BackgroundMesh<dim> &mesh, PointFields fields);
+
+    /** Put a point into a locally owned cell; finish_insertion() ends it. */
+    void
+    insert(const CellIterator       &cell,
+           const dealii::Point<dim> &position,
+           const dealii::Point<dim> &reference_position,
+           const unsigned int        id,
+           const unsigned int        body,
+           const double              volume);
+
+    /** Number the points after the last insert(). Collective. */
+    void
+    finish_insertion();
+
+    /**
+     * Find the cell of every point after positions changed and hand points
+     * over to the rank that owns it. Collective.
+     *
+     * @throws ComputationError with id and position of a point that is outside
+     * the mesh.
+     */
+    void
+    find_cells();
+
+    const std::vector<CellPoints> &
+    cells() const
+    {
+      return cell_points;
+    }
+
+    unsigned int
+    n_local() const
+    {
+      return handles.size();
+    }
+
+    dealii::types::particle_index
+    n_global() const
+    {
+      return handler.n_global_particles();
+    }
+
+    const dealii::Point<dim> &
+    position(const unsigned int p) const
+    {
+      return pool->get_location(handles[p]);
+    }
+
+    void
+    set_position(const unsigned int p, const dealii::Point<dim> &x)
+    {
+      pool->set_location(handles[p], x);
+    }
+
+    /** Position in the unit cell of the cell the point lies in. */
+    const dealii::Point<dim> &
+    reference_position(const unsigned int p) const
+    {
+      return pool->get_reference_location(handles[p]);
+    }
+
+    unsigned int
+    id(const unsigned int p) const
+    {
+      return pool->get_id(handles[p]);
+    }
+
+    /** The n_values() numbers of point @p p. */
+    double *
+    values(const unsigned int p)
+    {
+      return pool->get_properties(handles[p]).data();
+    }
+
+    const double *
+    values(const unsigned int p) const
+    {
+      return pool->get_properties(handles[p]).data();
+    }
+
+    double
+    volume(const unsigned int p) const
+    {
+      return values(p)[volume_offset];
+    }
+
+    unsigned int
+    body(const unsigned int p) const
+    {
+      return static_cast<unsigned int>(values(p)[body_offset]);
+    }
+
+    unsigned int
+    displacement_offset() const
+    {
+      return u_offset;
+    }
+
+    unsigned int
+    stress_offset() const
+    {
+      return sigma_offset;
+    }
+
+    const PointFields &
+    fields() const
+    {
+      return layout;
+    }
+
+    const BackgroundMesh<dim> &
+    mesh() const
+    {
+      return background;
+    }
+
+    const dealii::Particles::ParticleHandler<dim> &
+    particle_handler() const
+    {
+      return handler;
+    }
+
+    /** Bytes of one point: location, reference location, id and values. */
+    unsigned int
+    bytes_per_point() const;
+
+  private:
+    struct LostPoint
+    {
+      dealii::types::particle_index id;
+      dealii::Point<dim>            position;
+      std::vector<double>           values;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &id;
+        archive &position;
+        archive &values;
+      }
+    };
+
+    /** Renew the flat numbering. */
+    void
+    number_points();
+
+    /** Put points that jumped past the neighbouring ranks where they belong. */
+    void
+    reinsert_lost_points();
+
+    const BackgroundMesh<dim>              &background;
+    PointFields                             layout;
+    unsigned int                            volume_offset;
+    unsigned int                            body_offset;
+    unsigned int                            u_offset;
+    unsigned int                            sigma_offset;
+    dealii::Particles::ParticleHandler<dim> handler;
+    dealii::Particles::PropertyPool<dim>   *pool;
+    std::vector<unsigned int>               handles;
+    std::vector<CellPoints>                 cell_points;
+    std::vector<LostPoint>                  lost_points;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/points/point_set.h>
+
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    PointFields
+    with_basic_fields(PointFields fields)
+    {
+      fields.request("volume", 1, dim == 2 ? "length^2" : "length^3");
+      fields.request("body", 1, "-");
+      fields.request("displacement", dim, "length");
+      fields.request("stress", n_stress_components<dim>, "stress");
+      return fields;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PointSet<dim>::PointSet(const BackgroundMesh<dim> &mesh, PointFields fields)
+    : background(mesh)
+    , layout(with_basic_fields<dim>(std::move(fields)))
+    , volume_offset(layout.request("volume", 1, ""))
+    , body_offset(layout.request("body", 1, ""))
+    , u_offset(layout.request("displacement", dim, ""))
+    , sigma_offset(layout.request("stress", n_stress_components<dim>, ""))
+    , handler(mesh.triangulation(), mesh.mapping(), layout.n_values())
+    , pool(&handler.get_property_pool())
+  {
+    handler.signals.particle_lost.connect(
+      [this](const auto &particle, const auto &) {
+        const auto properties = particle->get_properties();
+        lost_points.push_back(
+          {particle->get_id(),
+           particle->get_location(),
+           std::vector<double>(properties.begin(), properties.end())});
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::insert(const CellIterator &cell,
+                        const Point<dim>   &position,
+                        const Point<dim>   &reference_position,
+                        const unsigned int  id,
+                        const unsigned int  body,
+                        const double        volume)
+  {
+    std::vector<double> values(layout.n_values(), 0.);
+    values[volume_offset] = volume;
+    values[body_offset]   = body;
+    handler.insert_particle(position, reference_position, id, cell, values);
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::finish_insertion()
+  {
+    handler.update_cached_numbers();
+    find_cells();
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::find_cells()
+  {
+    lost_points.clear();
+    handler.sort_particles_into_subdomains_and_cells();
+    if (Utilities::MPI::sum<unsigned int>(
+          lost_points.size(), background.triangulation().get_communicator()) >
+        0)
+      reinsert_lost_points();
+    number_points();
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::reinsert_lost_points()
+  {
+    const MPI_Comm communicator = background.triangulation().get_communicator();
+    const auto     everyones =
+      Utilities::MPI::all_gather(communicator, lost_points);
+    const GridTools::Cache<dim> cache(background.triangulation(),
+                                      background.mapping());
+
+    const LostPoint *outside = nullptr;
+    for (const auto &of_one_rank : everyones)
+      for (const LostPoint &lost : of_one_rank)
+        {
+          // Every rank knows every cell, so all ranks agree on what is outside.
+          const auto [cell, reference] =
+            GridTools::find_active_cell_around_point(cache, lost.position);
+          if (cell.state() != IteratorState::valid)
+            outside = &lost;
+          else if (cell->is_locally_owned())
+            handler.insert_particle(lost.position, reference, lost.id, cell)
+              ->set_properties(lost.values);
+        }
+    handler.update_cached_numbers();
+
+    if (outside != nullptr)
+      {
+        std::ostringstream message;
+        message << std::setprecision(10) << "point " << outside->id
+                << " left the mesh at (";
+        for (unsigned int d = 0; d < dim; ++d)
+          message << (d > 0 ? ", " : "") << outside->position[d];
+        message << ")";
+        throw ComputationError(message.str());
+      }
+    // Renews the order of the storage, which insertion has broken.
+    lost_points.clear();
+    handler.sort_particles_into_subdomains_and_cells();
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::number_points()
+  {
+    handles.clear();
+    handles.reserve(handler.n_locally_owned_particles());
+    cell_points.clear();
+    for (auto particle = handler.begin(); particle != handler.end();)
+      {
+        const CellIterator cell  = particle->get_surrounding_cell();
+        const unsigned int n     = handler.n_particles_in_cell(cell);
+        const unsigned int first = handles.size();
+        for (unsigned int i = 0; i < n; ++i, ++particle)
+          handles.push_back(particle->get_local_index());
+        cell_points.push_back({cell, first, first + n});
+      }
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  PointSet<dim>::bytes_per_point() const
+  {
+    return 2 * sizeof(Point<dim>) + sizeof(types::particle_index) +
+           layout.n_values() * sizeof(double);
+  }
+
+
+
+  template class PointSet<2>;
+  template class PointSet<3>;
+} // namespace moraine
