@@ -97,10 +97,7 @@ namespace moraine
               factory.Create(std::string("Amesos_") + choice, problem));
             break;
           }
-      if (!std::isfinite(matrix_norm))
-        failure = "the matrix has entries that are not finite";
-      else
-        factorise();
+      factorise();
     }
 
 
@@ -269,9 +266,7 @@ namespace moraine
       data.elliptic              = symmetric;
       data.aggregation_threshold = 1e-4;
       data.smoother_sweeps       = 2;
-      data.smoother_type =
-        symmetric ? "Chebyshev" :
-                    (getenv("ST") ? getenv("ST") : "symmetric Gauss-Seidel");
+      data.smoother_type = symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
       data.set_parameters(list, modes, matrix);
       list.set("ML output", 0);
       if (near_null_space.empty())
@@ -305,6 +300,7 @@ namespace moraine
     unsigned int                                       n_set_ups = 0;
     const LA::SparseMatrix                            *matrix    = nullptr;
     Method                                             method = Method::direct;
+    bool                                               is_finite = true;
     std::string                                        fall_back_reason;
     std::optional<DirectSolver>                        direct;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
@@ -404,6 +400,9 @@ namespace moraine
     s.direct.reset();
     s.multigrid.reset();
     s.fall_back_reason.clear();
+    s.is_finite = std::isfinite(matrix.frobenius_norm());
+    if (!s.is_finite)
+      return;
     if (s.method == Implementation::Method::direct)
       {
         s.direct.emplace(matrix);
@@ -421,9 +420,20 @@ namespace moraine
   {
     auto &s = *implementation;
     Assert(s.matrix != nullptr, ExcMessage("set_up() comes before solve()."));
+    if (!s.is_finite || !std::isfinite(b.l2_norm()))
+      {
+        LinearReport report;
+        report.message = s.is_finite ?
+                           "the right hand side is not a number" :
+                           "the matrix has entries that are not numbers";
+        x              = 0.;
+        return report;
+      }
     if (!s.direct)
       {
         const LinearReport report = s.solve_iteratively(x, b);
+        if (!report.converged)
+          x = 0.;
         if (report.converged || s.parameters.solver != "auto")
           return report;
         s.fall_back_reason = report.message + "; solved directly";
@@ -431,6 +441,8 @@ namespace moraine
         s.direct.emplace(*s.matrix);
       }
     LinearReport report = s.direct->solve(x, b);
+    if (!report.converged)
+      x = 0.;
     if (report.message.empty())
       report.message = s.fall_back_reason;
     return report;

@@ -98,7 +98,8 @@ namespace moraine
            const std::vector<LA::Vector> &near_null_space);
 
     /**
-     * Solve with what set_up() built. The start value of @p x is not used.
+     * Solve with what set_up() built. The start value of @p x is not used; if
+     * the report says not converged, @p x is zero.
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
