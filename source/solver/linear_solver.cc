@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <optional>
 #include <random>
 
@@ -45,6 +46,30 @@ namespace moraine
     {
       return reference > 0. ? value / reference : value;
     }
+
+
+
+    /**
+     * Amesos writes its error codes to the terminal whatever its options say;
+     * ours are in the report.
+     */
+    class SilenceErrors
+    {
+    public:
+      SilenceErrors()
+        : buffer(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~SilenceErrors()
+      {
+        std::cerr.rdbuf(buffer);
+      }
+
+      SilenceErrors(const SilenceErrors &) = delete;
+
+    private:
+      std::streambuf *const buffer;
+    };
 
 
 
@@ -110,6 +135,7 @@ namespace moraine
       options.set("PrintTiming", false);
       options.set("PrintStatus", false);
       factors->SetParameters(options);
+      const SilenceErrors silence;
       if (factors->SymbolicFactorization() != 0 ||
           factors->NumericFactorization() != 0)
         failure = "the factorisation failed; the matrix is singular";
@@ -122,6 +148,7 @@ namespace moraine
     bool
     DirectSolver::back_substitute(LA::Vector &x, const LA::Vector &b)
     {
+      const SilenceErrors silence;
       problem.SetLHS(&x.trilinos_vector());
       problem.SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
       return factors->Solve() == 0;

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 
 using namespace moraine;
 using moraine::testing_solver::Elasticity;
@@ -107,10 +107,9 @@ TEST(LinearSolver, MultigridIterationsStayBounded)
 
 TEST(LinearSolver, RotationsInTheNearNullSpacePay)
 {
-  EXPECT_LT(multigrid_iterations<2>(64, 3),
-            0.8 * multigrid_iterations<2>(64, 2));
-  EXPECT_LT(multigrid_iterations<3>(12, 6),
-            0.8 * multigrid_iterations<3>(12, 3));
+  EXPECT_LT(multigrid_iterations<2>(48, 3),
+            0.8 * multigrid_iterations<2>(48, 2));
+  EXPECT_LT(multigrid_iterations<3>(8, 6), 0.8 * multigrid_iterations<3>(8, 3));
 }
 
 TEST(LinearSolver, KeepsTheFactorisation)
@@ -203,10 +202,9 @@ TEST(LinearSolver, StiffRowsAreNotSingular)
 TEST(LinearSolver, ReportsANumberThatIsNone)
 {
   Elasticity<2> problem(8);
-  for (const auto i : problem.rhs.locally_owned_elements())
-    if (i == 20)
-      problem.matrix.set(i, i, std::numeric_limits<double>::quiet_NaN());
-  problem.matrix.compress(dealii::VectorOperation::insert);
+  // deal.II's debug mode lets no such entry in; overflow makes some.
+  problem.matrix *= 1e200;
+  problem.matrix *= 1e200;
   for (const char *name : {"direct", "amg-cg", "gmres", "auto"})
     {
       LinearSolver solver(use(name), 2);
