@@ -35,7 +35,7 @@ namespace moraine
     unsigned int direct_limit_2d = 100000;
 
     /** In 3D, auto solves directly up to this many unknowns. */
-    unsigned int direct_limit_3d = 10000;
+    unsigned int direct_limit_3d = 5000;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
