@@ -47,8 +47,7 @@ namespace moraine::testing_solver
 
     Elasticity(const unsigned int n,
                const bool         held       = true,
-               const double       convection = 0.,
-               const bool         by_node    = true);
+               const double       convection = 0.);
 
   private:
     void
@@ -63,8 +62,7 @@ namespace moraine::testing_solver
   template <int dim>
   Elasticity<dim>::Elasticity(const unsigned int n,
                               const bool         held,
-                              const double       convection,
-                              const bool         by_node)
+                              const double       convection)
     : triangulation(
         MPI_COMM_WORLD,
         dealii::Triangulation<dim>::none,
@@ -75,7 +73,6 @@ namespace moraine::testing_solver
   {
     dealii::GridGenerator::subdivided_hyper_cube(triangulation, n);
     dof_handler.distribute_dofs(fe);
-    (void)by_node;
     if (held)
       for (const auto &cell : dof_handler.active_cell_iterators())
         for (const unsigned int v : cell->vertex_indices())

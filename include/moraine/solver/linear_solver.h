@@ -35,7 +35,7 @@ namespace moraine
     unsigned int direct_limit_2d = 100000;
 
     /** In 3D, auto solves directly up to this many unknowns. */
-    unsigned int direct_limit_3d = 10000;
+    unsigned int direct_limit_3d = 5000;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -98,7 +98,8 @@ namespace moraine
            const std::vector<LA::Vector> &near_null_space);
 
     /**
-     * Solve with what set_up() built. The start value of @p x is not used.
+     * Solve with what set_up() built. The start value of @p x is not used; if
+     * the report says not converged, @p x is zero.
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);

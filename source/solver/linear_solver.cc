@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <moraine/solver/linear_solver.h>
+
+#include <Amesos.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <random>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * Refinement stops when the residual is this small relative to b, or no
+     * longer falls.
+     */
+    constexpr double       refinement_goal     = 1e-14;
+    constexpr unsigned int maximum_refinements = 3;
+
+    /**
+     * The backward error |b - A x| / (|A| |x| + |b|) that a stable
+     * factorisation keeps far below.
+     */
+    constexpr double backward_error_limit = 1e-11;
+
+
+
+    double
+    relative_to(const double value, const double reference)
+    {
+      return reference > 0. ? value / reference : value;
+    }
+
+
+
+    /**
+     * Amesos writes its error codes to the terminal whatever its options say;
+     * ours are in the report.
+     */
+    class SilenceErrors
+    {
+    public:
+      SilenceErrors()
+        : buffer(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~SilenceErrors()
+      {
+        std::cerr.rdbuf(buffer);
+      }
+
+      SilenceErrors(const SilenceErrors &) = delete;
+
+    private:
+      std::streambuf *const buffer;
+    };
+
+
+
+    /**
+     * A factorisation by Amesos, kept for many right hand sides.
+     */
+    class DirectSolver
+    {
+    public:
+      explicit DirectSolver(const LA::SparseMatrix &matrix);
+
+      LinearReport
+      solve(LA::Vector &x, const LA::Vector &b);
+
+    private:
+      const LA::SparseMatrix            &matrix;
+      const double                       matrix_norm;
+      std::string                        package;
+      Epetra_LinearProblem               problem;
+      std::unique_ptr<Amesos_BaseSolver> factors;
+      std::string                        failure;
+
+      void
+      factorise();
+
+      bool
+      back_substitute(LA::Vector &x, const LA::Vector &b);
+
+      bool
+      singular();
+    };
+
+
+
+    DirectSolver::DirectSolver(const LA::SparseMatrix &matrix)
+      : matrix(matrix)
+      , matrix_norm(matrix.linfty_norm())
+    {
+      // deal.II's SolverDirect throws where we want a status, and hands no
+      // options to Amesos; hence Amesos itself.
+      problem.SetOperator(
+        const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+      Amesos                            factory;
+      const std::array<const char *, 3> choices{{"Mumps", "Umfpack", "Klu"}};
+      for (const char *choice : choices)
+        if (factory.Query(std::string("Amesos_") + choice))
+          {
+            package = choice;
+            factors.reset(
+              factory.Create(std::string("Amesos_") + choice, problem));
+            break;
+          }
+      factorise();
+    }
+
+
+
+    void
+    DirectSolver::factorise()
+    {
+      Teuchos::ParameterList options;
+      options.set("OutputLevel", 0);
+      options.set("PrintTiming", false);
+      options.set("PrintStatus", false);
+      factors->SetParameters(options);
+      const SilenceErrors silence;
+      if (factors->SymbolicFactorization() != 0 ||
+          factors->NumericFactorization() != 0)
+        failure = "the factorisation failed; the matrix is singular";
+      else if (singular())
+        failure = "the matrix is singular to working precision";
+    }
+
+
+
+    bool
+    DirectSolver::back_substitute(LA::Vector &x, const LA::Vector &b)
+    {
+      const SilenceErrors silence;
+      problem.SetLHS(&x.trilinos_vector());
+      problem.SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
+      return factors->Solve() == 0;
+    }
+
+
+
+    /**
+     * What was factorised is not A but A + E with E of the size of round-off.
+     * Solve for an arbitrary right hand side and refine once: the correction is
+     * (A + E)^-1 E x. For a regular matrix it is small; for a singular one x is
+     * a null vector magnified by 1/|E|, A x = 0, and the correction is x
+     * itself. Bad scaling alone, as from stiff boundary terms, does not raise
+     * it to one.
+     */
+    bool
+    DirectSolver::singular()
+    {
+      LA::Vector probe(matrix.locally_owned_range_indices(),
+                       matrix.get_mpi_communicator());
+      for (const auto i : probe.locally_owned_elements())
+        {
+          std::minstd_rand generator(i + 1);
+          generator.discard(4);
+          probe(i) = 2. * std::generate_canonical<double, 32>(generator) - 1.;
+        }
+      probe.compress(VectorOperation::insert);
+      LA::Vector x(probe), residual(probe), correction(probe);
+      if (!back_substitute(x, probe))
+        return true;
+      matrix.residual(residual, x, probe);
+      const double relative = residual.l2_norm() / probe.l2_norm();
+      // The part of the probe along k null vectors of n cannot be balanced:
+      // sqrt(k/n) of it is left.
+      if (relative < 1e-6)
+        return false;
+      if (!std::isfinite(relative) || !back_substitute(correction, residual))
+        return true;
+      return !(correction.l2_norm() < 0.1 * x.l2_norm());
+    }
+
+
+
+    LinearReport
+    DirectSolver::solve(LA::Vector &x, const LA::Vector &b)
+    {
+      LinearReport report;
+      report.solver            = "direct (" + package + ")";
+      report.message           = failure;
+      const double norm_b      = b.l2_norm();
+      x                        = 0.;
+      report.relative_residual = relative_to(norm_b, norm_b);
+      if (!failure.empty())
+        return report;
+      if (!back_substitute(x, b))
+        {
+          report.message = "the back substitution failed";
+          return report;
+        }
+
+      LA::Vector residual(b), correction(b), better(b);
+      double     norm = matrix.residual(residual, x, b);
+      for (unsigned int i = 0;
+           i < maximum_refinements && norm > refinement_goal * norm_b;
+           ++i)
+        {
+          if (!back_substitute(correction, residual))
+            break;
+          better = x;
+          better += correction;
+          const double better_norm = matrix.residual(residual, better, b);
+          if (!(better_norm < norm))
+            break;
+          const bool worth_another = better_norm < 0.5 * norm;
+          x                        = better;
+          norm                     = better_norm;
+          if (!worth_another)
+            break;
+        }
+      report.relative_residual = relative_to(norm, norm_b);
+      report.converged =
+        std::isfinite(norm) &&
+        norm <= backward_error_limit * (matrix_norm * x.l2_norm() + norm_b);
+      if (!report.converged)
+        report.message = "the solution does not satisfy the equations";
+      return report;
+    }
+
+
+
+    /**
+     * ML's options for elasticity, and the modes it needs while they are used.
+     */
+    class MultigridOptions
+    {
+    public:
+      Teuchos::ParameterList list;
+
+      MultigridOptions(const LA::SparseMatrix        &matrix,
+                       const bool                     symmetric,
+                       const std::vector<LA::Vector> &near_null_space,
+                       const unsigned int             dim);
+
+    private:
+      std::unique_ptr<Epetra_MultiVector> modes;
+    };
+
+
+
+    /**
+     * Whether the unknowns of a node follow each other, component by
+     * component, on every rank. The first dim modes are the translations, so
+     * they tell the component of an unknown.
+     */
+    bool
+    unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
+                          const unsigned int             dim)
+    {
+      const auto         n_owned = near_null_space[0].locally_owned_size();
+      const unsigned int n_modes = near_null_space.size();
+      bool               by_node = n_modes >= dim && n_owned % dim == 0;
+      for (unsigned int c = 0; by_node && c < dim; ++c)
+        {
+          const double *values = near_null_space[c].trilinos_vector()[0];
+          for (unsigned int i = 0; by_node && i < n_owned; ++i)
+            by_node = (values[i] == 0. || i % dim == c);
+        }
+      return Utilities::MPI::min(by_node ? 1 : 0,
+                                 near_null_space[0].get_mpi_communicator()) ==
+             1;
+    }
+
+
+
+    MultigridOptions::MultigridOptions(
+      const LA::SparseMatrix        &matrix,
+      const bool                     symmetric,
+      const std::vector<LA::Vector> &near_null_space,
+      const unsigned int             dim)
+    {
+      TrilinosWrappers::PreconditionAMG::AdditionalData data;
+      data.elliptic              = symmetric;
+      data.aggregation_threshold = 1e-4;
+      data.smoother_sweeps       = 2;
+      data.smoother_type = symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
+      data.set_parameters(list, modes, matrix);
+      list.set("ML output", 0);
+      if (near_null_space.empty())
+        return;
+
+      const Epetra_Map &map = matrix.trilinos_matrix().DomainMap();
+      modes = std::make_unique<Epetra_MultiVector>(map, near_null_space.size());
+      for (unsigned int m = 0; m < near_null_space.size(); ++m)
+        *(*modes)(m) = *near_null_space[m].trilinos_vector()(0);
+      list.set("null space: type", "pre-computed");
+      list.set("null space: dimension", modes->NumVectors());
+      list.set("null space: vectors", modes->Values());
+      if (unknowns_come_by_node(near_null_space, dim))
+        list.set("PDE equations", static_cast<int>(dim));
+    }
+  } // namespace
+
+
+
+  struct LinearSolver::Implementation
+  {
+    enum class Method
+    {
+      direct,
+      amg_cg,
+      gmres
+    };
+
+    const LinearSolverParameters                       parameters;
+    const unsigned int                                 dim;
+    unsigned int                                       n_set_ups = 0;
+    const LA::SparseMatrix                            *matrix    = nullptr;
+    Method                                             method = Method::direct;
+    bool                                               is_finite = true;
+    std::string                                        fall_back_reason;
+    std::optional<DirectSolver>                        direct;
+    std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
+
+    Implementation(const LinearSolverParameters &parameters,
+                   const unsigned int            dim)
+      : parameters(parameters)
+      , dim(dim)
+    {}
+
+    Method
+    choose(const bool symmetric) const;
+
+    LinearReport
+    solve_iteratively(LA::Vector &x, const LA::Vector &b);
+  };
+
+
+
+  LinearSolver::Implementation::Method
+  LinearSolver::Implementation::choose(const bool symmetric) const
+  {
+    const unsigned int limit =
+      dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
+    if (parameters.solver == "direct" ||
+        (parameters.solver == "auto" && matrix->m() <= limit))
+      return Method::direct;
+    if (parameters.solver == "amg-cg" ||
+        (parameters.solver == "auto" && symmetric))
+      return Method::amg_cg;
+    return Method::gmres;
+  }
+
+
+
+  LinearReport
+  LinearSolver::Implementation::solve_iteratively(LA::Vector       &x,
+                                                  const LA::Vector &b)
+  {
+    LinearReport report;
+    report.solver        = method == Method::amg_cg ? "amg-cg" : "gmres";
+    const double  norm_b = b.l2_norm();
+    SolverControl control(parameters.maximum_iterations,
+                          parameters.relative_tolerance * norm_b,
+                          false,
+                          false);
+    x = 0.;
+    try
+      {
+        if (method == Method::amg_cg)
+          SolverCG<LA::Vector>(control).solve(*matrix, x, b, *multigrid);
+        else
+          SolverGMRES<LA::Vector>(control,
+                                  SolverGMRES<LA::Vector>::AdditionalData(102,
+                                                                          true))
+            .solve(*matrix, x, b, *multigrid);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        report.message = report.solver + " did not converge in " +
+                         std::to_string(control.last_step()) + " iterations";
+      }
+    report.iterations = control.last_step();
+    LA::Vector   residual(b);
+    const double norm        = matrix->residual(residual, x, b);
+    report.relative_residual = relative_to(norm, norm_b);
+    // The residual that the iteration carries along drifts from the true one.
+    report.converged = report.message.empty() &&
+                       norm <= 10. * parameters.relative_tolerance * norm_b;
+    if (!report.converged && report.message.empty())
+      report.message = report.solver + " lost its residual to round-off";
+    return report;
+  }
+
+
+
+  LinearSolver::LinearSolver(const LinearSolverParameters &parameters,
+                             const unsigned int            dim)
+    : implementation(std::make_unique<Implementation>(parameters, dim))
+  {}
+
+
+
+  LinearSolver::~LinearSolver() = default;
+
+
+
+  void
+  LinearSolver::set_up(const LA::SparseMatrix        &matrix,
+                       const bool                     symmetric,
+                       const std::vector<LA::Vector> &near_null_space)
+  {
+    auto &s = *implementation;
+    ++s.n_set_ups;
+    s.matrix = &matrix;
+    s.method = s.choose(symmetric);
+    s.direct.reset();
+    s.multigrid.reset();
+    s.fall_back_reason.clear();
+    s.is_finite = std::isfinite(matrix.frobenius_norm());
+    if (!s.is_finite)
+      return;
+    if (s.method == Implementation::Method::direct)
+      {
+        s.direct.emplace(matrix);
+        return;
+      }
+    const MultigridOptions options(matrix, symmetric, near_null_space, s.dim);
+    s.multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    s.multigrid->initialize(matrix, options.list);
+  }
+
+
+
+  LinearReport
+  LinearSolver::solve(LA::Vector &x, const LA::Vector &b)
+  {
+    auto &s = *implementation;
+    Assert(s.matrix != nullptr, ExcMessage("set_up() comes before solve()."));
+    if (!s.is_finite || !std::isfinite(b.l2_norm()))
+      {
+        LinearReport report;
+        report.message = s.is_finite ?
+                           "the right hand side is not a number" :
+                           "the matrix has entries that are not numbers";
+        x              = 0.;
+        return report;
+      }
+    if (!s.direct)
+      {
+        const LinearReport report = s.solve_iteratively(x, b);
+        if (!report.converged)
+          x = 0.;
+        if (report.converged || s.parameters.solver != "auto")
+          return report;
+        s.fall_back_reason = report.message + "; solved directly";
+        s.multigrid.reset();
+        s.direct.emplace(*s.matrix);
+      }
+    LinearReport report = s.direct->solve(x, b);
+    if (!report.converged)
+      x = 0.;
+    if (report.message.empty())
+      report.message = s.fall_back_reason;
+    return report;
+  }
+
+
+
+  unsigned int
+  LinearSolver::n_set_ups() const
+  {
+    return implementation->n_set_ups;
+  }
+
+
+
+  void
+  LinearSolverParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Solver",
+                      solver,
+                      "direct factorises; amg-cg is for symmetric tangents, "
+                      "gmres for unsymmetric ones; auto chooses by size and "
+                      "falls back to direct",
+                      Patterns::Selection("auto|direct|amg-cg|gmres"));
+    prm.add_parameter("Relative tolerance",
+                      relative_tolerance,
+                      "of iterative solvers: residual over right hand side",
+                      Patterns::Double(1e-16, 1e-2));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "of iterative solvers",
+                      Patterns::Integer(1));
+    prm.add_parameter("Direct limit 2D",
+                      direct_limit_2d,
+                      "auto solves directly up to this many unknowns in 2D",
+                      Patterns::Integer(0));
+    prm.add_parameter("Direct limit 3D",
+                      direct_limit_3d,
+                      "auto solves directly up to this many unknowns in 3D",
+                      Patterns::Integer(0));
+  }
+} // namespace moraine

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/time/time_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * Times closer than this part of a step are the same time.
+     */
+    constexpr double same_time = 1e-9;
+
+
+
+    std::string
+    in_words(const double number)
+    {
+      std::ostringstream text;
+      text << number;
+      return text.str();
+    }
+  } // namespace
+
+
+
+  TimeControl::TimeControl(const TimeParameters      &parameters,
+                           const std::vector<double> &asked)
+    : parameters(parameters)
+    , one_step((parameters.end_time - parameters.start_time) /
+               parameters.n_steps)
+    , current(parameters.start_time)
+    , trial(parameters.start_time)
+    , size(one_step * parameters.largest_step)
+  {
+    parameters.check();
+    for (unsigned int k = 1; k < parameters.n_steps; ++k)
+      stops.push_back(
+        {parameters.start_time + (parameters.end_time - parameters.start_time) *
+                                   k / parameters.n_steps,
+         true});
+    stops.push_back({parameters.end_time, true});
+
+    for (const double time : asked)
+      {
+        const double margin = same_time * one_step;
+        const bool   known =
+          std::any_of(stops.begin(), stops.end(), [&](const Stop &stop) {
+            return std::abs(stop.time - time) <= margin;
+          });
+        if (!known && time > parameters.start_time + margin &&
+            time < parameters.end_time)
+          stops.push_back({time, false});
+      }
+    std::sort(stops.begin(), stops.end(), [](const Stop &a, const Stop &b) {
+      return a.time < b.time;
+    });
+  }
+
+
+
+  void
+  TimeControl::next()
+  {
+    Assert(!finished(), ExcMessage("The run is at its end."));
+    const double remaining = stops[next_stop].time - current;
+    const double n_parts =
+      std::max(1., std::ceil(remaining / size - same_time));
+    trial_is_stop = n_parts == 1.;
+    trial =
+      trial_is_stop ? stops[next_stop].time : current + remaining / n_parts;
+  }
+
+
+
+  void
+  TimeControl::accept(const unsigned int iterations)
+  {
+    Assert(trial > current, ExcMessage("next() comes before accept()."));
+    current     = trial;
+    on_step_end = trial_is_stop && stops[next_stop].ends_step;
+    if (trial_is_stop)
+      ++next_stop;
+    if (on_step_end)
+      ++completed_steps;
+    ++accepted;
+    if (iterations <= parameters.easy_iterations)
+      size =
+        std::min(size * parameters.growth, one_step * parameters.largest_step);
+  }
+
+
+
+  bool
+  TimeControl::reject(const std::string &reason)
+  {
+    Assert(trial > current, ExcMessage("next() comes before reject()."));
+    ++rejected;
+    const double failed   = trial - current;
+    const double smallest = one_step * parameters.smallest_step;
+    size                  = parameters.cut * failed;
+    text = "The step from t = " + in_words(current) + " to " + in_words(trial) +
+           " failed: " + reason + ".";
+    trial = current;
+    if (size >= smallest * (1. - same_time))
+      return true;
+    text += " A cut would go below the smallest step, " + in_words(smallest) +
+            " (Smallest step = " + in_words(parameters.smallest_step) +
+            " of a step).";
+    return false;
+  }
+
+
+
+  bool
+  TimeControl::finished() const
+  {
+    return next_stop == stops.size();
+  }
+
+
+
+  double
+  TimeControl::time() const
+  {
+    return current;
+  }
+
+
+
+  double
+  TimeControl::trial_time() const
+  {
+    return trial;
+  }
+
+
+
+  double
+  TimeControl::step_size() const
+  {
+    return trial - current;
+  }
+
+
+
+  bool
+  TimeControl::at_step_end() const
+  {
+    return on_step_end;
+  }
+
+
+
+  unsigned int
+  TimeControl::n_completed_steps() const
+  {
+    return completed_steps;
+  }
+
+
+
+  unsigned int
+  TimeControl::n_accepted() const
+  {
+    return accepted;
+  }
+
+
+
+  unsigned int
+  TimeControl::n_rejected() const
+  {
+    return rejected;
+  }
+
+
+
+  const std::string &
+  TimeControl::message() const
+  {
+    return text;
+  }
+
+
+
+  void
+  TimeParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Start time", start_time, "time");
+    prm.add_parameter("End time", end_time, "time");
+    prm.add_parameter("Steps",
+                      n_steps,
+                      "equal steps from start to end; always hit exactly",
+                      Patterns::Integer(1));
+    prm.add_parameter("Smallest step",
+                      smallest_step,
+                      "as a fraction of one step; the run stops below it",
+                      Patterns::Double(1e-9, 1.));
+    prm.add_parameter("Largest step",
+                      largest_step,
+                      "as a fraction of one step; the size tried first",
+                      Patterns::Double(1e-9, 1.));
+    prm.add_parameter("Growth",
+                      growth,
+                      "factor on the size after an easy step",
+                      Patterns::Double(1.));
+    prm.add_parameter("Cut",
+                      cut,
+                      "factor on the size after a failed step",
+                      Patterns::Double(0.01, 0.99));
+    prm.add_parameter("Easy iterations",
+                      easy_iterations,
+                      "a step with no more Newton iterations is easy",
+                      Patterns::Integer(0));
+  }
+
+
+
+  void
+  TimeParameters::check(const std::string &section) const
+  {
+    if (!(end_time > start_time) || !std::isfinite(end_time) ||
+        !std::isfinite(start_time))
+      throw InputError("Section " + section + ", key End time: found " +
+                       in_words(end_time) + "; it must be later than Start " +
+                       "time, " + in_words(start_time) + ".");
+    if (n_steps == 0)
+      throw InputError("Section " + section +
+                       ", key Steps: found 0; at least 1 is allowed.");
+    if (!(smallest_step <= largest_step))
+      throw InputError("Section " + section + ", key Smallest step: found " +
+                       in_words(smallest_step) +
+                       "; it must not exceed Largest step, " +
+                       in_words(largest_step) + ".");
+  }
+
+
+
+  void
+  OutputTimes::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Write",
+                      when,
+                      "steps: at the ends of steps; all: after every accepted "
+                      "part of a step too; end: only at the end",
+                      Patterns::Selection("steps|all|end"));
+    prm.add_parameter("Every",
+                      every,
+                      "with Write = steps: every n-th step, and the last",
+                      Patterns::Integer(1));
+  }
+
+
+
+  bool
+  OutputTimes::due(const TimeControl &time) const
+  {
+    if (when == "all" || time.finished())
+      return true;
+    return when == "steps" && time.at_step_end() &&
+           time.n_completed_steps() % every == 0;
+  }
+} // namespace moraine

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include "elasticity.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <moraine/solver/linear_solver.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace moraine;
+using moraine::testing_solver::Elasticity;
+
+namespace
+{
+  LinearSolverParameters
+  use(const std::string &solver)
+  {
+    LinearSolverParameters parameters;
+    parameters.solver = solver;
+    return parameters;
+  }
+
+  /** |b - A x| / |b| */
+  template <int dim>
+  double
+  true_residual(const Elasticity<dim> &problem, const LA::Vector &x)
+  {
+    LA::Vector residual(problem.rhs);
+    return problem.matrix.residual(residual, x, problem.rhs) /
+           problem.rhs.l2_norm();
+  }
+
+  template <int dim>
+  LA::Vector
+  solve(const Elasticity<dim> &problem,
+        const std::string     &name,
+        const bool             symmetric = true)
+  {
+    LinearSolver solver(use(name), dim);
+    solver.set_up(problem.matrix, symmetric, problem.modes);
+    LA::Vector         x(problem.rhs);
+    const LinearReport report = solver.solve(x, problem.rhs);
+    EXPECT_TRUE(report.converged) << name << ": " << report.message;
+    EXPECT_EQ(report.message, "");
+    const double residual = true_residual(problem, x);
+    EXPECT_LT(residual, 1e-9) << name;
+    EXPECT_NEAR(report.relative_residual, residual, 1e-3 * residual);
+    return x;
+  }
+
+  template <int dim>
+  unsigned int
+  multigrid_iterations(const unsigned int n, const unsigned int n_modes)
+  {
+    Elasticity<dim> problem(n);
+    problem.modes.resize(n_modes);
+    LinearSolver solver(use("amg-cg"), dim);
+    solver.set_up(problem.matrix, true, problem.modes);
+    LA::Vector         x(problem.rhs);
+    const LinearReport report = solver.solve(x, problem.rhs);
+    EXPECT_TRUE(report.converged) << report.message;
+    return report.iterations;
+  }
+
+  template <int dim>
+  void
+  expect_same_answers(const unsigned int n)
+  {
+    const Elasticity<dim> symmetric(n);
+    const LA::Vector      direct = solve(symmetric, "direct");
+    for (const char *name : {"auto", "amg-cg", "gmres"})
+      {
+        LA::Vector difference(solve(symmetric, name));
+        difference -= direct;
+        EXPECT_LT(difference.l2_norm(), 1e-8 * direct.l2_norm()) << name;
+      }
+
+    const Elasticity<dim> convected(n, true, 1.);
+    const LA::Vector      reference = solve(convected, "direct", false);
+    LA::Vector            difference(solve(convected, "gmres", false));
+    difference -= reference;
+    EXPECT_LT(difference.l2_norm(), 1e-8 * reference.l2_norm());
+  }
+} // namespace
+
+TEST(LinearSolver, AllSolversAgreeIn2d)
+{
+  expect_same_answers<2>(24);
+}
+
+TEST(LinearSolver, AllSolversAgreeIn3d)
+{
+  expect_same_answers<3>(6);
+}
+
+TEST(LinearSolver, MultigridIterationsStayBounded)
+{
+  const unsigned int coarse = multigrid_iterations<2>(32, 3);
+  const unsigned int fine   = multigrid_iterations<2>(128, 3);
+  EXPECT_LE(fine, 1.6 * coarse);
+  EXPECT_LE(fine, 25u);
+}
+
+TEST(LinearSolver, RotationsInTheNearNullSpacePay)
+{
+  EXPECT_LT(multigrid_iterations<2>(48, 3),
+            0.8 * multigrid_iterations<2>(48, 2));
+  EXPECT_LT(multigrid_iterations<3>(8, 6), 0.8 * multigrid_iterations<3>(8, 3));
+}
+
+TEST(LinearSolver, KeepsTheFactorisation)
+{
+  const Elasticity<2> problem(16);
+  LinearSolver        solver(use("direct"), 2);
+  solver.set_up(problem.matrix, true, problem.modes);
+  LA::Vector x(problem.rhs), b(problem.rhs), exact(problem.rhs);
+  for (unsigned int k = 1; k <= 3; ++k)
+    {
+      for (const auto i : exact.locally_owned_elements())
+        exact(i) = std::sin(1. * k * i);
+      exact.compress(dealii::VectorOperation::insert);
+      problem.matrix.vmult(b, exact);
+      EXPECT_TRUE(solver.solve(x, b).converged);
+      x -= exact;
+      EXPECT_LT(x.linfty_norm(), 1e-12);
+    }
+  EXPECT_EQ(solver.n_set_ups(), 1u);
+}
+
+TEST(LinearSolver, NothingToSolve)
+{
+  const Elasticity<2> problem(4);
+  for (const char *name : {"direct", "amg-cg", "gmres"})
+    {
+      LinearSolver solver(use(name), 2);
+      solver.set_up(problem.matrix, true, problem.modes);
+      LA::Vector x(problem.rhs), b(problem.rhs);
+      b                         = 0.;
+      const LinearReport report = solver.solve(x, b);
+      EXPECT_TRUE(report.converged) << name;
+      EXPECT_EQ(report.iterations, 0u);
+      EXPECT_EQ(x.l2_norm(), 0.);
+    }
+}
+
+TEST(LinearSolver, SaysThatABodyIsNotHeld)
+{
+  // Under its weight a free body cannot be in equilibrium.
+  const Elasticity<2> free_2d(24, false);
+  const Elasticity<3> free_3d(5, false);
+  for (const char *name : {"direct", "amg-cg", "gmres", "auto"})
+    {
+      LinearSolver solver(use(name), 2);
+      solver.set_up(free_2d.matrix, true, free_2d.modes);
+      LA::Vector         x(free_2d.rhs);
+      const LinearReport report = solver.solve(x, free_2d.rhs);
+      EXPECT_FALSE(report.converged) << name;
+      EXPECT_NE(report.message, "");
+      EXPECT_EQ(x.l2_norm(), 0.);
+    }
+  LinearSolver solver(use("direct"), 3);
+  solver.set_up(free_3d.matrix, true, free_3d.modes);
+  LA::Vector x(free_3d.rhs);
+  EXPECT_FALSE(solver.solve(x, free_3d.rhs).converged);
+}
+
+TEST(LinearSolver, SaysThatABodyIsNotHeldEvenIfTheLoadBalances)
+{
+  const Elasticity<2> problem(16, false);
+  LA::Vector          displacement(problem.rhs), b(problem.rhs), x(problem.rhs);
+  for (const auto i : displacement.locally_owned_elements())
+    displacement(i) = std::sin(0.1 * i);
+  displacement.compress(dealii::VectorOperation::insert);
+  problem.matrix.vmult(b, displacement);
+  LinearSolver solver(use("direct"), 2);
+  solver.set_up(problem.matrix, true, problem.modes);
+  const LinearReport report = solver.solve(x, b);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.message, "the matrix is singular to working precision");
+}
+
+TEST(LinearSolver, StiffRowsAreNotSingular)
+{
+  // Terms 1e12 stiffer than the rest, as a boundary enforced in a thin band.
+  Elasticity<2> problem(16);
+  for (const auto i : problem.rhs.locally_owned_elements())
+    if (i % 7 == 0)
+      problem.matrix.add(i, i, 1e12);
+  problem.matrix.compress(dealii::VectorOperation::add);
+  LinearSolver solver(use("direct"), 2);
+  solver.set_up(problem.matrix, true, problem.modes);
+  LA::Vector         x(problem.rhs);
+  const LinearReport report = solver.solve(x, problem.rhs);
+  EXPECT_TRUE(report.converged) << report.message;
+  EXPECT_LT(true_residual(problem, x), 1e-11);
+}
+
+TEST(LinearSolver, ReportsANumberThatIsNone)
+{
+  Elasticity<2> problem(8);
+  // deal.II's debug mode lets no such entry in; overflow makes some.
+  problem.matrix *= 1e200;
+  problem.matrix *= 1e200;
+  for (const char *name : {"direct", "amg-cg", "gmres", "auto"})
+    {
+      LinearSolver solver(use(name), 2);
+      solver.set_up(problem.matrix, true, problem.modes);
+      LA::Vector         x(problem.rhs);
+      const LinearReport report = solver.solve(x, problem.rhs);
+      EXPECT_FALSE(report.converged);
+      EXPECT_EQ(report.message, "the matrix has entries that are not numbers");
+    }
+}
+
+TEST(LinearSolver, AutoChoosesBySizeAndFallsBack)
+{
+  const Elasticity<2>    problem(32);
+  LinearSolverParameters parameters;
+  LA::Vector             x(problem.rhs);
+
+  LinearSolver by_default(parameters, 2);
+  by_default.set_up(problem.matrix, true, problem.modes);
+  EXPECT_EQ(by_default.solve(x, problem.rhs).solver.substr(0, 6), "direct");
+
+  parameters.direct_limit_2d = 100;
+  LinearSolver large(parameters, 2);
+  large.set_up(problem.matrix, true, problem.modes);
+  EXPECT_EQ(large.solve(x, problem.rhs).solver, "amg-cg");
+  large.set_up(problem.matrix, false, problem.modes);
+  EXPECT_EQ(large.solve(x, problem.rhs).solver, "gmres");
+
+  parameters.maximum_iterations = 3;
+  LinearSolver impatient(parameters, 2);
+  impatient.set_up(problem.matrix, true, problem.modes);
+  const LinearReport report = impatient.solve(x, problem.rhs);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.solver.substr(0, 6), "direct");
+  EXPECT_EQ(report.message,
+            "amg-cg did not converge in 3 iterations; solved directly");
+  EXPECT_LT(true_residual(problem, x), 1e-11);
+
+  parameters.solver = "amg-cg";
+  LinearSolver stubborn(parameters, 2);
+  stubborn.set_up(problem.matrix, true, problem.modes);
+  EXPECT_FALSE(stubborn.solve(x, problem.rhs).converged);
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/time/time_control.h>
+
+#include <gtest/gtest.h>
+
+using namespace moraine;
+
+namespace
+{
+  TimeParameters
+  steps(const unsigned int n, const double end = 1.)
+  {
+    TimeParameters parameters;
+    parameters.n_steps  = n;
+    parameters.end_time = end;
+    return parameters;
+  }
+
+  void
+  step(TimeControl &time, const unsigned int iterations = 1)
+  {
+    time.next();
+    time.accept(iterations);
+  }
+} // namespace
+
+TEST(TimeControl, HitsEveryStepExactly)
+{
+  TimeControl time(steps(10, 0.7));
+  for (unsigned int k = 1; k <= 10; ++k)
+    {
+      ASSERT_FALSE(time.finished());
+      step(time);
+      EXPECT_EQ(time.time(), k == 10 ? 0.7 : 0.7 * k / 10);
+      EXPECT_TRUE(time.at_step_end());
+      EXPECT_EQ(time.n_completed_steps(), k);
+    }
+  EXPECT_TRUE(time.finished());
+  EXPECT_EQ(time.n_accepted(), 10u);
+}
+
+TEST(TimeControl, LeavesNoSliverAfterCuts)
+{
+  // A cut of 0.3 does not divide a step: what remains is split evenly.
+  TimeParameters parameters = steps(3);
+  parameters.cut            = 0.3;
+  parameters.growth         = 1.;
+  TimeControl time(parameters);
+  time.next();
+  EXPECT_TRUE(time.reject("test"));
+  double       smallest = 1.;
+  unsigned int n        = 0;
+  while (!time.finished())
+    {
+      time.next();
+      smallest = std::min(smallest, time.step_size());
+      time.accept(1);
+      ++n;
+    }
+  EXPECT_EQ(time.time(), 1.);
+  EXPECT_EQ(n, 12u); // 1/0.3 is more than 3: four parts for each step
+  EXPECT_NEAR(smallest, 1. / 12., 1e-14);
+}
+
+TEST(TimeControl, GrowsBackAfterEasySteps)
+{
+  TimeControl time(steps(2, 2.));
+  time.next();
+  EXPECT_TRUE(time.reject("test"));
+  time.next();
+  EXPECT_TRUE(time.reject("test"));
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.25);
+  time.accept(6); // not easy: the size stays
+  EXPECT_FALSE(time.at_step_end());
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.5);
+  time.accept(5); // easy: it doubles
+  time.next();
+  EXPECT_EQ(time.trial_time(), 1.);
+  time.accept(1);
+  EXPECT_EQ(time.n_completed_steps(), 1u);
+  time.next();
+  EXPECT_EQ(time.trial_time(), 2.); // never more than one step
+  time.accept(1);
+  EXPECT_TRUE(time.finished());
+  EXPECT_EQ(time.n_accepted(), 4u);
+  EXPECT_EQ(time.n_rejected(), 2u);
+}
+
+TEST(TimeControl, CutsTheStepThatFailed)
+{
+  // The last part before a stop may be shorter than the size; a cut must
+  // shorten the part, not the size.
+  TimeControl time(steps(1), {0.9});
+  step(time);
+  time.next();
+  EXPECT_NEAR(time.step_size(), 0.1, 1e-15);
+  EXPECT_TRUE(time.reject("test"));
+  time.next();
+  EXPECT_NEAR(time.step_size(), 0.05, 1e-15);
+}
+
+TEST(TimeControl, HitsTheTimesAskedFor)
+{
+  TimeControl  time(steps(2), {0.75, 0.1, 0.5 + 1e-13, 0., 1., 2., -1.});
+  const double expected[] = {0.1, 0.5, 0.75, 1.};
+  for (const double t : expected)
+    {
+      step(time);
+      EXPECT_EQ(time.time(), t);
+      EXPECT_EQ(time.at_step_end(), t == 0.5 || t == 1.);
+    }
+  EXPECT_TRUE(time.finished());
+}
+
+TEST(TimeControl, StopsBelowTheSmallestStep)
+{
+  TimeParameters parameters = steps(1);
+  parameters.smallest_step  = 0.125;
+  TimeControl time(parameters);
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      time.next();
+      EXPECT_TRUE(time.reject("test"));
+    }
+  time.next();
+  EXPECT_EQ(time.step_size(), 0.125);
+  EXPECT_FALSE(time.reject("no equilibrium"));
+  EXPECT_EQ(time.time(), 0.);
+  EXPECT_EQ(time.message(),
+            "The step from t = 0 to 0.125 failed: no equilibrium. A cut would "
+            "go below the smallest step, 0.125 (Smallest step = 0.125 of a "
+            "step).");
+}
+
+TEST(TimeControl, StartsWithTheLargestStep)
+{
+  TimeParameters parameters = steps(2);
+  parameters.start_time     = -1.;
+  parameters.largest_step   = 0.25;
+  TimeControl  time(parameters);
+  unsigned int n = 0;
+  for (; !time.finished(); ++n)
+    {
+      time.next();
+      EXPECT_NEAR(time.step_size(), 0.25, 1e-15);
+      time.accept(1);
+    }
+  EXPECT_EQ(n, 8u);
+}
+
+TEST(TimeControl, RefusesWhatCannotBe)
+{
+  TimeParameters backwards = steps(1, -1.);
+  EXPECT_THROW(TimeControl{backwards}, InputError);
+  TimeParameters inverted = steps(1);
+  inverted.smallest_step  = 0.5;
+  inverted.largest_step   = 0.1;
+  EXPECT_THROW(inverted.check(), InputError);
+  EXPECT_NO_THROW(steps(1).check());
+}
+
+TEST(TimeControl, ReadsItsKeys)
+{
+  TimeParameters           parameters;
+  OutputTimes              output;
+  dealii::ParameterHandler prm;
+  parameters.add_parameters(prm);
+  output.add_parameters(prm);
+  prm.parse_input_from_string("set End time = 3\nset Steps = 6\n"
+                              "set Cut = 0.25\nset Every = 2\n");
+  EXPECT_EQ(parameters.end_time, 3.);
+  EXPECT_EQ(parameters.n_steps, 6u);
+  EXPECT_EQ(parameters.cut, 0.25);
+  EXPECT_EQ(output.every, 2u);
+}
+
+TEST(OutputTimes, SayWhenResultsAreDue)
+{
+  const auto written = [](const std::string &when, const unsigned int every) {
+    TimeParameters parameters = steps(5);
+    parameters.largest_step   = 0.5;
+    TimeControl         time(parameters);
+    const OutputTimes   output{when, every};
+    std::vector<double> times;
+    while (!time.finished())
+      {
+        step(time);
+        if (output.due(time))
+          times.push_back(time.time());
+      }
+    return times;
+  };
+  EXPECT_EQ(written("steps", 2), (std::vector<double>{0.4, 0.8, 1.}));
+  EXPECT_EQ(written("steps", 1).size(), 5u);
+  EXPECT_EQ(written("all", 1).size(), 10u);
+  EXPECT_EQ(written("end", 1), (std::vector<double>{1.}));
+}
