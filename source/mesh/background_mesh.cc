@@ -63,9 +63,9 @@ namespace moraine
           "section 'Mesh': found both 'Cells' and 'Cell size', allowed: exactly "
           "one of them");
     if (!cells.empty() && cells.size() != dim)
-      throw InputError("section 'Mesh', key 'Cells': found " +
-                       std::to_string(cells.size()) + " numbers, allowed: " +
-                       std::to_string(dim) + " (one per direction)");
+      throw InputError(
+        "section 'Mesh', key 'Cells': found " + std::to_string(cells.size()) +
+        " numbers, allowed: " + std::to_string(dim) + " (one per direction)");
 
     std::array<unsigned int, dim> n;
     for (unsigned int d = 0; d < dim; ++d)
@@ -75,13 +75,15 @@ namespace moraine
         {
           const double ratio = (upper_corner[d] - lower_corner[d]) / cell_size;
           if (!(ratio < 1e8) ||
-              std::abs(ratio - std::round(ratio)) > 1e-6 * std::max(1., ratio) ||
+              std::abs(ratio - std::round(ratio)) >
+                1e-6 * std::max(1., ratio) ||
               std::round(ratio) < 1)
             {
               std::ostringstream message;
               message << "section 'Mesh', key 'Cell size': found " << cell_size
                       << ", allowed: a size that divides the box; its edge "
-                      << "along " << "xyz"[d] << " is "
+                      << "along "
+                      << "xyz"[d] << " is "
                       << upper_corner[d] - lower_corner[d];
               throw InputError(message.str());
             }
@@ -99,16 +101,14 @@ namespace moraine
            Triangulation<dim>::none,
            false,
            parallel::shared::Triangulation<dim>::partition_zorder)
-    , side_names(dim == 2 ? std::vector<std::string>{"left",
-                                                     "right",
-                                                     "bottom",
-                                                     "top"} :
-                            std::vector<std::string>{"left",
-                                                     "right",
-                                                     "front",
-                                                     "back",
-                                                     "bottom",
-                                                     "top"})
+    , side_names(dim == 2 ?
+                   std::vector<std::string>{"left", "right", "bottom", "top"} :
+                   std::vector<std::string>{"left",
+                                            "right",
+                                            "front",
+                                            "back",
+                                            "bottom",
+                                            "top"})
   {
     const auto n = parameters.n_cells();
     GridGenerator::subdivided_hyper_rectangle(

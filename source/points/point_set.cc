@@ -65,12 +65,10 @@ namespace moraine
                         const unsigned int  body,
                         const double        volume)
   {
-    const auto particle =
-      handler.insert_particle(position, reference_position, id, cell);
-    auto properties = particle->get_properties();
-    std::fill(properties.begin(), properties.end(), 0.);
-    properties[volume_offset] = volume;
-    properties[body_offset]   = body;
+    std::vector<double> values(layout.n_values(), 0.);
+    values[volume_offset] = volume;
+    values[body_offset]   = body;
+    handler.insert_particle(position, reference_position, id, cell, values);
   }
 
 
@@ -104,9 +102,9 @@ namespace moraine
   void
   PointSet<dim>::reinsert_lost_points()
   {
-    const MPI_Comm &communicator =
-      background.triangulation().get_communicator();
-    const auto everyones = Utilities::MPI::all_gather(communicator, lost_points);
+    const MPI_Comm communicator = background.triangulation().get_communicator();
+    const auto     everyones =
+      Utilities::MPI::all_gather(communicator, lost_points);
     const GridTools::Cache<dim> cache(background.triangulation(),
                                       background.mapping());
 

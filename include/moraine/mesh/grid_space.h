@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_mesh_grid_space_h
+#define moraine_mesh_grid_space_h
+
+#include <moraine/core/linear_algebra.h>
+#include <moraine/mesh/background_mesh.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/hp/fe_collection.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <limits>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The displacement unknowns on the active cells of the background mesh:
+   * Q1 or Q2 there, nothing elsewhere, so that cells without material own no
+   * unknowns.
+   *
+   * Work in loops uses *nodes*: places that carry dim consecutive unknowns,
+   * numbered densely on each rank. A rank knows the nodes of the active cells
+   * it owns and of the active cells that touch those.
+   */
+  template <int dim>
+  class GridSpace
+  {
+  public:
+    using CellIterator =
+      typename dealii::Triangulation<dim>::active_cell_iterator;
+    static constexpr unsigned int no_cell =
+      std::numeric_limits<unsigned int>::max();
+
+    /** @param degree 1 or 2. */
+    GridSpace(const BackgroundMesh<dim> &mesh, const unsigned int degree);
+
+    /**
+     * Make the cells flagged on any rank active. Unknowns are renumbered only
+     * if the set changed.
+     *
+     * @param active One flag for each active_cell_index() of the mesh.
+     * @return whether the set changed. Collective.
+     */
+    bool
+    set_active_cells(std::vector<unsigned char> active);
+
+    bool
+    is_active(const CellIterator &cell) const
+    {
+      return active_cells[cell->active_cell_index()] != 0;
+    }
+
+    /** (degree + 1)^dim. */
+    unsigned int
+    nodes_per_cell() const
+    {
+      return n_nodes_per_cell;
+    }
+
+    /**
+     * The nodes of an active cell of this rank or next to one, in lexicographic
+     * order.
+     */
+    const unsigned int *
+    cell_nodes(const CellIterator &cell) const
+    {
+      return cell_nodes(cell->active_cell_index());
+    }
+
+    const unsigned int *
+    cell_nodes(const unsigned int active_cell_index) const
+    {
+      const unsigned int slot = cell_slot[active_cell_index];
+      Assert(slot != no_cell, dealii::ExcInternalError());
+      return &nodes_of_cells[slot * n_nodes_per_cell];
+    }
+
+    /** Whether cell_nodes() may be asked for. */
+    bool
+    knows(const CellIterator &cell) const
+    {
+      return cell_slot[cell->active_cell_index()] != no_cell;
+    }
+
+    unsigned int
+    n_nodes() const
+    {
+      return first_dof.size();
+    }
+
+    /** First of the dim consecutive unknowns of a node. */
+    dealii::types::global_dof_index
+    node_dof(const unsigned int node) const
+    {
+      return first_dof[node];
+    }
+
+    /** Where the node is; it moves only if the mesh follows the material. */
+    const dealii::Point<dim> &
+    node_position(const unsigned int node) const
+    {
+      return positions[node];
+    }
+
+    /** Nodal values (node major) of an owned-only vector. Collective. */
+    void
+    node_values(const LA::Vector                    &vector,
+                std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /** Move every node by its value in @p displacement. */
+    void
+    move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);
+
+    const dealii::DoFHandler<dim> &
+    dof_handler() const
+    {
+      return dofs;
+    }
+
+    const dealii::IndexSet &
+    locally_owned() const
+    {
+      return owned;
+    }
+
+    /** The unknowns of all nodes this rank knows. */
+    const dealii::IndexSet &
+    locally_relevant() const
+    {
+      return relevant;
+    }
+
+    dealii::types::global_dof_index
+    n_dofs() const
+    {
+      return dofs.n_dofs();
+    }
+
+    unsigned int
+    n_active_cells() const
+    {
+      return n_active;
+    }
+
+    unsigned int
+    degree() const
+    {
+      return fe_degree;
+    }
+
+    const BackgroundMesh<dim> &
+    mesh() const
+    {
+      return background;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return background.triangulation().get_communicator();
+    }
+
+  private:
+    void
+    number_nodes();
+
+    const BackgroundMesh<dim>    &background;
+    const unsigned int            fe_degree;
+    const unsigned int            n_nodes_per_cell;
+    dealii::hp::FECollection<dim> fe_collection;
+    dealii::DoFHandler<dim>       dofs;
+    /** Index in the finite element of component 0 of each lexicographic node.
+     */
+    std::vector<unsigned int>                    fe_index_of_node;
+    std::vector<dealii::Point<dim>>              unit_node_positions;
+    std::vector<unsigned char>                   active_cells;
+    unsigned int                                 n_active = 0;
+    std::vector<unsigned int>                    cell_slot;
+    std::vector<unsigned int>                    nodes_of_cells;
+    std::vector<dealii::types::global_dof_index> first_dof;
+    std::vector<dealii::Point<dim>>              positions;
+    dealii::IndexSet                             owned;
+    dealii::IndexSet                             relevant;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/mesh/grid_space.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  GridSpace<dim>::GridSpace(const BackgroundMesh<dim> &mesh,
+                            const unsigned int         degree)
+    : background(mesh)
+    , fe_degree(degree)
+    , n_nodes_per_cell(Utilities::pow(degree + 1, dim))
+    , dofs(mesh.triangulation())
+    , active_cells(mesh.triangulation().n_active_cells(), 0)
+    , cell_slot(mesh.triangulation().n_active_cells(), no_cell)
+  {
+    const FE_Q<dim>     scalar(degree);
+    const FESystem<dim> vector(scalar, dim);
+    fe_collection.push_back(vector);
+    fe_collection.push_back(FESystem<dim>(FE_Nothing<dim>(), dim));
+
+    const auto lexicographic = scalar.get_poly_space_numbering_inverse();
+    fe_index_of_node.resize(n_nodes_per_cell);
+    for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
+      {
+        fe_index_of_node[a] =
+          vector.component_to_system_index(0, lexicographic[a]);
+        unit_node_positions.push_back(
+          scalar.unit_support_point(lexicographic[a]));
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  GridSpace<dim>::set_active_cells(std::vector<unsigned char> active)
+  {
+    AssertDimension(active.size(), active_cells.size());
+    MPI_Allreduce(MPI_IN_PLACE,
+                  active.data(),
+                  active.size(),
+                  MPI_UNSIGNED_CHAR,
+                  MPI_MAX,
+                  communicator());
+    if (active == active_cells && n_active > 0)
+      return false;
+
+    active_cells = std::move(active);
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        cell->set_active_fe_index(is_active(cell) ? 0 : 1);
+    dofs.distribute_dofs(fe_collection);
+    owned = dofs.locally_owned_dofs();
+    number_nodes();
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::number_nodes()
+  {
+    const auto &tria = background.triangulation();
+
+    std::vector<bool> vertex_of_own_cell(tria.n_vertices(), false);
+    n_active = 0;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (is_active(cell))
+        {
+          ++n_active;
+          if (cell->is_locally_owned())
+            for (const unsigned int v : cell->vertex_indices())
+              vertex_of_own_cell[cell->vertex_index(v)] = true;
+        }
+
+    constexpr unsigned int    no_node = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> node_of_dof(dofs.n_dofs(), no_node);
+    std::vector<types::global_dof_index> cell_dofs(
+      fe_collection[0].n_dofs_per_cell());
+    std::vector<types::global_dof_index> relevant_dofs;
+    first_dof.clear();
+    positions.clear();
+    nodes_of_cells.clear();
+    std::fill(cell_slot.begin(), cell_slot.end(), no_cell);
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (is_active(cell))
+        {
+          bool near = false;
+          for (const unsigned int v : cell->vertex_indices())
+            near = near || vertex_of_own_cell[cell->vertex_index(v)];
+          if (!near)
+            continue;
+          cell_slot[cell->active_cell_index()] =
+            nodes_of_cells.size() / n_nodes_per_cell;
+          cell->get_dof_indices(cell_dofs);
+          for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
+            {
+              const auto dof = cell_dofs[fe_index_of_node[a]];
+              if (node_of_dof[dof] == no_node)
+                {
+                  node_of_dof[dof] = first_dof.size();
+                  first_dof.push_back(dof);
+                  positions.push_back(
+                    background.mapping().transform_unit_to_real_cell(
+                      cell, unit_node_positions[a]));
+                  for (unsigned int c = 0; c < dim; ++c)
+                    relevant_dofs.push_back(dof + c);
+                }
+              nodes_of_cells.push_back(node_of_dof[dof]);
+            }
+        }
+    std::sort(relevant_dofs.begin(), relevant_dofs.end());
+    relevant = IndexSet(dofs.n_dofs());
+    relevant.add_indices(relevant_dofs.begin(), relevant_dofs.end());
+    relevant.add_indices(owned);
+    relevant.compress();
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::node_values(const LA::Vector            &vector,
+                              std::vector<Tensor<1, dim>> &values) const
+  {
+    LA::Vector ghosted(owned, relevant, communicator());
+    ghosted = vector;
+    values.resize(first_dof.size());
+    const auto   &map  = ghosted.trilinos_vector().Map();
+    const double *data = ghosted.trilinos_vector()[0];
+    for (unsigned int node = 0; node < first_dof.size(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        values[node][c] = data[map.LID(
+          static_cast<TrilinosWrappers::types::int_type>(first_dof[node] + c))];
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::move_nodes(const std::vector<Tensor<1, dim>> &displacement)
+  {
+    AssertDimension(displacement.size(), positions.size());
+    for (unsigned int node = 0; node < positions.size(); ++node)
+      positions[node] += displacement[node];
+  }
+
+
+
+  template class GridSpace<2>;
+  template class GridSpace<3>;
+} // namespace moraine
