@@ -15,17 +15,17 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  RigidMotion<dim>::RigidMotion()
+  Placement<dim>::Placement()
     : rotation(unit_symmetric_tensor<dim>())
   {}
 
 
 
   template <int dim>
-  RigidMotion<dim>::RigidMotion(const double          degrees,
-                                const Point<dim>     &centre,
-                                const Tensor<1, dim> &axis,
-                                const Tensor<1, dim> &translation)
+  Placement<dim>::Placement(const double          degrees,
+                            const Point<dim>     &centre,
+                            const Tensor<1, dim> &axis,
+                            const Tensor<1, dim> &translation)
   {
     const double angle = degrees * numbers::PI / 180.;
     if constexpr (dim == 2)
@@ -45,7 +45,7 @@ namespace moraine
 
   template <int dim>
   Point<dim>
-  RigidMotion<dim>::apply(const Point<dim> &x) const
+  Placement<dim>::apply(const Point<dim> &x) const
   {
     return Point<dim>(rotation * x + shift);
   }
@@ -54,7 +54,7 @@ namespace moraine
 
   template <int dim>
   Point<dim>
-  RigidMotion<dim>::undo(const Point<dim> &x) const
+  Placement<dim>::undo(const Point<dim> &x) const
   {
     return Point<dim>((x - shift) * rotation);
   }
@@ -63,7 +63,7 @@ namespace moraine
 
   template <int dim>
   MovedShape<dim>::MovedShape(const std::shared_ptr<const Shape<dim>> &shape,
-                              const RigidMotion<dim>                  &motion)
+                              const Placement<dim>                    &motion)
     : shape(shape)
     , motion(motion)
   {}
@@ -383,8 +383,8 @@ namespace moraine
 
 
 
-  template struct RigidMotion<2>;
-  template struct RigidMotion<3>;
+  template struct Placement<2>;
+  template struct Placement<3>;
   template class MovedShape<2>;
   template class MovedShape<3>;
   template class CombinedShape<2>;

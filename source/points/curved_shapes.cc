@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/exceptions.h>
-
 #include <moraine/points/curved_shapes.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace moraine
 {
@@ -241,28 +237,51 @@ namespace moraine
       return slope;
     }
 
-    // what is inside, outside or undecided by values at vertices and middle
+    // A level function in a polytope and its linear part at a point.
     template <int dim>
-    Overlap
-    sampled_overlap(const Level<dim>          &level,
-                    const bool                 is_distance,
-                    const ConvexPolytope<dim> &cell)
+    struct LinearPart
     {
-      const Point<dim> centre = cell.vertex_mean();
-      const double     value  = level(centre);
-      double           reach  = cell.radius(centre);
-      if (!is_distance)
-        {
-          double variation = 0.;
-          for (const auto &x : cell.vertices())
-            variation = std::max(variation, std::abs(level(x) - value));
-          reach = 2. * variation;
-          if (variation == 0.)
-            return value > 0. ? Overlap::all : Overlap::none;
-        }
-      return value >= reach ? Overlap::all :
-                              (value <= -reach ? Overlap::none : Overlap::part);
-    }
+      LinearPart(const Level<dim>          &level,
+                 const ConvexPolytope<dim> &cell,
+                 const Point<dim>          &x,
+                 const double               size)
+        : x(x)
+        , value(level(x))
+        , slope(gradient(level, x, 1e-3 * size))
+      {
+        lowest = highest = value;
+        for (const auto &vertex : cell.vertices())
+          {
+            const double there = level(vertex);
+            lowest             = std::min(lowest, there);
+            highest            = std::max(highest, there);
+            bend =
+              std::max(bend, std::abs(there - value - slope * (vertex - x)));
+          }
+      }
+
+      // decided where no vertex and not thrice the bend reach zero
+      Overlap
+      overlap() const
+      {
+        if (lowest >= 3. * bend && lowest > 0.)
+          return Overlap::all;
+        return highest <= -3. * bend ? Overlap::none : Overlap::part;
+      }
+
+      // where the linear part vanishes
+      Point<dim>
+      zero() const
+      {
+        return x - value / slope.norm_square() * slope;
+      }
+
+      Point<dim>     x;
+      double         value;
+      Tensor<1, dim> slope;
+      double         lowest, highest;
+      double         bend = 0.;
+    };
 
     // mean of f over a cut face; exact for quadratic functions
     template <int dim>
@@ -307,35 +326,29 @@ namespace moraine
       void
       add(const ConvexPolytope<dim> &cell, const unsigned int n_halvings)
       {
-        const Overlap answer = sampled_overlap(level, is_distance, cell);
+        const Point<dim> middle = cell.vertex_mean();
+        const double     size   = cell.radius(middle);
+        Overlap          answer = Overlap::part;
+        if (is_distance && std::abs(level(middle)) >= size)
+          answer = level(middle) > 0. ? Overlap::all : Overlap::none;
+        LinearPart<dim> linear(level, cell, middle, size);
+        if (answer == Overlap::part)
+          answer = linear.overlap();
         if (answer == Overlap::all)
           pieces.push_back({sign, cell});
         if (answer != Overlap::part)
           return;
-        const Point<dim> middle = cell.vertex_mean();
-        const double     size   = cell.radius(middle);
         // the tangent plane at a point of the boundary near the middle
-        Point<dim>     foot  = middle;
-        Tensor<1, dim> slope = gradient(level, foot, 1e-3 * size);
-        for (unsigned int k = 0; k < 2 && slope.norm_square() > 0.; ++k)
-          {
-            const Point<dim> next =
-              foot - level(foot) / slope.norm_square() * slope;
-            if (next.distance(middle) > size)
-              break;
-            foot  = next;
-            slope = gradient(level, foot, 1e-3 * size);
-          }
-        const double at_foot = level(foot), steepness = slope.norm();
-        double       bend = 0.;
-        for (const auto &x : cell.vertices())
-          bend =
-            std::max(bend, std::abs(level(x) - at_foot - slope * (x - foot)));
-        if (bend > flat_enough * size * steepness && n_halvings > 0)
+        for (unsigned int k = 0; k < 2 && linear.slope.norm() > 0. &&
+                                 linear.zero().distance(middle) <= size;
+             ++k)
+          linear = LinearPart<dim>(level, cell, linear.zero(), size);
+        if (linear.bend > flat_enough * size * linear.slope.norm() &&
+            n_halvings > 0)
           halve(cell, n_halvings);
-        else if (steepness > 0.)
-          cut(cell, foot - at_foot / slope.norm_square() * slope, slope);
-        else if (at_foot > 0.)
+        else if (linear.slope.norm() > 0.)
+          cut(cell, linear.zero(), linear.slope);
+        else if (linear.value > 0.)
           pieces.push_back({sign, cell});
       }
 
@@ -594,23 +607,20 @@ namespace moraine
         , centre(centre)
         , radius(radius)
         , tolerance(tolerance)
-        , rule(5)
+        , rule(8)
       {}
 
       Values
       integrate() const
       {
-        std::vector<double> heights;
-        for (const auto &face : faces)
-          for (const auto &x : face)
-            heights.push_back(x[2]);
-        std::sort(heights.begin(), heights.end());
-        Values sum;
+        const std::vector<double> heights = kinks();
+        Values                    sum;
         for (unsigned int i = 0; i + 1 < heights.size(); ++i)
           if (heights[i] < heights[i + 1])
-            sum += adapt(heights[i],
-                         heights[i + 1],
-                         gauss(heights[i], heights[i + 1]),
+            sum += adapt({heights[i], heights[i + 1]},
+                         0.,
+                         1.,
+                         gauss({heights[i], heights[i + 1]}, 0., 1.),
                          max_halvings);
         return sum;
       }
@@ -643,32 +653,87 @@ namespace moraine
         return Values({m.volume, m.first[0], m.first[1], m.volume * height});
       }
 
-      Values
-      gauss(const double a, const double b) const
+      // Heights between which the slice's moments are smooth: of vertices, of
+      // edges that meet the cylinder and of faces that touch it.
+      std::vector<double>
+      kinks() const
       {
-        Values sum;
+        std::vector<double> heights;
+        double              lowest  = std::numeric_limits<double>::infinity();
+        double              highest = -lowest;
+        for (const auto &face : faces)
+          for (const auto &x : face)
+            {
+              lowest  = std::min(lowest, x[2]);
+              highest = std::max(highest, x[2]);
+            }
+        for (const auto &face : faces)
+          {
+            Tensor<1, 3> normal;
+            for (unsigned int i = 0; i < face.size(); ++i)
+              {
+                const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
+                const auto [begin, end] =
+                  inside_circle(Tensor<1, 2>({a[0], a[1]}) - centre,
+                                Tensor<1, 2>({b[0], b[1]}) - centre,
+                                radius * radius);
+                heights.push_back(a[2]);
+                heights.push_back(a[2] + begin * (b[2] - a[2]));
+                heights.push_back(a[2] + end * (b[2] - a[2]));
+                normal += cross_product_3d(a - face[0], b - face[0]);
+              }
+            const double across = std::hypot(normal[0], normal[1]);
+            const double to_axis =
+              normal * (face[0] - Point<3>(centre[0], centre[1], 0.));
+            for (const double side : {-1., 1.})
+              {
+                const double touch =
+                  (to_axis + side * radius * across) / normal[2];
+                if (touch > lowest && touch < highest)
+                  heights.push_back(touch);
+              }
+          }
+        std::sort(heights.begin(), heights.end());
+        return heights;
+      }
+
+      // Over the part (s, e) of an interval of heights, mapped from [0, 1]
+      // with zero slope at both ends: there, moments may grow like a root
+      // (x - end)^(3/2), which becomes a smooth function of s.
+      Values
+      gauss(const std::pair<double, double> &interval,
+            const double                     begin,
+            const double                     end) const
+      {
+        const double length = interval.second - interval.first;
+        Values       sum;
         for (unsigned int q = 0; q < rule.size(); ++q)
-          sum +=
-            (b - a) * rule.weight(q) * slice(a + (b - a) * rule.point(q)[0]);
+          {
+            const double s = begin + (end - begin) * rule.point(q)[0];
+            sum += (end - begin) * rule.weight(q) * length * 6. * s * (1. - s) *
+                   slice(interval.first + length * s * s * (3. - 2. * s));
+          }
         return sum;
       }
 
       Values
-      adapt(const double       a,
-            const double       b,
-            const Values      &whole,
-            const unsigned int n_halvings) const
+      adapt(const std::pair<double, double> &interval,
+            const double                     begin,
+            const double                     end,
+            const Values                    &whole,
+            const unsigned int               n_halvings) const
       {
-        const double middle = a + (b - a) / 2.;
-        const Values lower = gauss(a, middle), upper = gauss(middle, b);
+        const double middle = (begin + end) / 2.;
+        const Values lower  = gauss(interval, begin, middle);
+        const Values upper  = gauss(interval, middle, end);
         const Values change = lower + upper - whole;
         bool         fine   = true;
         for (unsigned int i = 0; i < 4; ++i)
           fine &= std::abs(change[i]) <= tolerance[i];
         if (fine || n_halvings == 0)
           return lower + upper;
-        return adapt(a, middle, lower, n_halvings - 1) +
-               adapt(middle, b, upper, n_halvings - 1);
+        return adapt(interval, begin, middle, lower, n_halvings - 1) +
+               adapt(interval, middle, end, upper, n_halvings - 1);
       }
 
       const std::vector<ConvexPolytope<3>::PointList> &faces;
@@ -747,31 +812,11 @@ namespace moraine
   template <int dim>
   ExpressionShape<dim>::ExpressionShape(
     const std::string           &expression,
-    const std::string           &where,
+    const std::string           &place,
     const CurveSubdivision<dim> &subdivision)
-    : expression(expression)
-    , where(where)
+    : expression(expression, place)
     , subdivision(subdivision)
-  {
-    try
-      {
-        function.initialize(dim == 2 ? "x,y" : "x,y,z",
-                            expression,
-                            {{"pi", numbers::PI}});
-        // the text is only parsed when it is first evaluated
-        function.value(Point<dim>());
-      }
-    catch (const ExceptionBase &error)
-      {
-        std::ostringstream reason;
-        error.print_info(reason);
-        throw InputError(where + " = " + expression +
-                         ": cannot be evaluated. An expression in " +
-                         (dim == 2 ? "x and y" : "x, y and z") +
-                         " in muParser syntax is allowed; pi is known. " +
-                         reason.str());
-      }
-  }
+  {}
 
 
 
@@ -779,15 +824,7 @@ namespace moraine
   double
   ExpressionShape<dim>::level(const Point<dim> &p) const
   {
-    const double value = function.value(p);
-    if (!std::isfinite(value))
-      {
-        std::ostringstream at;
-        at << p;
-        throw InputError(where + " = " + expression + ": the value at (" +
-                         at.str() + ") is not finite");
-      }
-    return value;
+    return expression.value(p);
   }
 
 
@@ -805,8 +842,12 @@ namespace moraine
   Overlap
   ExpressionShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
   {
-    return sampled_overlap<dim>(
-      [this](const Point<dim> &p) { return level(p); }, false, cell);
+    const Point<dim> middle = cell.vertex_mean();
+    return LinearPart<dim>([this](const Point<dim> &p) { return level(p); },
+                           cell,
+                           middle,
+                           cell.radius(middle))
+      .overlap();
   }
 
 

@@ -134,7 +134,7 @@ TEST(ConvexPolytope, PlanesThatTouch)
         const auto point = Point<3>(shift * normal);
         kept.clip(point, normal);
         lost.clip(point, -normal);
-        EXPECT_EQ(kept.volume(), 1.);
+        EXPECT_DOUBLE_EQ(kept.volume(), 1.);
         EXPECT_EQ(kept.vertices().size(), 8u);
         EXPECT_TRUE(lost.empty());
         EXPECT_EQ(lost.volume(), 0.);

@@ -15,12 +15,12 @@ namespace moraine
    * x -> rotation x + shift with an orthogonal rotation.
    */
   template <int dim>
-  struct RigidMotion
+  struct Placement
   {
     /**
      * Nothing moves.
      */
-    RigidMotion();
+    Placement();
 
     /**
      * Rotate by @p degrees, counter-clockwise, about @p centre (in 3D about
@@ -28,10 +28,10 @@ namespace moraine
      * is not used in 2D), then translate. Multiples of a right angle about a
      * coordinate axis are exact.
      */
-    RigidMotion(const double                  degrees,
-                const dealii::Point<dim>     &centre,
-                const dealii::Tensor<1, dim> &axis,
-                const dealii::Tensor<1, dim> &translation);
+    Placement(const double                  degrees,
+              const dealii::Point<dim>     &centre,
+              const dealii::Tensor<1, dim> &axis,
+              const dealii::Tensor<1, dim> &translation);
 
     dealii::Point<dim>
     apply(const dealii::Point<dim> &x) const;
@@ -53,7 +53,7 @@ namespace moraine
   {
   public:
     MovedShape(const std::shared_ptr<const Shape<dim>> &shape,
-               const RigidMotion<dim>                  &motion);
+               const Placement<dim>                    &motion);
 
     double
     level(const dealii::Point<dim> &p) const override;
@@ -82,7 +82,7 @@ namespace moraine
     moved_back(const ConvexPolytope<dim> &cell) const;
 
     std::shared_ptr<const Shape<dim>> shape;
-    RigidMotion<dim>                  motion;
+    Placement<dim>                    motion;
   };
 
 

@@ -4,9 +4,9 @@
 #ifndef moraine_points_curved_shapes_h
 #define moraine_points_curved_shapes_h
 
-#include <moraine/points/shape.h>
+#include <moraine/core/expression.h>
 
-#include <deal.II/base/function_parser.h>
+#include <moraine/points/shape.h>
 
 #include <functional>
 #include <string>
@@ -154,10 +154,11 @@ namespace moraine
   {
   public:
     /**
-     * @p where is put before messages: section and key.
+     * @p place: where the text stands, for messages. Throws InputError if the
+     * text cannot be understood.
      */
     ExpressionShape(const std::string           &expression,
-                    const std::string           &where,
+                    const std::string           &place,
                     const CurveSubdivision<dim> &subdivision = {});
 
     double
@@ -179,10 +180,8 @@ namespace moraine
                        std::vector<SignedPiece<dim>> &pieces) const override;
 
   private:
-    std::string                 expression;
-    std::string                 where;
-    dealii::FunctionParser<dim> function;
-    CurveSubdivision<dim>       subdivision;
+    Expression<dim>       expression;
+    CurveSubdivision<dim> subdivision;
   };
 } // namespace moraine
 
