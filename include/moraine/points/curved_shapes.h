@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_points_curved_shapes_h
+#define moraine_points_curved_shapes_h
+
+#include <moraine/core/expression.h>
+
+#include <moraine/points/shape.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Approximation of a curved boundary by polytopes.
+   *
+   * A polytope that the boundary may cut is halved until the boundary in it
+   * differs from a plane by less than a small fraction of its size, or has
+   * been halved depth times in each direction. It is then clipped by the
+   * tangent plane, shifted by the mean distance to the boundary over the cut
+   * face, so that the volume is right to second order in the curvature.
+   */
+  template <int dim>
+  struct CurveSubdivision
+  {
+    /**
+     * Halvings per direction that resolve edges of an expression to 1e-3
+     * (2D), 2e-2 (3D) of a sub-cell.
+     */
+    static constexpr unsigned int default_depth = (dim == 2 ? 10 : 6);
+
+    unsigned int depth = default_depth;
+
+    /**
+     * Append the pieces of @p cell in which @p level is positive. If
+     * @p is_distance, |level| is never more than the distance to the
+     * boundary; otherwise what is decided without cutting rests on values at
+     * the vertices.
+     */
+    void
+    add_pieces(const std::function<double(const dealii::Point<dim> &)> &level,
+               const bool                     is_distance,
+               const ConvexPolytope<dim>     &cell,
+               const double                   sign,
+               std::vector<SignedPiece<dim>> &pieces) const;
+  };
+
+
+
+  /**
+   * Disc (2D) or sphere (3D). Its part of a polytope is exact: per edge,
+   * triangles and circular segments in 2D; per face and edge, the part within
+   * the sphere of the cone from its centre in 3D.
+   */
+  template <int dim>
+  class BallShape : public Shape<dim>
+  {
+  public:
+    BallShape(const dealii::Point<dim>    &centre,
+              const double                 radius,
+              const CurveSubdivision<dim> &subdivision = {});
+
+    double
+    level(const dealii::Point<dim> &p) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    Overlap
+    overlap(const ConvexPolytope<dim> &cell) const override;
+
+    bool
+    is_straight() const override;
+
+  protected:
+    VolumeMoments<dim>
+    moments_of_part(const ConvexPolytope<dim> &cell,
+                    const dealii::Point<dim>  &reference) const override;
+
+    void
+    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
+                       const double                   sign,
+                       std::vector<SignedPiece<dim>> &pieces) const override;
+
+  private:
+    dealii::Point<dim>    centre;
+    double                radius;
+    CurveSubdivision<dim> subdivision;
+  };
+
+
+
+  /**
+   * Solid circular cylinder. Its part of a polytope is the integral along the
+   * axis of exact slices, to 1e-10 of the polytope's volume; exact if the axis
+   * is parallel to the edges that the cylinder cuts.
+   */
+  class CylinderShape : public Shape<3>
+  {
+  public:
+    CylinderShape(const dealii::Point<3>    &start,
+                  const dealii::Point<3>    &end,
+                  const double               radius,
+                  const CurveSubdivision<3> &subdivision = {});
+
+    double
+    level(const dealii::Point<3> &p) const override;
+
+    dealii::BoundingBox<3>
+    bounding_box() const override;
+
+    Overlap
+    overlap(const ConvexPolytope<3> &cell) const override;
+
+    bool
+    is_straight() const override;
+
+  protected:
+    VolumeMoments<3>
+    moments_of_part(const ConvexPolytope<3> &cell,
+                    const dealii::Point<3>  &reference) const override;
+
+    void
+    add_pieces_of_part(const ConvexPolytope<3>     &cell,
+                       const double                 sign,
+                       std::vector<SignedPiece<3>> &pieces) const override;
+
+  private:
+    double
+    radial_level(const dealii::Point<3> &p) const;
+
+    ConvexPolytope<3>
+    between_ends(const ConvexPolytope<3> &cell) const;
+
+    dealii::Point<3>     start;
+    dealii::Tensor<1, 3> axis;
+    double               length;
+    double               radius;
+    CurveSubdivision<3>  subdivision;
+  };
+
+
+
+  /**
+   * Where an expression in x, y and z is positive. What is smaller than a
+   * sub-cell between its vertices is not seen. Throws InputError where the
+   * expression has no finite value.
+   */
+  template <int dim>
+  class ExpressionShape : public Shape<dim>
+  {
+  public:
+    /**
+     * @p place: where the text stands, for messages. Throws InputError if the
+     * text cannot be understood.
+     */
+    ExpressionShape(const std::string           &expression,
+                    const std::string           &place,
+                    const CurveSubdivision<dim> &subdivision = {});
+
+    double
+    level(const dealii::Point<dim> &p) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    Overlap
+    overlap(const ConvexPolytope<dim> &cell) const override;
+
+    bool
+    is_straight() const override;
+
+  protected:
+    void
+    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
+                       const double                   sign,
+                       std::vector<SignedPiece<dim>> &pieces) const override;
+
+  private:
+    Expression<dim>       expression;
+    CurveSubdivision<dim> subdivision;
+  };
+} // namespace moraine
+
+#endif

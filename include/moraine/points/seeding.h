@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_points_seeding_h
+#define moraine_points_seeding_h
+
+#include <moraine/points/shape.h>
+
+#include <deal.II/base/quadrature.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * How points lie in a full cell.
+   */
+  enum class PointLayout
+  {
+    gauss,
+    equal
+  };
+
+  /**
+   * A material point to be.
+   */
+  template <int dim>
+  struct SeededPoint
+  {
+    dealii::Point<dim> position;
+    double             volume;
+
+    /**
+     * Lengths of its sub-cell in the reference cell.
+     */
+    dealii::Tensor<1, dim> unit_lengths;
+
+    /**
+     * The body covers only a part of the sub-cell.
+     */
+    bool is_clipped;
+  };
+
+  /**
+   * Fills cells with points. The reference cell is divided into n^dim
+   * sub-cells, of equal lengths or with the weights of the Gauss rule as
+   * lengths. Each gives one point with volume and centroid of its part in the
+   * body, so that the volumes of all points sum up to the body's.
+   *
+   * With the Gauss layout a full sub-cell's point is the Gauss point, and in a
+   * full cell its volume is weight times detJ there: the points are the Gauss
+   * rule. (This sum is the cell's volume in 2D, and in 3D for parallelepipeds
+   * or n >= 2.)
+   *
+   * Parts below 1e-12 of the smaller of sub-cell and body's bounding box get
+   * no point.
+   */
+  template <int dim>
+  class CellSeeder
+  {
+  public:
+    using CellVertices = typename ConvexPolytope<dim>::CellVertices;
+
+    CellSeeder(const unsigned int n_per_direction, const PointLayout layout);
+
+    /**
+     * Append the points of @p shape in a cell. The numbers of the sub-cells
+     * run lexicographically, x fastest.
+     */
+    void
+    seed(const CellVertices            &cell,
+         const Shape<dim>              &shape,
+         std::vector<SeededPoint<dim>> &points) const;
+
+  private:
+    void
+    seed_full_cell(const CellVertices            &cell,
+                   std::vector<SeededPoint<dim>> &points) const;
+
+    CellVertices
+    sub_cell(const CellVertices &cell, const unsigned int q) const;
+
+    PointLayout layout;
+
+    /**
+     * The middles of the sub-cells or the Gauss points, with weights.
+     */
+    dealii::Quadrature<dim> rule;
+
+    std::vector<dealii::Point<dim>>     lower;
+    std::vector<dealii::Tensor<1, dim>> lengths;
+  };
+
+
+
+  /**
+   * Material points given in a CSV file: a header `x,y,volume` (3D:
+   * `x,y,z,volume`) and, if wanted, names of more columns; then one point per
+   * row. Empty lines are skipped.
+   */
+  template <int dim>
+  struct PointFile
+  {
+    /**
+     * Throws InputError, with file and line, for a header that is different, a
+     * row with a wrong number of values, a value that is not a finite number,
+     * a volume that is not > 0, and a file without points.
+     */
+    static PointFile
+    read(const std::string &file_name);
+
+    std::vector<dealii::Point<dim>> positions;
+    std::vector<double>             volumes;
+
+    std::vector<std::string> column_names;
+
+    /**
+     * The further values: one vector per point, in the order of the names.
+     */
+    std::vector<std::vector<double>> columns;
+  };
+} // namespace moraine
+
+#endif

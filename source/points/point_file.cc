@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+
+#include <moraine/points/seeding.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    [[noreturn]] void
+    refuse(const std::string &file_name,
+           const unsigned int line,
+           const std::string &what)
+    {
+      throw InputError(file_name + ":" + std::to_string(line) + ": " + what);
+    }
+
+    std::vector<std::string>
+    cells_of(const std::string &line)
+    {
+      auto cells = Utilities::split_string_list(line, ',');
+      // a comma at the end leaves an empty value, which the list does not keep
+      if (line.back() == ',')
+        cells.emplace_back();
+      return cells;
+    }
+
+    double
+    to_number(const std::string &cell,
+              const std::string &column,
+              const std::string &file_name,
+              const unsigned int line)
+    {
+      double number = std::numeric_limits<double>::quiet_NaN();
+      try
+        {
+          number = Utilities::string_to_double(cell);
+        }
+      catch (const ExceptionBase &)
+        {}
+      if (!std::isfinite(number))
+        refuse(file_name,
+               line,
+               "column '" + column + "': found '" + cell +
+                 "'. Allowed: a finite number");
+      return number;
+    }
+
+    template <int dim>
+    std::vector<std::string>
+    read_header(const std::string &text,
+                const std::string &file_name,
+                const unsigned int line)
+    {
+      const std::string allowed = dim == 2 ? "x,y,volume" : "x,y,z,volume";
+      const auto        names   = cells_of(text);
+      const auto        fixed   = Utilities::split_string_list(allowed, ',');
+      if (names.size() < fixed.size() ||
+          !std::equal(fixed.begin(), fixed.end(), names.begin()))
+        refuse(file_name,
+               line,
+               "found the header '" + text + "'. Allowed in " +
+                 std::to_string(dim) + "D: " + allowed +
+                 " and, if wanted, names of more columns");
+      for (auto name = names.begin(); name != names.end(); ++name)
+        if (name->empty() || std::find(names.begin(), name, *name) != name)
+          refuse(file_name,
+                 line,
+                 "the column name '" + *name + "' is " +
+                   (name->empty() ? "empty" : "given twice"));
+      return names;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PointFile<dim>
+  PointFile<dim>::read(const std::string &file_name)
+  {
+    std::ifstream in(file_name);
+    if (!in)
+      throw InputError("The point file '" + file_name + "' cannot be read.");
+    PointFile                points;
+    std::vector<std::string> names;
+    std::string              text;
+    for (unsigned int line = 1; std::getline(in, text); ++line)
+      {
+        text = Utilities::trim(text);
+        if (text.empty())
+          continue;
+        if (names.empty())
+          {
+            names = read_header<dim>(text, file_name, line);
+            points.column_names.assign(names.begin() + dim + 1, names.end());
+            continue;
+          }
+        const auto cells = cells_of(text);
+        if (cells.size() != names.size())
+          refuse(file_name,
+                 line,
+                 "found " + std::to_string(cells.size()) +
+                   " values. Allowed: " + std::to_string(names.size()) +
+                   ", one for each column of the header");
+        std::vector<double> row;
+        for (unsigned int i = 0; i < cells.size(); ++i)
+          row.push_back(to_number(cells[i], names[i], file_name, line));
+        if (!(row[dim] > 0.))
+          refuse(file_name,
+                 line,
+                 "column 'volume': found '" + cells[dim] +
+                   "'. Allowed: a number > 0");
+        Point<dim> position;
+        std::copy_n(row.begin(), dim, position.begin_raw());
+        points.positions.push_back(position);
+        points.volumes.push_back(row[dim]);
+        points.columns.emplace_back(row.begin() + dim + 1, row.end());
+      }
+    if (points.positions.empty())
+      throw InputError("The point file '" + file_name + "' has no points.");
+    return points;
+  }
+
+
+
+  template struct PointFile<2>;
+  template struct PointFile<3>;
+} // namespace moraine

@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/nearest.h>
+#include <moraine/core/patterns.h>
+
+#include <moraine/points/curved_shapes.h>
+#include <moraine/points/shape_library.h>
+#include <moraine/points/straight_shapes.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::vector<ShapeEntry> &
+    all_entries()
+    {
+      static const std::vector<ShapeEntry> entries{
+        {"box", "between two corners", {"Lower corner", "Upper corner"}, {}},
+        {"polygon",
+         "a polygon in the x-y plane; in 3D the prism over it",
+         {"Vertices", "Extent"},
+         {}},
+        {"disc", "(2D)", {"Centre", "Radius"}, {}},
+        {"ring", "(2D)", {"Centre", "Radius", "Inner radius"}, {}},
+        {"sphere", "(3D)", {"Centre", "Radius"}, {"Inner radius"}},
+        {"cylinder",
+         "(3D) solid or hollow",
+         {"Axis start", "Axis end", "Radius"},
+         {"Inner radius"}},
+        {"half-space", "all behind a plane", {"Point", "Normal"}, {}},
+        {"expression", "where it is positive", {"Expression"}, {}},
+        {"union", "in any operand", {"Operands"}, {}},
+        {"intersection", "in all operands", {"Operands"}, {}},
+        {"difference", "in the first operand only", {"Operands"}, {}},
+        {"points-from-file", "no shape: its points", {"Point file"}, {}}};
+      return entries;
+    }
+
+    std::string
+    text(const std::vector<double> &list)
+    {
+      std::ostringstream out;
+      out.precision(12);
+      for (unsigned int i = 0; i < list.size(); ++i)
+        out << (i == 0 ? "" : ", ") << list[i];
+      return out.str();
+    }
+
+    [[noreturn]] void
+    refuse(const std::string &section,
+           const std::string &key,
+           const std::string &found,
+           const std::string &allowed)
+    {
+      throw InputError(place(section, key) + ": found '" + found +
+                       "'. Allowed: " + allowed);
+    }
+
+    template <int dim>
+    std::map<std::string, bool>
+    given_keys(const ShapeParameters<dim> &p)
+    {
+      return {{"Lower corner", !p.lower_corner.empty()},
+              {"Upper corner", !p.upper_corner.empty()},
+              {"Vertices", !p.vertices.empty()},
+              {"Extent", !p.extent.empty()},
+              {"Centre", !p.centre.empty()},
+              {"Radius", p.radius != 0.},
+              {"Inner radius", p.inner_radius != 0.},
+              {"Axis start", !p.axis_start.empty()},
+              {"Axis end", !p.axis_end.empty()},
+              {"Point", !p.point.empty()},
+              {"Normal", !p.normal.empty()},
+              {"Expression", !p.expression.empty()},
+              {"Operands", !p.operands.empty()},
+              {"Point file", !p.point_file.empty()}};
+    }
+
+    // the keys given must be those of the shape
+    template <int dim>
+    void
+    check_keys(const ShapeParameters<dim> &p, const std::string &section)
+    {
+      std::vector<std::string> names;
+      const ShapeEntry        *entry = nullptr;
+      for (const auto &candidate : shape_entries<dim>())
+        {
+          names.push_back(candidate.name);
+          if (candidate.name == p.shape)
+            entry = &candidate;
+        }
+      if (entry == nullptr)
+        throw InputError(place(section, "Shape") + ": found '" + p.shape +
+                         "', not known in " + std::to_string(dim) + "D" +
+                         suggest(p.shape, names));
+      const auto has = [](const std::vector<std::string> &keys,
+                          const std::string              &key) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
+      };
+      for (const auto &[key, given] : given_keys(p))
+        {
+          if (!given && has(entry->needs, key))
+            throw InputError(place(section, key) +
+                             ": not set, or zero. The shape '" + p.shape +
+                             "' needs: " + list_of(entry->needs));
+          if (given && !has(entry->needs, key) && !has(entry->may_have, key))
+            throw InputError(
+              place(section, key) + ": set, but the shape '" + p.shape +
+              "' does not use it. It uses: " + list_of(entry->needs) +
+              (entry->may_have.empty() ?
+                 "" :
+                 " and, if wanted, " + list_of(entry->may_have)));
+        }
+    }
+
+    template <int dim>
+    Point<dim>
+    to_point(const std::vector<double> &list,
+             const std::string         &section,
+             const std::string         &key)
+    {
+      if (list.size() != dim)
+        refuse(section, key, text(list), std::to_string(dim) + " numbers");
+      Point<dim> p;
+      std::copy(list.begin(), list.end(), p.begin_raw());
+      return p;
+    }
+
+    std::vector<Point<2>>
+    to_vertices(const std::string &list, const std::string &section)
+    {
+      const std::string     allowed = "at least three 'x y' separated by ';'";
+      std::vector<Point<2>> vertices;
+      for (const auto &vertex : Utilities::split_string_list(list, ';'))
+        {
+          std::string spaced = vertex;
+          std::replace(spaced.begin(), spaced.end(), ',', ' ');
+          std::istringstream in(spaced);
+          Point<2>           x;
+          std::string        rest;
+          if (!(in >> x[0] >> x[1]) || in >> rest || !std::isfinite(x.norm()))
+            refuse(section, "Vertices", vertex, allowed);
+          vertices.push_back(x);
+        }
+      if (vertices.size() < 3)
+        refuse(section, "Vertices", list, allowed);
+      const auto [i, j]    = first_crossing(vertices);
+      const unsigned int n = vertices.size();
+      if (i == n)
+        return vertices;
+      const auto edge = [n](const unsigned int k) {
+        return std::to_string(k + 1) + "-" + std::to_string((k + 1) % n + 1);
+      };
+      throw InputError(
+        place(section, "Vertices") + ": " +
+        (i == j ?
+           "vertex " + std::to_string(i + 1) + " is repeated by vertex " +
+             std::to_string((i + 1) % n + 1) :
+           "the edges between vertices " + edge(i) + " and " + edge(j) +
+             " meet") +
+        ". Allowed: a polygon that does not touch itself, without the first "
+        "vertex repeated at the end");
+    }
+
+    template <int dim>
+    std::shared_ptr<const Shape<dim>>
+    make_polygon(const ShapeParameters<dim> &p, const std::string &section)
+    {
+      const auto vertices = to_vertices(p.vertices, section);
+      if constexpr (dim == 3)
+        {
+          if (p.extent.size() != 2 || !(p.extent[0] < p.extent[1]))
+            refuse(section, "Extent", text(p.extent), "lower z, upper z");
+          return std::make_shared<PolygonShape<3>>(vertices,
+                                                   std::make_pair(p.extent[0],
+                                                                  p.extent[1]));
+        }
+      else
+        return std::make_shared<PolygonShape<2>>(vertices);
+    }
+
+    template <int dim>
+    void
+    check_radii(const ShapeParameters<dim> &p, const std::string &section)
+    {
+      if (!(p.radius > 0.))
+        refuse(section, "Radius", text({p.radius}), "a number > 0");
+      if (!(p.inner_radius >= 0. && p.inner_radius < p.radius))
+        refuse(section,
+               "Inner radius",
+               text({p.inner_radius}),
+               "from 0 to less than Radius (" + text({p.radius}) + ")");
+    }
+
+    // a round shape, hollow if there is an inner radius
+    template <int dim, typename Make>
+    std::shared_ptr<const Shape<dim>>
+    make_round(const ShapeParameters<dim> &p,
+               const std::string          &section,
+               const Make                 &make)
+    {
+      check_radii(p, section);
+      std::shared_ptr<const Shape<dim>> outer = make(p.radius);
+      if (p.inner_radius == 0.)
+        return outer;
+      return std::make_shared<HollowShape<dim>>(outer, make(p.inner_radius));
+    }
+
+    template <int dim>
+    std::shared_ptr<const Shape<dim>>
+    make_box(const ShapeParameters<dim> &p, const std::string &section)
+    {
+      const auto lower = to_point<dim>(p.lower_corner, section, "Lower corner");
+      const auto upper = to_point<dim>(p.upper_corner, section, "Upper corner");
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!(lower[d] < upper[d]))
+          refuse(section,
+                 "Upper corner",
+                 text(p.upper_corner),
+                 "more than Lower corner (" + text(p.lower_corner) +
+                   ") in each coordinate");
+      return std::make_shared<ConvexShape<dim>>(
+        ConvexShape<dim>::box(lower, upper));
+    }
+
+    template <int dim>
+    std::shared_ptr<const Shape<dim>>
+    make_cylinder(const ShapeParameters<dim> &p, const std::string &section)
+    {
+      const auto start = to_point<dim>(p.axis_start, section, "Axis start");
+      const auto end   = to_point<dim>(p.axis_end, section, "Axis end");
+      if (start == end)
+        refuse(section,
+               "Axis end",
+               text(p.axis_end),
+               "another point than Axis "
+               "start");
+      if constexpr (dim == 3)
+        return make_round(p, section, [&](const double radius) {
+          return std::make_shared<CylinderShape>(start, end, radius);
+        });
+      else
+        Assert(false, ExcInternalError());
+      return nullptr;
+    }
+
+    template <int dim>
+    std::shared_ptr<const Shape<dim>>
+    combine(const ShapeParameters<dim> &p,
+            const NamedShapes<dim>     &known,
+            const std::string          &section)
+    {
+      using Operation = typename CombinedShape<dim>::Operation;
+      if (p.operands.size() < 2)
+        refuse(section, "Operands", p.operands[0], "two or more names");
+      std::vector<std::string> names;
+      for (const auto &shape : known)
+        names.push_back(shape.first);
+      std::vector<std::shared_ptr<const Shape<dim>>> shapes;
+      for (const auto &name : p.operands)
+        {
+          const auto shape = known.find(name);
+          if (shape == known.end())
+            throw InputError(place(section, "Operands") + ": found '" + name +
+                             "', which is not the name of a body" +
+                             suggest(name, names));
+          if (shape->second == nullptr)
+            refuse(section,
+                   "Operands",
+                   name,
+                   "bodies with a shape; the points of this one come from a "
+                   "file");
+          shapes.push_back(shape->second);
+        }
+      // a - b - c = a - (b + c)
+      const bool      is_difference = p.shape == "difference";
+      const Operation operation =
+        p.shape == "intersection" ? Operation::intersect : Operation::unite;
+      auto result = shapes[is_difference ? 1 : 0];
+      for (unsigned int i = is_difference ? 2 : 1; i < shapes.size(); ++i)
+        result =
+          std::make_shared<CombinedShape<dim>>(operation, result, shapes[i]);
+      if (is_difference)
+        result = std::make_shared<CombinedShape<dim>>(Operation::subtract,
+                                                      shapes[0],
+                                                      result);
+      return result;
+    }
+
+    template <int dim>
+    std::shared_ptr<const Shape<dim>>
+    make_unplaced(const ShapeParameters<dim> &p,
+                  const NamedShapes<dim>     &known,
+                  const std::string          &section)
+    {
+      if (p.shape == "box")
+        return make_box(p, section);
+      if (p.shape == "polygon")
+        return make_polygon(p, section);
+      if (p.shape == "disc" || p.shape == "ring" || p.shape == "sphere")
+        {
+          const auto centre = to_point<dim>(p.centre, section, "Centre");
+          return make_round(p, section, [&](const double radius) {
+            return std::make_shared<BallShape<dim>>(centre, radius);
+          });
+        }
+      if (p.shape == "cylinder")
+        return make_cylinder(p, section);
+      if (p.shape == "half-space")
+        {
+          const auto normal = to_point<dim>(p.normal, section, "Normal");
+          if (normal.norm() == 0.)
+            refuse(section, "Normal", text(p.normal), "a vector that is not 0");
+          return std::make_shared<ConvexShape<dim>>(
+            ConvexShape<dim>::half_space(
+              to_point<dim>(p.point, section, "Point"), normal));
+        }
+      if (p.shape == "expression")
+        return std::make_shared<ExpressionShape<dim>>(p.expression,
+                                                      place(section,
+                                                            "Expression"));
+      return combine(p, known, section);
+    }
+
+    // Makes bodies in the order their operands ask for.
+    template <int dim>
+    class ShapeMaker
+    {
+    public:
+      ShapeMaker(const std::map<std::string, ShapeParameters<dim>> &bodies,
+                 const std::string                                 &section)
+        : bodies(bodies)
+        , section(section)
+      {}
+
+      void
+      make(const std::string &name, const std::string &asked_in)
+      {
+        if (made.count(name) > 0)
+          return;
+        if (!under_way.insert(name).second)
+          refuse(asked_in,
+                 "Operands",
+                 name,
+                 "bodies that are not themselves made from this one");
+        const auto        body = bodies.find(name);
+        const std::string here = section + "/" + name;
+        for (const auto &operand : body->second.operands)
+          if (bodies.count(operand) > 0)
+            make(operand, here);
+          else
+            refuse_unknown(operand, here);
+        made[name] = make_shape(body->second, made, here);
+        under_way.erase(name);
+      }
+
+      NamedShapes<dim> made;
+
+    private:
+      [[noreturn]] void
+      refuse_unknown(const std::string &operand, const std::string &here) const
+      {
+        std::vector<std::string> names;
+        for (const auto &body : bodies)
+          names.push_back(body.first);
+        throw InputError(place(here, "Operands") + ": found '" + operand +
+                         "', which is not the name of a body" +
+                         suggest(operand, names));
+      }
+
+      const std::map<std::string, ShapeParameters<dim>> &bodies;
+      const std::string                                  section;
+      std::set<std::string>                              under_way;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  ShapeParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    std::vector<std::string> names;
+    std::string              text = "The region the body fills:";
+    for (const auto &entry : shape_entries<dim>())
+      {
+        names.push_back(entry.name);
+        text += " " + entry.name + " = " + entry.description + ";";
+      }
+    text.back()              = '.';
+    const auto point_pattern = patterns::numbers(0, dim);
+    prm.add_parameter("Shape", shape, text, patterns::selection(names));
+    prm.add_parameter("Lower corner",
+                      lower_corner,
+                      "Smallest coordinates of a box [length]",
+                      point_pattern);
+    prm.add_parameter("Upper corner",
+                      upper_corner,
+                      "Largest coordinates of a box [length]",
+                      point_pattern);
+    prm.add_parameter("Vertices",
+                      vertices,
+                      "Corners of a polygon in order, 'x y; x y; ...' "
+                      "[length]. It may be non-convex but must not touch "
+                      "itself");
+    if (dim == 3)
+      prm.add_parameter("Extent",
+                        extent,
+                        "Lower and upper z of the prism over a polygon "
+                        "[length]",
+                        patterns::numbers(0, 2));
+    prm.add_parameter("Centre",
+                      centre,
+                      "Centre of a round shape [length]",
+                      point_pattern);
+    prm.add_parameter("Radius",
+                      radius,
+                      "(Outer) radius of a round shape [length]",
+                      patterns::non_negative());
+    prm.add_parameter("Inner radius",
+                      inner_radius,
+                      "Radius of the hole in a round shape [length]",
+                      patterns::non_negative());
+    if (dim == 3)
+      {
+        prm.add_parameter("Axis start",
+                          axis_start,
+                          "Centre of one end of a cylinder [length]",
+                          point_pattern);
+        prm.add_parameter("Axis end",
+                          axis_end,
+                          "Centre of the other end of a cylinder [length]",
+                          point_pattern);
+      }
+    prm.add_parameter("Point",
+                      point,
+                      "A point on the plane that bounds a half-space [length]",
+                      point_pattern);
+    prm.add_parameter("Normal",
+                      normal,
+                      "Direction out of a half-space; any length",
+                      point_pattern);
+    prm.add_parameter("Expression",
+                      expression,
+                      "Positive inside the body; in x, y (and z), muParser "
+                      "syntax. Details smaller than a point's share of its "
+                      "cell may be missed");
+    prm.add_parameter("Operands",
+                      operands,
+                      "Names of the bodies that a union, intersection or "
+                      "difference is made from, as they are placed");
+    prm.add_parameter("Point file",
+                      point_file,
+                      "CSV file with columns x, y (, z), volume and, if "
+                      "wanted, more");
+    prm.add_parameter("Rotation angle",
+                      rotation_angle,
+                      "Turns the body counter-clockwise [degrees]",
+                      patterns::number());
+    prm.add_parameter("Rotation centre",
+                      rotation_centre,
+                      "A point that the rotation leaves in place; the origin "
+                      "if not set [length]",
+                      point_pattern);
+    if (dim == 3)
+      prm.add_parameter("Rotation axis",
+                        rotation_axis,
+                        "Direction of the axis of rotation; any length",
+                        point_pattern);
+    prm.add_parameter("Translation",
+                      translation,
+                      "Moves the body after the rotation [length]",
+                      point_pattern);
+  }
+
+
+
+  template <int dim>
+  bool
+  ShapeParameters<dim>::is_point_file() const
+  {
+    return shape == "points-from-file";
+  }
+
+
+
+  template <int dim>
+  const std::vector<ShapeEntry> &
+  shape_entries()
+  {
+    static const std::vector<ShapeEntry> entries = [] {
+      const std::string       other = dim == 2 ? "(3D)" : "(2D)";
+      std::vector<ShapeEntry> here;
+      for (ShapeEntry entry : all_entries())
+        if (entry.description.find(other) == std::string::npos)
+          {
+            if (dim == 2 && entry.name == "polygon")
+              entry.needs = {"Vertices"};
+            here.push_back(entry);
+          }
+      return here;
+    }();
+    return entries;
+  }
+
+
+
+  template <int dim>
+  Placement<dim>
+  make_placement(const ShapeParameters<dim> &p, const std::string &section)
+  {
+    Point<dim>     centre;
+    Tensor<1, dim> axis, translation;
+    if (!p.rotation_centre.empty())
+      centre = to_point<dim>(p.rotation_centre, section, "Rotation centre");
+    if (!p.translation.empty())
+      translation = to_point<dim>(p.translation, section, "Translation");
+    if (p.rotation_angle == 0.)
+      {
+        Placement<dim> placed;
+        placed.shift = translation;
+        return placed;
+      }
+    if constexpr (dim == 3)
+      {
+        if (p.rotation_axis.empty())
+          throw InputError(place(section, "Rotation axis") +
+                           ": not set. A rotation in 3D needs it");
+        axis = to_point<dim>(p.rotation_axis, section, "Rotation axis");
+        if (axis.norm() == 0.)
+          refuse(section,
+                 "Rotation axis",
+                 text(p.rotation_axis),
+                 "a vector that is not 0");
+      }
+    return {p.rotation_angle, centre, axis, translation};
+  }
+
+
+
+  template <int dim>
+  std::shared_ptr<const Shape<dim>>
+  make_shape(const ShapeParameters<dim> &p,
+             const NamedShapes<dim>     &known,
+             const std::string          &section)
+  {
+    check_keys(p, section);
+    const Placement<dim> placement = make_placement(p, section);
+    if (p.is_point_file())
+      return nullptr;
+    const auto shape = make_unplaced(p, known, section);
+    if (p.rotation_angle == 0. && p.translation.empty())
+      return shape;
+    return std::make_shared<MovedShape<dim>>(shape, placement);
+  }
+
+
+
+  template <int dim>
+  NamedShapes<dim>
+  make_shapes(const std::map<std::string, ShapeParameters<dim>> &bodies,
+              const std::string                                 &section)
+  {
+    ShapeMaker<dim> maker(bodies, section);
+    for (const auto &body : bodies)
+      maker.make(body.first, section);
+    return maker.made;
+  }
+
+
+
+  template struct ShapeParameters<2>;
+  template struct ShapeParameters<3>;
+  template const std::vector<ShapeEntry> &
+  shape_entries<2>();
+  template const std::vector<ShapeEntry> &
+  shape_entries<3>();
+  template Placement<2>
+  make_placement(const ShapeParameters<2> &, const std::string &);
+  template Placement<3>
+  make_placement(const ShapeParameters<3> &, const std::string &);
+  template std::shared_ptr<const Shape<2>>
+  make_shape(const ShapeParameters<2> &,
+             const NamedShapes<2> &,
+             const std::string &);
+  template std::shared_ptr<const Shape<3>>
+  make_shape(const ShapeParameters<3> &,
+             const NamedShapes<3> &,
+             const std::string &);
+  template NamedShapes<2>
+  make_shapes(const std::map<std::string, ShapeParameters<2>> &,
+              const std::string &);
+  template NamedShapes<3>
+  make_shapes(const std::map<std::string, ShapeParameters<3>> &,
+              const std::string &);
+} // namespace moraine
