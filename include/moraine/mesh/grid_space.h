@@ -71,7 +71,13 @@ namespace moraine
     const unsigned int *
     cell_nodes(const CellIterator &cell) const
     {
-      const unsigned int slot = cell_slot[cell->active_cell_index()];
+      return cell_nodes(cell->active_cell_index());
+    }
+
+    const unsigned int *
+    cell_nodes(const unsigned int active_cell_index) const
+    {
+      const unsigned int slot = cell_slot[active_cell_index];
       Assert(slot != no_cell, dealii::ExcInternalError());
       return &nodes_of_cells[slot * n_nodes_per_cell];
     }

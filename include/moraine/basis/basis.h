@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_basis_basis_h
+#define moraine_basis_basis_h
+
+#include <moraine/basis/stencil.h>
+#include <moraine/mesh/grid_space.h>
+#include <moraine/points/point_set.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Turns a point into the nodes it touches with @f$N@f$ and @f$\nabla N@f$.
+   * Points with the same nodes form a group; a group is evaluated at once, so
+   * that what is outside the loop over its points costs little.
+   */
+  template <int dim>
+  class Basis
+  {
+  public:
+    Basis(const GridSpace<dim> &space, const PointSet<dim> &points)
+      : space(space)
+      , points(points)
+    {}
+
+    virtual ~Basis() = default;
+
+    /** Give the points what the basis stores with them. */
+    virtual void
+    initialise_points(PointSet<dim> &) const
+    {}
+
+    /**
+     * Flag the cells that carry unknowns for the points of this rank.
+     * @param active one flag per active_cell_index().
+     */
+    virtual void
+    mark_cells(std::vector<unsigned char> &active) const;
+
+    /**
+     * Group the points, after they were found and cells were activated.
+     * @return whether the nodes that occur together changed, so that the
+     * sparsity pattern has to follow.
+     */
+    virtual bool
+    group_points() = 0;
+
+    unsigned int
+    n_groups() const
+    {
+      return groups.size();
+    }
+
+    /** The nodes of a group, without evaluating anything. */
+    dealii::ArrayView<const unsigned int>
+    group_nodes(const unsigned int group) const
+    {
+      return {&group_node_list[groups[group].first_node],
+              groups[group].n_nodes};
+    }
+
+    /** Fill @p block with the stencils of group @p group. */
+    virtual void
+    evaluate(const unsigned int group, StencilBlock<dim> &block) const = 0;
+
+  protected:
+    struct Group
+    {
+      unsigned int first_point; ///< in order
+      unsigned int n_points;
+      unsigned int first_node; ///< in group_node_list
+      unsigned int n_nodes;
+    };
+
+    const GridSpace<dim> &space;
+    const PointSet<dim>  &points;
+
+    std::vector<Group>        groups;
+    std::vector<unsigned int> order;
+    std::vector<unsigned int> group_node_list;
+  };
+
+
+
+  /**
+   * The shape functions of the cell the point lies in, Q1 or Q2: standard MPM
+   * if the points move through the mesh, FE if they are Gauss points that stay
+   * where they are in their cell.
+   */
+  template <int dim, int degree>
+  class CellBasis : public Basis<dim>
+  {
+  public:
+    using Basis<dim>::Basis;
+
+    bool
+    group_points() override;
+
+    void
+    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+  };
+
+
+
+  /**
+   * Generalised interpolation (GIMP): the point is a box with half lengths
+   * @f$l_p@f$ that do not change with small strain, and its functions are the
+   * averages of the Q1 functions over the box,
+   * @f$S_{ip} = \frac{1}{V_p}\int_{\Omega_p} N_i \,dx@f$ (Bardenhagen and
+   * Kober 2004). Needs a mesh of equal boxes.
+   */
+  template <int dim>
+  class GimpBasis : public Basis<dim>
+  {
+  public:
+    /** Ask for what the basis stores with a point: `half_length`. */
+    static void
+    request_fields(PointFields &fields)
+    {
+      fields.request("half_length", dim, "length");
+    }
+
+    /**
+     * @param points_per_direction divisions of a cell at seeding, which give
+     * the boxes their shape.
+     * @throws InputError if the mesh is not a box of equal cells.
+     */
+    GimpBasis(const GridSpace<dim> &space,
+              const PointSet<dim>  &points,
+              const unsigned int    points_per_direction);
+
+    /**
+     * Half lengths in the proportions of the sub-cell the point was seeded in,
+     * scaled so that the box has the point's volume. At most half a cell.
+     */
+    void
+    initialise_points(PointSet<dim> &points) const override;
+
+    void
+    mark_cells(std::vector<unsigned char> &active) const override;
+
+    bool
+    group_points() override;
+
+    void
+    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+
+  private:
+    /** First and last cell the box overlaps, by direction. */
+    struct Window
+    {
+      std::array<unsigned int, dim> first;
+      std::array<unsigned int, dim> last;
+
+      bool
+      operator<(const Window &other) const
+      {
+        return std::tie(first, last) < std::tie(other.first, other.last);
+      }
+    };
+
+    Window
+    window_of(const unsigned int point) const;
+
+    unsigned int
+    cell_number(const std::array<unsigned int, dim> &ijk) const;
+
+    void
+    append_nodes(const Window &window);
+
+    const BoxGrid<dim>        grid;
+    const unsigned int        points_per_direction;
+    const unsigned int        half_length_offset;
+    std::vector<unsigned int> active_index_of_box_cell;
+    std::vector<Window>       windows;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_solver_linear_solver_h
+#define moraine_solver_linear_solver_h
+
+#include <moraine/core/linear_algebra.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace moraine
+{
+  /**
+   * Keys of the section "Linear solver".
+   */
+  struct LinearSolverParameters
+  {
+    /** auto, direct, amg-cg or gmres. */
+    std::string solver = "auto";
+
+    /** Of iterative solvers: norm of b - A x over norm of b. */
+    double relative_tolerance = 1e-10;
+
+    /** Of iterative solvers. */
+    unsigned int maximum_iterations = 500;
+
+    /** In 2D, auto solves directly up to this many unknowns. */
+    unsigned int direct_limit_2d = 100000;
+
+    /** In 3D, auto solves directly up to this many unknowns. */
+    unsigned int direct_limit_3d = 10000;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+
+
+  /**
+   * What one linear solve did.
+   */
+  struct LinearReport
+  {
+    bool converged = false;
+
+    /** Iterations of CG or GMRES; for a direct solver 0. */
+    unsigned int iterations = 0;
+
+    /** Norm of b - A x over norm of b, recomputed from the solution. */
+    double relative_residual = 0.;
+
+    /** What solved it in the end, for example "direct (Mumps)". */
+    std::string solver;
+
+    /** Why it failed, or why auto fell back. Empty if all went well. */
+    std::string message;
+  };
+
+
+
+  /**
+   * Solves K dx = r by a factorisation or by a preconditioned Krylov method.
+   * What set_up() builds is kept until the next set_up(), so that many right
+   * hand sides can be solved with it.
+   *
+   * Failures (a singular matrix, no convergence) are reported, not thrown: the
+   * residual is always recomputed from the solution, and an answer that is not
+   * finite or does not satisfy the equations is never called converged.
+   */
+  class LinearSolver
+  {
+  public:
+    /**
+     * @param dim 2 or 3; only chooses the limit of auto.
+     */
+    LinearSolver(const LinearSolverParameters &parameters,
+                 const unsigned int            dim);
+
+    ~LinearSolver();
+
+    /**
+     * Factorise @p matrix or build its preconditioner. The matrix must live
+     * until the next set_up().
+     *
+     * @param near_null_space Rigid-body modes for algebraic multigrid; may be
+     * empty.
+     */
+    void
+    set_up(const LA::SparseMatrix        &matrix,
+           const bool                     symmetric,
+           const std::vector<LA::Vector> &near_null_space);
+
+    /**
+     * Solve with what set_up() built. The start value of @p x is not used.
+     */
+    LinearReport
+    solve(LA::Vector &x, const LA::Vector &b);
+
+    /**
+     * How many times set_up() was called.
+     */
+    unsigned int
+    n_set_ups() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace moraine
+
+#endif

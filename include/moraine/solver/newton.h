@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_solver_newton_h
+#define moraine_solver_newton_h
+
+#include <moraine/solver/linear_solver.h>
+#include <moraine/solver/nonlinear_system.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Keys of the section "Newton".
+   */
+  struct NewtonParameters
+  {
+    /** Norm of the residual over NonlinearSystem::force_scale(). */
+    double tolerance = 1e-9;
+
+    /** A residual norm (force) below this is zero whatever the scale. */
+    double absolute_tolerance = 1e-14;
+
+    unsigned int maximum_iterations = 25;
+
+    bool line_search = true;
+
+    /** Updates of carried multipliers in one step. */
+    unsigned int maximum_augmentations = 30;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+
+
+  enum class NewtonStatus
+  {
+    converged,
+    diverged,
+    linear_solver_failed,
+    too_many_iterations,
+    not_a_number
+  };
+
+  /**
+   * The status in words, for messages.
+   */
+  std::string
+  to_string(const NewtonStatus status);
+
+
+
+  /**
+   * What one nonlinear solve did.
+   */
+  struct NewtonReport
+  {
+    NewtonStatus status = NewtonStatus::converged;
+
+    /** Corrections computed, those of augmentations included. */
+    unsigned int iterations = 0;
+
+    unsigned int linear_iterations = 0;
+
+    unsigned int augmentations = 0;
+
+    /** Relative residual at the start and after each correction. */
+    std::vector<double> residuals;
+
+    /**
+     * Slope of log(residual) over the last three residuals above round-off
+     * before the first augmentation; zero if there are fewer than three.
+     */
+    double observed_order = 0.;
+
+    /** The linear solver's name. */
+    std::string linear_solver;
+
+    /** One sentence on what went wrong, or what the linear solver noted. */
+    std::string message;
+
+    bool
+    converged() const
+    {
+      return status == NewtonStatus::converged;
+    }
+  };
+
+
+
+  /**
+   * Newton's method with backtracking. A step that does not converge is a
+   * status in the report, never an exception. A linear problem costs one
+   * tangent, one linear solve and one more residual.
+   */
+  class Newton
+  {
+  public:
+    explicit Newton(const NewtonParameters &parameters);
+
+    /**
+     * Solve r(x) = 0 from system.initial_guess(). On return @p x is the last
+     * iterate; it is a solution only if the report says converged.
+     */
+    NewtonReport
+    solve(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
+
+  private:
+    const NewtonParameters parameters;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_solver_nonlinear_system_h
+#define moraine_solver_nonlinear_system_h
+
+#include <moraine/core/linear_algebra.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The equations of one step as the solver sees them: find the increment x
+   * with r(x) = 0, where r = external + boundary - internal forces and
+   * K = -dr/dx, so that Newton's correction is K dx = r.
+   *
+   * The system owns residual and tangent and condenses constraints itself:
+   * constrained rows of the residual are zero. All vectors are fully
+   * distributed (owned entries only).
+   */
+  class NonlinearSystem
+  {
+  public:
+    virtual ~NonlinearSystem() = default;
+
+    /**
+     * Size @p x and fill it with the start of the iteration. It satisfies the
+     * constraints with their prescribed values; everything later is
+     * homogeneous.
+     */
+    virtual void
+    initial_guess(LA::Vector &x) const = 0;
+
+    /**
+     * Compute the residual at @p x and, if asked, the tangent. Entries that
+     * are not finite say that the state at @p x does not exist (an inverted
+     * point, say); Newton then takes a shorter step.
+     */
+    virtual void
+    assemble(const LA::Vector &x, const bool tangent) = 0;
+
+    /**
+     * The tangent of the last assemble(x, true).
+     */
+    virtual const LA::SparseMatrix &
+    tangent() const = 0;
+
+    /**
+     * The residual of the last assemble().
+     */
+    virtual const LA::Vector &
+    residual() const = 0;
+
+    /**
+     * The norm of the forces that should balance, as of the last assemble();
+     * the residual is measured against it.
+     */
+    virtual double
+    force_scale() const = 0;
+
+    /**
+     * Whether the tangent is symmetric.
+     */
+    virtual bool
+    symmetric() const = 0;
+
+    /**
+     * Rigid-body modes on the unknowns, zero where constrained. Empty if not
+     * known.
+     */
+    virtual const std::vector<LA::Vector> &
+    near_null_space() const = 0;
+
+    /**
+     * Fill the constrained entries of a correction from the free ones
+     * (homogeneous constraints).
+     */
+    virtual void
+    apply_constraints(LA::Vector &dx) const = 0;
+
+    /**
+     * Called at a converged @p x: update what the system carries along
+     * (multipliers of an augmented Lagrangian). True asks for another pass
+     * with the same tangent.
+     */
+    virtual bool
+    augment(const LA::Vector &)
+    {
+      return false;
+    }
+  };
+} // namespace moraine
+
+#endif

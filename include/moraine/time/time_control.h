@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_time_time_control_h
+#define moraine_time_time_control_h
+
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace moraine
+{
+  /**
+   * Keys of the section "Time".
+   */
+  struct TimeParameters
+  {
+    double start_time = 0.;
+
+    double end_time = 1.;
+
+    /** Equal steps from start to end; their ends are always hit exactly. */
+    unsigned int n_steps = 1;
+
+    /** As a fraction of one step; a cut below it ends the run. */
+    double smallest_step = 1e-3;
+
+    /** As a fraction of one step, at most 1; also the first size tried. */
+    double largest_step = 1.;
+
+    /** Factor on the size after an easy step. */
+    double growth = 2.;
+
+    /** Factor on the size after a rejected step. */
+    double cut = 0.5;
+
+    /** A step with at most this many Newton iterations is easy. */
+    unsigned int easy_iterations = 5;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * Throws InputError, naming @p section, if values contradict each other.
+     */
+    void
+    check(const std::string &section = "Time") const;
+  };
+
+
+
+  /**
+   * Where the run is in time, and how far the next step goes.
+   *
+   * The interval is divided by stops: the ends of the user's steps and the
+   * times asked for. Between two stops, what remains is split into equal parts
+   * no larger than the current size, so that stops are hit exactly and no
+   * sliver of a step is left over.
+   *
+   *     while (!time.finished())
+   *       {
+   *         time.next();
+   *         // solve for time.trial_time()
+   *         if (converged)
+   *           time.accept(iterations);
+   *         else if (!time.reject(reason))
+   *           throw ComputationError(time.message());
+   *       }
+   */
+  class TimeControl
+  {
+  public:
+    /**
+     * @param stops Times within the interval that are to be hit exactly, in
+     * any order; others are ignored.
+     */
+    explicit TimeControl(const TimeParameters      &parameters,
+                         const std::vector<double> &stops = {});
+
+    /** Choose the next trial time. */
+    void
+    next();
+
+    /** The trial time becomes the time; the size may grow. */
+    void
+    accept(const unsigned int iterations);
+
+    /**
+     * Forget the trial time and cut the size. False if the size would fall
+     * below the smallest: then message() tells the story.
+     */
+    bool
+    reject(const std::string &reason);
+
+    bool
+    finished() const;
+
+    /** Of the last accepted step. */
+    double
+    time() const;
+
+    double
+    trial_time() const;
+
+    /** trial_time() - time() */
+    double
+    step_size() const;
+
+    /** Whether time() ends one of the user's steps. */
+    bool
+    at_step_end() const;
+
+    /** The user's steps completed. */
+    unsigned int
+    n_completed_steps() const;
+
+    unsigned int
+    n_accepted() const;
+
+    unsigned int
+    n_rejected() const;
+
+    const std::string &
+    message() const;
+
+  private:
+    struct Stop
+    {
+      double time;
+      bool   ends_step;
+    };
+
+    const TimeParameters parameters;
+    const double         one_step;
+    std::vector<Stop>    stops;
+    unsigned int         next_stop = 0;
+    double               current;
+    double               trial;
+    double               size;
+    bool                 trial_is_stop   = false;
+    bool                 on_step_end     = false;
+    unsigned int         completed_steps = 0;
+    unsigned int         accepted        = 0;
+    unsigned int         rejected        = 0;
+    std::string          text;
+  };
+
+
+
+  /**
+   * Keys that say after which accepted steps results are written.
+   */
+  struct OutputTimes
+  {
+    /** steps, all or end. */
+    std::string when = "steps";
+
+    /** With steps: after every n-th of the user's steps, and at the end. */
+    unsigned int every = 1;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /** Whether results are due at @p time, just after TimeControl::accept(). */
+    bool
+    due(const TimeControl &time) const;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/basis/basis.h>
+#include <moraine/mesh/cell_shapes.h>
+
+#include <numeric>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  Basis<dim>::mark_cells(std::vector<unsigned char> &active) const
+  {
+    for (const auto &in_cell : points.cells())
+      active[in_cell.cell->active_cell_index()] = 1;
+  }
+
+
+
+  template <int dim, int degree>
+  bool
+  CellBasis<dim, degree>::group_points()
+  {
+    constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
+    this->groups.clear();
+    this->group_node_list.clear();
+    this->order.resize(this->points.n_local());
+    std::iota(this->order.begin(), this->order.end(), 0u);
+    for (const auto &in_cell : this->points.cells())
+      {
+        this->groups.push_back(
+          {in_cell.first,
+           in_cell.last - in_cell.first,
+           static_cast<unsigned int>(this->group_node_list.size()),
+           n});
+        const unsigned int *nodes = this->space.cell_nodes(in_cell.cell);
+        this->group_node_list.insert(this->group_node_list.end(),
+                                     nodes,
+                                     nodes + n);
+      }
+    // The nodes of active cells couple anyway.
+    return false;
+  }
+
+
+
+  template <int dim, int degree>
+  void
+  CellBasis<dim, degree>::evaluate(const unsigned int group,
+                                   StencilBlock<dim> &block) const
+  {
+    constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
+    const auto            &g = this->groups[group];
+    block.reinit(g.n_points,
+                 &this->order[g.first_point],
+                 n,
+                 &this->group_node_list[g.first_node]);
+
+    Point<dim> X[n];
+    for (unsigned int a = 0; a < n; ++a)
+      X[a] = this->space.node_position(block.nodes[a]);
+    for (unsigned int p = 0; p < g.n_points; ++p)
+      CellShapes<dim, degree>::evaluate(this->points.reference_position(
+                                          block.points[p]),
+                                        X,
+                                        &block.values[p * n],
+                                        &block.gradients[p * n]);
+  }
+
+
+
+  template class Basis<2>;
+  template class Basis<3>;
+  template class CellBasis<2, 1>;
+  template class CellBasis<2, 2>;
+  template class CellBasis<3, 1>;
+  template class CellBasis<3, 2>;
+} // namespace moraine
