@@ -29,6 +29,17 @@ namespace moraine
   public:
     using std::runtime_error::runtime_error;
   };
+
+  /**
+   * How a message names a key: "section 'Materials/clay', key 'Density'".
+   * @p section is the path of subsections joined by '/'; empty for the top.
+   */
+  inline std::string
+  place(const std::string &section, const std::string &key)
+  {
+    return (section.empty() ? std::string() : "section '" + section + "', ") +
+           "key '" + key + "'";
+  }
 } // namespace moraine
 
 #endif

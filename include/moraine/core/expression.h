@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_core_expression_h
+#define moraine_core_expression_h
+
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  template <int dim>
+  class FunctionParser;
+}
+
+namespace moraine
+{
+  /**
+   * A function of place and time given as text in muParser syntax, with the
+   * variables x, y (, z), t and the constant pi. Several components are
+   * separated by ';' or ',' outside brackets. Copies share the compiled text;
+   * not for use by several threads at once.
+   */
+  template <int dim>
+  class Expression
+  {
+  public:
+    /**
+     * @param text the expressions
+     * @param place where the text stands, for messages: see place() in
+     * exceptions.h
+     * @param n_components how many there must be
+     * @param constants further names with their values
+     * @throw InputError if the text cannot be understood
+     */
+    Expression(const std::string                   &text,
+               const std::string                   &place,
+               const unsigned int                   n_components = 1,
+               const std::map<std::string, double> &constants    = {});
+
+    /**
+     * One component at place @p p and time @p t.
+     * @throw InputError naming place, text, x and t if that is not a number.
+     */
+    double
+    value(const dealii::Point<dim> &p,
+          const double              t         = 0.,
+          const unsigned int        component = 0) const;
+
+    /** All components at @p p and @p t; n_components must be dim. */
+    dealii::Tensor<1, dim>
+    vector_value(const dealii::Point<dim> &p, const double t = 0.) const;
+
+    unsigned int
+    n_components() const;
+
+    /** Whether every component is a plain number. */
+    bool
+    is_constant() const;
+
+    const std::string &
+    text() const;
+
+  private:
+    std::string              expression_text;
+    std::string              origin;
+    std::vector<std::string> components;
+
+    /** Values of the components, if all are plain numbers; else empty. */
+    std::vector<double> numbers;
+
+    std::shared_ptr<dealii::FunctionParser<dim>> parser;
+  };
+
+
+  /**
+   * A number that changes with time: an expression in t ("min(t, 1)"), or a
+   * table "0: 0, 1: 2.5, 2: 2.5" of times and values, linear in between and
+   * constant outside.
+   */
+  class TimeCurve
+  {
+  public:
+    /**
+     * @throw InputError if @p text is neither, or if times do not increase.
+     */
+    TimeCurve(const std::string &text, const std::string &place);
+
+    /** @throw InputError naming place, text and t if that is not a number. */
+    double
+    value(const double t) const;
+
+    const std::string &
+    text() const;
+
+  private:
+    void
+    read_table();
+
+    std::string                                curve_text;
+    std::string                                origin;
+    std::vector<std::pair<double, double>>     table;
+    std::shared_ptr<dealii::FunctionParser<1>> parser;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_core_nearest_h
+#define moraine_core_nearest_h
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The word of @p known that is most like @p word (Levenshtein distance, upper
+   * and lower case alike), or an empty text if none is near: more than a third
+   * of the letters would have to change.
+   */
+  std::string
+  nearest(const std::string &word, const std::vector<std::string> &known);
+
+  /**
+   * "; did you mean 'X'? Allowed here: X, Y, Z" for a message about an unknown
+   * @p word; the question is left out if nothing is near.
+   */
+  std::string
+  suggest(const std::string &word, const std::vector<std::string> &known);
+
+  /** The words joined by ", "; "nothing" if there are none. */
+  std::string
+  list_of(const std::vector<std::string> &words);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/expression.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Split at ';' and ',' that stand outside all brackets. */
+    std::vector<std::string>
+    split_components(const std::string &text)
+    {
+      std::vector<std::string> parts(1);
+      int                      depth = 0;
+      for (const char c : text)
+        {
+          depth += (c == '(') - (c == ')');
+          if (depth == 0 && (c == ';' || c == ','))
+            parts.emplace_back();
+          else
+            parts.back() += c;
+        }
+      for (std::string &part : parts)
+        part = Utilities::trim(part);
+      return parts;
+    }
+
+
+
+    /** Whether @p text is a plain finite number, and which. */
+    bool
+    is_number(const std::string &text, double &number)
+    {
+      try
+        {
+          number = Utilities::string_to_double(text);
+          return std::isfinite(number);
+        }
+      catch (const ExceptionBase &)
+        {
+          return false;
+        }
+    }
+
+
+
+    /** What muParser said, out of deal.II's long message. */
+    std::string
+    parser_message(const std::string &what)
+    {
+      const std::string marker = "The parser said: ";
+      const auto        begin  = what.find(marker);
+      if (begin == std::string::npos)
+        return what;
+      const auto  end = what.find('\n', begin);
+      std::string said =
+        what.substr(begin + marker.size(),
+                    end == std::string::npos ? end :
+                                               end - begin - marker.size());
+      return Utilities::trim(said);
+    }
+
+
+
+    /** Keeps deal.II's own lines about a mistake off the terminal. */
+    class SilentErrors
+    {
+    public:
+      SilentErrors()
+        : original(std::cerr.rdbuf(swallowed.rdbuf()))
+      {}
+
+      ~SilentErrors()
+      {
+        std::cerr.rdbuf(original);
+      }
+
+      SilentErrors(const SilentErrors &) = delete;
+
+    private:
+      std::ostringstream swallowed;
+      std::streambuf    *original;
+    };
+
+
+
+    template <int dim>
+    std::shared_ptr<FunctionParser<dim>>
+    compile(const std::vector<std::string>      &components,
+            const std::string                   &variables,
+            const std::map<std::string, double> &constants,
+            const bool                           has_time,
+            const std::string                   &place,
+            const std::string                   &allowed)
+    {
+      auto parser = std::make_shared<FunctionParser<dim>>(components.size());
+      auto names  = constants;
+      names.emplace("pi", numbers::PI);
+      const SilentErrors silent;
+      // deal.II reports a mistake in the text at the latest when it is
+      // evaluated.
+      for (unsigned int c = 0; c < components.size(); ++c)
+        try
+          {
+            if (c == 0)
+              parser->initialize(variables, components, names, has_time);
+            parser->value(Point<dim>(), c);
+          }
+        catch (const ExceptionBase &e)
+          {
+            throw InputError(place + ": found '" + components[c] + "': " +
+                             parser_message(e.what()) + " Allowed: " + allowed);
+          }
+      return parser;
+    }
+
+
+
+    void
+    check_not_empty(const std::vector<std::string> &components,
+                    const std::string              &text,
+                    const std::string              &place,
+                    const std::string              &allowed)
+    {
+      for (const std::string &component : components)
+        if (component.empty())
+          throw InputError(place + ": found '" + text +
+                           "', which has an empty part. Allowed: " + allowed);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Expression<dim>::Expression(const std::string                   &text,
+                              const std::string                   &place,
+                              const unsigned int                   n_components,
+                              const std::map<std::string, double> &constants)
+    : expression_text(Utilities::trim(text))
+    , origin(place)
+    , components(split_components(expression_text))
+  {
+    const std::string variables =
+      FunctionParser<dim>::default_variable_names() + ",t";
+    std::string allowed =
+      (n_components == 1 ? std::string("an expression") :
+                           std::to_string(n_components) +
+                             " expressions, separated by ';' or ',',") +
+      " in " + variables + " with the constants pi";
+    for (const auto &constant : constants)
+      allowed += ", " + constant.first;
+
+    check_not_empty(components, expression_text, place, allowed);
+    if (components.size() != n_components)
+      throw InputError(place + ": found '" + expression_text + "', which has " +
+                       std::to_string(components.size()) +
+                       " components. Allowed: " + allowed);
+
+    double number;
+    for (const std::string &component : components)
+      if (is_number(component, number))
+        numbers.push_back(number);
+    if (numbers.size() != components.size())
+      numbers.clear();
+    if (numbers.empty())
+      parser =
+        compile<dim>(components, variables, constants, true, place, allowed);
+  }
+
+
+
+  template <int dim>
+  double
+  Expression<dim>::value(const Point<dim>  &p,
+                         const double       t,
+                         const unsigned int component) const
+  {
+    AssertIndexRange(component, components.size());
+    if (!numbers.empty())
+      return numbers[component];
+
+    parser->set_time(t);
+    const double result = parser->value(p, component);
+    if (!std::isfinite(result))
+      {
+        std::ostringstream message;
+        message << origin << ": '" << components[component] << "' is " << result
+                << ", not a finite number, at (" << p << ") and t = " << t
+                << ".";
+        throw InputError(message.str());
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Expression<dim>::vector_value(const Point<dim> &p, const double t) const
+  {
+    AssertDimension(components.size(), dim);
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = value(p, t, d);
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Expression<dim>::n_components() const
+  {
+    return components.size();
+  }
+
+
+
+  template <int dim>
+  bool
+  Expression<dim>::is_constant() const
+  {
+    return !numbers.empty();
+  }
+
+
+
+  template <int dim>
+  const std::string &
+  Expression<dim>::text() const
+  {
+    return expression_text;
+  }
+
+
+
+  TimeCurve::TimeCurve(const std::string &text, const std::string &place)
+    : curve_text(Utilities::trim(text))
+    , origin(place)
+  {
+    const std::string allowed =
+      "an expression in t with the constant pi, or a table 'time: value, "
+      "time: value, ...' with increasing times";
+    const auto components = split_components(curve_text);
+    check_not_empty(components, curve_text, place, allowed);
+
+    // "a ? b : c" is muParser's choice, not a table.
+    if (curve_text.find(':') != std::string::npos &&
+        curve_text.find('?') == std::string::npos)
+      {
+        read_table();
+        return;
+      }
+
+    if (components.size() != 1)
+      throw InputError(place + ": found '" + curve_text +
+                       "'. Allowed: " + allowed);
+    double number;
+    if (is_number(curve_text, number))
+      table.emplace_back(0., number);
+    else
+      parser = compile<1>(components, "t", {}, false, place, allowed);
+  }
+
+
+
+  void
+  TimeCurve::read_table()
+  {
+    for (const std::string &pair : split_components(curve_text))
+      {
+        const auto colon = pair.find(':');
+        double     time = 0, value = 0;
+        if (colon == std::string::npos ||
+            !is_number(Utilities::trim(pair.substr(0, colon)), time) ||
+            !is_number(Utilities::trim(pair.substr(colon + 1)), value))
+          throw InputError(origin + ": found '" + pair +
+                           "' in a table; allowed: 'time: value', two numbers");
+        if (!table.empty() && time <= table.back().first)
+          throw InputError(origin + ": found '" + pair +
+                           "' in a table, but times must increase");
+        table.emplace_back(time, value);
+      }
+  }
+
+
+
+  double
+  TimeCurve::value(const double t) const
+  {
+    if (parser)
+      {
+        const double result = parser->value(Point<1>(t));
+        if (std::isfinite(result))
+          return result;
+        std::ostringstream message;
+        message << origin << ": '" << curve_text << "' is " << result
+                << ", not a finite number, at t = " << t << ".";
+        throw InputError(message.str());
+      }
+
+    if (t <= table.front().first)
+      return table.front().second;
+    for (std::size_t i = 1; i < table.size(); ++i)
+      if (t <= table[i].first)
+        {
+          const auto &[t0, f0] = table[i - 1];
+          const auto &[t1, f1] = table[i];
+          // Written so that the ends are met exactly.
+          const double s = (t - t0) / (t1 - t0);
+          return (1 - s) * f0 + s * f1;
+        }
+    return table.back().second;
+  }
+
+
+
+  const std::string &
+  TimeCurve::text() const
+  {
+    return curve_text;
+  }
+
+
+
+  template class Expression<2>;
+  template class Expression<3>;
+} // namespace moraine

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/nearest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace moraine
+{
+  namespace
+  {
+    std::string
+    lower(std::string text)
+    {
+      std::transform(text.begin(),
+                     text.end(),
+                     text.begin(),
+                     [](const unsigned char c) { return std::tolower(c); });
+      return text;
+    }
+
+
+
+    std::size_t
+    edit_distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        {
+          std::size_t diagonal = row[0];
+          row[0]               = i + 1;
+          for (std::size_t j = 0; j < b.size(); ++j)
+            {
+              const std::size_t replaced = diagonal + (a[i] != b[j]);
+              diagonal                   = row[j + 1];
+              row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+            }
+        }
+      return row.back();
+    }
+  } // namespace
+
+
+
+  std::string
+  nearest(const std::string &word, const std::vector<std::string> &known)
+  {
+    std::string best;
+    std::size_t best_distance =
+      std::max<std::size_t>(1, (word.size() + 2) / 3) + 1;
+    for (const std::string &candidate : known)
+      {
+        const std::size_t distance =
+          edit_distance(lower(word), lower(candidate));
+        if (distance < best_distance)
+          {
+            best          = candidate;
+            best_distance = distance;
+          }
+      }
+    return best;
+  }
+
+
+
+  std::string
+  suggest(const std::string &word, const std::vector<std::string> &known)
+  {
+    const std::string near = nearest(word, known);
+    return (near.empty() ? std::string(".") :
+                           "; did you mean '" + near + "'?") +
+           " Allowed here: " + list_of(known);
+  }
+
+
+
+  std::string
+  list_of(const std::vector<std::string> &words)
+  {
+    std::string text;
+    for (const std::string &word : words)
+      text += (text.empty() ? "" : ", ") + word;
+    return words.empty() ? "nothing" : text;
+  }
+} // namespace moraine

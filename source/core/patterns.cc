@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/patterns.h>
+
+#include <regex>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double smallest = std::numeric_limits<double>::min();
+
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : "|") + word;
+      return text;
+    }
+
+
+
+    /** "a|b|c " as "a, b, c". */
+    std::string
+    words_of(const std::string &selection)
+    {
+      return std::regex_replace(Utilities::trim(selection),
+                                std::regex("\\s*\\|\\s*"),
+                                ", ");
+    }
+
+
+
+    /** @p no_lower and @p no_upper are deal.II's words for "no bound". */
+    std::string
+    bounded(const std::string &kind,
+            const std::string &lower,
+            const std::string &upper,
+            const std::string &no_lower,
+            const std::string &no_upper)
+    {
+      const bool has_lower = lower != no_lower, has_upper = upper != no_upper;
+      if (has_lower && has_upper)
+        return kind + " from " + lower + " to " + upper;
+      if (has_lower)
+        return kind + " >= " + lower;
+      return has_upper ? kind + " <= " + upper : kind;
+    }
+
+
+
+    std::string
+    plural(const std::string &allowed)
+    {
+      std::string text =
+        std::regex_replace(allowed, std::regex("^an? "), std::string());
+      return std::regex_replace(text,
+                                std::regex("^(whole )?number"),
+                                "$1numbers");
+    }
+
+
+
+    std::string
+    describe_list(const std::string &inner,
+                  const std::string &n_min,
+                  const std::string &n_max,
+                  const std::string &separator)
+    {
+      const std::string one  = describe(inner);
+      const std::string many = plural(one);
+      const std::string unbounded =
+        std::to_string(std::numeric_limits<unsigned int>::max());
+      const std::string end =
+        ", separated by " + (separator.empty() || separator == "," ?
+                               std::string("commas") :
+                               "'" + separator + "'");
+      if (n_min == n_max)
+        return n_min == "1" ? one : n_min + " " + many + end;
+      if (n_max != unbounded)
+        return n_min + " to " + n_max + " " + many + end;
+      if (n_min == "0" || n_min == "1")
+        return (n_min == "0" ? "" : "one or more ") + many + end;
+      return n_min + " or more " + many + end;
+    }
+  } // namespace
+
+
+
+  namespace patterns
+  {
+    Patterns::Double
+    positive()
+    {
+      return Patterns::Double(smallest);
+    }
+
+    Patterns::Double
+    non_negative()
+    {
+      return Patterns::Double(0.);
+    }
+
+    Patterns::Double
+    number()
+    {
+      return Patterns::Double();
+    }
+
+    Patterns::Double
+    in_range(const double lower, const double upper)
+    {
+      return Patterns::Double(lower, upper);
+    }
+
+    Patterns::Integer
+    positive_integer()
+    {
+      return Patterns::Integer(1);
+    }
+
+    Patterns::Integer
+    non_negative_integer()
+    {
+      return Patterns::Integer(0);
+    }
+
+    Patterns::Integer
+    integer_in_range(const int lower, const int upper)
+    {
+      return Patterns::Integer(lower, upper);
+    }
+
+    template <int dim>
+    Patterns::List
+    point()
+    {
+      return Patterns::List(Patterns::Double(), dim, dim);
+    }
+
+    Patterns::List
+    numbers(const unsigned int n_min, const unsigned int n_max)
+    {
+      return Patterns::List(Patterns::Double(), n_min, n_max);
+    }
+
+    Patterns::List
+    positive_numbers(const unsigned int n_min, const unsigned int n_max)
+    {
+      return Patterns::List(positive(), n_min, n_max);
+    }
+
+    Patterns::List
+    positive_integers(const unsigned int n_min, const unsigned int n_max)
+    {
+      return Patterns::List(positive_integer(), n_min, n_max);
+    }
+
+    Patterns::Selection
+    selection(const std::vector<std::string> &words)
+    {
+      return Patterns::Selection(join(words));
+    }
+
+    Patterns::MultipleSelection
+    several_of(const std::vector<std::string> &words)
+    {
+      return Patterns::MultipleSelection(join(words));
+    }
+
+    template Patterns::List
+    point<2>();
+    template Patterns::List
+    point<3>();
+  } // namespace patterns
+
+
+
+  std::string
+  describe(const std::string &pattern_description)
+  {
+    static const std::regex number(
+      R"(\[Double (\S+)\.\.\.(\S+) \(inclusive\)\])");
+    static const std::regex integer(
+      R"(\[Integer range (\S+?)\.\.\.(\S+) \(inclusive\)\])");
+    static const std::regex list(
+      R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(?: separated by <(.*)>)?\])");
+    static const std::regex selection(R"(\[Selection (.*)\])");
+    static const std::regex several(R"(\[MultipleSelection (.*)\])");
+
+    const std::string text = Utilities::trim(pattern_description);
+    std::smatch       m;
+    if (text == "[Bool]")
+      return "true or false";
+    if (text == "[Anything]")
+      return "any text";
+    if (text == "[DirectoryName]")
+      return "the name of a directory";
+    if (text.compare(0, 9, "[FileName") == 0)
+      return "the name of a file";
+    if (text == "[Double]")
+      return "a number";
+    if (text == "[Integer]")
+      return "a whole number";
+    if (std::regex_match(text, m, number))
+      {
+        std::ostringstream tiny;
+        tiny << smallest;
+        if (m[1] == tiny.str())
+          return m[2] == "MAX_DOUBLE" ? "a number > 0" :
+                                        "a number > 0 and <= " + m[2].str();
+        return bounded("a number", m[1], m[2], "-MAX_DOUBLE", "MAX_DOUBLE");
+      }
+    if (std::regex_match(text, m, integer))
+      return bounded("a whole number",
+                     m[1],
+                     m[2],
+                     std::to_string(std::numeric_limits<int>::min()),
+                     std::to_string(std::numeric_limits<int>::max()));
+    if (std::regex_match(text, m, list))
+      return describe_list(m[1], m[2], m[3], m[4]);
+    if (std::regex_match(text, m, selection))
+      return "one of " + words_of(m[1]);
+    if (std::regex_match(text, m, several))
+      return "any of " + words_of(m[1]) + ", separated by commas";
+    return text;
+  }
+
+
+
+  std::string
+  describe(const Patterns::PatternBase &pattern)
+  {
+    return describe(pattern.description());
+  }
+} // namespace moraine

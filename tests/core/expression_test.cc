@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/expression.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "message.h"
+
+using dealii::Point;
+using moraine::Expression;
+using moraine::InputError;
+using moraine::TimeCurve;
+
+namespace
+{
+  const std::string here = moraine::place("Loads/wind", "Traction");
+
+  std::string
+  mistake(const std::string &text, const unsigned int n = 1)
+  {
+    return message_of<InputError>([&] { Expression<2>(text, here, n); });
+  }
+
+  std::string
+  curve_mistake(const std::string &text)
+  {
+    return message_of<InputError>([&] { TimeCurve(text, here); });
+  }
+} // namespace
+
+TEST(Expression, Values)
+{
+  const Expression<2> f("x + 2*y; sin(pi*t)", here, 2);
+  EXPECT_DOUBLE_EQ(f.value(Point<2>(3, 4), 7.), 11.);
+  EXPECT_DOUBLE_EQ(f.value(Point<2>(3, 4), 0.5, 1), 1.);
+  const auto v = f.vector_value(Point<2>(1, 1), 0.5);
+  EXPECT_DOUBLE_EQ(v[0], 3.);
+  EXPECT_DOUBLE_EQ(v[1], 1.);
+  EXPECT_FALSE(f.is_constant());
+
+  // Commas separate components too, but not inside brackets.
+  const Expression<3> g("if(x > 0, z, -z), a*t, 3", here, 3, {{"a", 5.}});
+  EXPECT_DOUBLE_EQ(g.value(Point<3>(-1, 0, 2)), -2.);
+  EXPECT_DOUBLE_EQ(g.value(Point<3>(), 2., 1), 10.);
+  EXPECT_DOUBLE_EQ(g.value(Point<3>(), 2., 2), 3.);
+
+  const Expression<2> constant("0, -9.81e0", here, 2);
+  EXPECT_TRUE(constant.is_constant());
+  EXPECT_EQ(constant.value(Point<2>(), 0., 1), -9.81);
+}
+
+TEST(Expression, Copies)
+{
+  const Expression<2> f("t*x", here);
+  const auto          g = f;
+  EXPECT_EQ(f.value(Point<2>(1, 0), 2.), 2.);
+  EXPECT_EQ(g.value(Point<2>(1, 0), 3.), 3.);
+  EXPECT_EQ(f.value(Point<2>(1, 0), 2.), 2.);
+}
+
+TEST(Expression, Mistakes)
+{
+  const std::string start = "section 'Loads/wind', key 'Traction': found ";
+  EXPECT_EQ(mistake("x + q").rfind(start + "'x + q': ", 0), 0u)
+    << mistake("x + q");
+  EXPECT_NE(mistake("x + q").find("\"q\""), std::string::npos)
+    << mistake("x + q");
+  EXPECT_NE(mistake("x + q").find("an expression in x,y,t"), std::string::npos);
+  for (const char *bad : {"x +", "(x", "x y", "sin()", "z", "", "nan", "x;"})
+    EXPECT_EQ(mistake(bad).rfind(start, 0), 0u) << bad << mistake(bad);
+  // The second of two is to blame.
+  EXPECT_EQ(mistake("x; 3*", 2).rfind(start + "'3*': ", 0), 0u)
+    << mistake("x; 3*", 2);
+  EXPECT_EQ(mistake("1,5"),
+            start + "'1,5', which has 2 components. Allowed: an expression in "
+                    "x,y,t with the constants pi");
+}
+
+TEST(Expression, NotANumber)
+{
+  const Expression<2> f("1; sqrt(x)/(t-1)", here, 2);
+  EXPECT_EQ(message_of<InputError>([&] { f.value(Point<2>(4, 2), 1., 1); }),
+            "section 'Loads/wind', key 'Traction': 'sqrt(x)/(t-1)' is inf, not "
+            "a finite number, at (4 2) and t = 1.");
+  EXPECT_THROW(f.value(Point<2>(-1, 0), 0., 1), InputError);
+  EXPECT_EQ(f.value(Point<2>(4, 0), 2., 1), 2.);
+}
+
+TEST(TimeCurve, Expressions)
+{
+  EXPECT_EQ(TimeCurve("2.5", here).value(7.), 2.5);
+  EXPECT_DOUBLE_EQ(TimeCurve("min(t, 1)", here).value(0.3), 0.3);
+  EXPECT_DOUBLE_EQ(TimeCurve("t < 1 ? t : 4", here).value(3), 4.);
+  const TimeCurve f("1/(t - 2)", here);
+  EXPECT_EQ(f.value(4.), 0.5);
+  EXPECT_EQ(message_of<InputError>([&] { f.value(2.); }),
+            "section 'Loads/wind', key 'Traction': '1/(t - 2)' is inf, not a "
+            "finite number, at t = 2.");
+}
+
+TEST(TimeCurve, Tables)
+{
+  const TimeCurve f("0: 0, 1: 2.5, 3: 0.5", here);
+  EXPECT_EQ(f.value(-1), 0.);
+  EXPECT_EQ(f.value(0), 0.);
+  EXPECT_DOUBLE_EQ(f.value(0.5), 1.25);
+  EXPECT_EQ(f.value(1), 2.5);
+  EXPECT_DOUBLE_EQ(f.value(2), 1.5);
+  EXPECT_EQ(f.value(3), 0.5);
+  EXPECT_EQ(f.value(9), 0.5);
+}
+
+TEST(TimeCurve, Mistakes)
+{
+  const std::string start = "section 'Loads/wind', key 'Traction': found ";
+  EXPECT_EQ(curve_mistake("0: 0, 2: 1, 2: 3"),
+            start + "'2: 3' in a table, but times must increase");
+  EXPECT_EQ(curve_mistake("0: 0, a: 1"),
+            start + "'a: 1' in a table; allowed: 'time: value', two numbers");
+  for (const char *bad : {"0: 0,", "0: nan", "0: 0, 1", "", "x", "t, t", "t +"})
+    EXPECT_EQ(curve_mistake(bad).rfind(start, 0), 0u) << bad;
+}

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/input_file.h>
+#include <moraine/core/patterns.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <gtest/gtest.h>
+
+#include "message.h"
+
+using moraine::InputError;
+using moraine::InputFile;
+
+namespace
+{
+  struct Scene
+  {
+    std::string      method = "GIMP";
+    double           size   = 1;
+    double           young = 1, poisson = 0;
+    unsigned         n = 2;
+    dealii::Point<2> corner;
+
+    void
+    declare(dealii::ParameterHandler &prm, const InputFile &file)
+    {
+      namespace p = moraine::patterns;
+      prm.add_parameter("Method", method, "", p::selection({"GIMP", "MPM"}));
+      prm.enter_subsection("Mesh");
+      prm.add_parameter("Cell size", size, "", p::positive());
+      prm.add_parameter("Lower corner", corner, "", p::point<2>());
+      prm.add_parameter("Count", n, "", p::positive_integer());
+      prm.leave_subsection();
+      prm.enter_subsection("Materials");
+      for (const std::string &name : file.names_in("Materials"))
+        {
+          prm.enter_subsection(name);
+          prm.add_parameter("Young modulus", young, "", p::positive());
+          prm.add_parameter("Poisson ratio", poisson, "", p::in_range(0, 0.49));
+          prm.leave_subsection();
+        }
+      prm.leave_subsection();
+    }
+  };
+
+  Scene
+  parse(const InputFile &file)
+  {
+    Scene                    scene;
+    dealii::ParameterHandler prm;
+    scene.declare(prm, file);
+    file.parse(prm);
+    return scene;
+  }
+
+  std::string
+  mistake(const std::string &text)
+  {
+    return message_of<InputError>(
+      [&] { parse(InputFile::from_text("f.prm", text)); });
+  }
+
+  const std::string good = "# a scene\n"
+                           "set Method = MPM # comment\n"
+                           "subsection Mesh\n"
+                           "\tset Cell size = \\\n"
+                           "    0.25\n"
+                           "  set Lower corner = 1, -2\n"
+                           "end\n"
+                           "subsection Materials\n"
+                           "  subsection wet clay\n"
+                           "    set Young modulus = 5e3\n"
+                           "  end\n"
+                           "  subsection sand\n"
+                           "  end\n"
+                           "end\n";
+} // namespace
+
+TEST(InputFile, ReadsAGoodFile)
+{
+  const InputFile file  = InputFile::from_text("f.prm", good);
+  const Scene     scene = parse(file);
+  EXPECT_EQ(scene.method, "MPM");
+  EXPECT_EQ(scene.size, 0.25);
+  EXPECT_EQ(scene.corner, dealii::Point<2>(1, -2));
+  EXPECT_EQ(scene.young, 5e3);
+  EXPECT_EQ(file.names_in("Materials"),
+            (std::vector<std::string>{"wet clay", "sand"}));
+  EXPECT_EQ(file.names_in(""), (std::vector<std::string>{"Mesh", "Materials"}));
+  EXPECT_TRUE(file.names_in("Bodies").empty());
+  EXPECT_TRUE(file.has("Mesh", "Cell size"));
+  EXPECT_EQ(file.entries()[1].origin, "f.prm:4");
+  // The text is a complete input file again.
+  EXPECT_EQ(parse(InputFile::from_text("g", file.text())).size, 0.25);
+}
+
+TEST(InputFile, Overrides)
+{
+  InputFile file = InputFile::from_text("f.prm", good);
+  file.apply_override("Mesh/Cell size = 4");
+  file.apply_override("Mesh/Cell size = 8");
+  file.apply_override("Materials/wet clay/Poisson ratio = 0.3");
+  file.apply_override("Method=GIMP");
+  for (const InputFile &f : {file, InputFile::from_text("g", file.text())})
+    {
+      const Scene scene = parse(f);
+      EXPECT_EQ(scene.size, 8);
+      EXPECT_EQ(scene.poisson, 0.3);
+      EXPECT_EQ(scene.method, "GIMP");
+    }
+
+  file.apply_override("Mesh/Cel size = 4");
+  EXPECT_EQ(
+    message_of<InputError>([&] { parse(file); }),
+    "--set 'Mesh/Cel size = 4': section 'Mesh', key 'Cel size': unknown "
+    "key; did you mean 'Cell size'? Allowed here: Cell size, Lower "
+    "corner, Count");
+  for (const char *bad : {"Mesh/Cell size", "= 3", "Mesh/ = 3", "/a/Cell = 3"})
+    EXPECT_THROW(file.apply_override(bad), InputError) << bad;
+}
+
+TEST(InputFile, WithValueKeepsTheLine)
+{
+  const InputFile file = InputFile::from_text("f.prm", good).with_value(1, "x");
+  EXPECT_EQ(message_of<InputError>([&] { parse(file); }),
+            "f.prm:4: section 'Mesh', key 'Cell size': found 'x', allowed: a "
+            "number > 0");
+}
+
+TEST(InputFile, UnknownKeys)
+{
+  EXPECT_EQ(mistake("subsection Materials\n"
+                    " subsection clay\n"
+                    "  set Yuong modulus = 1\n"
+                    " end\n"
+                    "end\n"),
+            "f.prm:3: section 'Materials/clay', key 'Yuong modulus': unknown "
+            "key; did you mean 'Young modulus'? Allowed here: Young modulus, "
+            "Poisson ratio");
+  EXPECT_EQ(mistake("set Cell size = 3"),
+            "f.prm:1: key 'Cell size': unknown key; it belongs in section "
+            "'Mesh'. Allowed here: Method");
+}
+
+TEST(InputFile, UnknownSections)
+{
+  EXPECT_EQ(mistake("\nsubsection Mehs\nend\n"),
+            "f.prm:2: section 'Mehs': unknown section; did you mean 'Mesh'? "
+            "Allowed here: Mesh, Materials");
+  EXPECT_EQ(mistake("subsection Mesh\nsubsection Quark\nend\nend\n"),
+            "f.prm:2: section 'Mesh/Quark': unknown section. Allowed here: "
+            "nothing");
+}
+
+TEST(InputFile, Values)
+{
+  const auto size = [](const std::string &value) {
+    return mistake("subsection Mesh\n set Cell size = " + value + "\nend\n");
+  };
+  for (const char *bad :
+       {"abc", "nan", "inf", "0", "-1", "1e999", "5 mm", "1,5", "1e-400"})
+    EXPECT_EQ(size(bad),
+              std::string("f.prm:2: section 'Mesh', key 'Cell size': found '") +
+                bad + "', allowed: a number > 0");
+  EXPECT_EQ(size(""),
+            "f.prm:2: section 'Mesh', key 'Cell size': found nothing, allowed: "
+            "a number > 0");
+  EXPECT_EQ(size("{{1|2}}"),
+            "f.prm:2: section 'Mesh', key 'Cell size': found '{{1|2}}', a "
+            "choice for 'moraine study'; allowed: a number > 0");
+  EXPECT_EQ(mistake("set Method = FEM"),
+            "f.prm:1: key 'Method': found 'FEM', allowed: one of GIMP, MPM");
+  EXPECT_EQ(
+    mistake("subsection Mesh\nset Count = -2\nend"),
+    "f.prm:2: section 'Mesh', key 'Count': found '-2', allowed: a whole "
+    "number >= 1");
+  EXPECT_EQ(mistake("subsection Mesh\nset Lower corner = 1, 2, 3\nend"),
+            "f.prm:2: section 'Mesh', key 'Lower corner': found '1, 2, 3', "
+            "allowed: 2 numbers, separated by commas");
+}
+
+TEST(InputFile, Structure)
+{
+  EXPECT_EQ(mistake("subsection Mesh\nset Cell size = 1\nend\n"
+                    "subsection Mesh\nset Cell size = 2\nend\n"),
+            "f.prm:5: section 'Mesh', key 'Cell size': is set twice; first at "
+            "f.prm:2");
+  EXPECT_EQ(mistake("subsection Materials\nsubsection clay\nend\n"),
+            "f.prm:1: section 'Materials' is opened here, but its 'end' is "
+            "missing");
+  EXPECT_EQ(mistake("subsection Mesh\nend\nend\n"),
+            "f.prm:3: 'end' without a 'subsection' it could close");
+  EXPECT_EQ(mistake("subsection Mesh\nCell size = 1\nend\n"),
+            "f.prm:2: section 'Mesh', found 'Cell size = 1', allowed: "
+            "subsection NAME, set KEY = VALUE, end, # comment");
+  EXPECT_EQ(mistake("set Method\n"),
+            "f.prm:1: found 'set Method', allowed: set KEY = VALUE");
+  EXPECT_EQ(
+    mistake("subsection a/b\nend\n"),
+    "f.prm:1: found 'subsection a/b'; a subsection needs a name without "
+    "'/'");
+  EXPECT_EQ(mistake("include other.prm\n"),
+            "f.prm:1: found 'include other.prm', allowed: subsection NAME, set "
+            "KEY = VALUE, end, # comment");
+}
+
+TEST(InputFile, MandatoryKeys)
+{
+  const InputFile file = InputFile::from_text("f.prm", good);
+  EXPECT_EQ(file.require("Mesh", "Lower corner"), "1, -2");
+  EXPECT_EQ(file.get("Mesh", "Upper corner", "none"), "none");
+  EXPECT_EQ(message_of<InputError>(
+              [&] { file.require("Materials/sand", "Young modulus"); }),
+            "f.prm:12: section 'Materials/sand', key 'Young modulus': is not "
+            "set, and has no default");
+  EXPECT_EQ(message_of<InputError>([&] { file.require("Time", "End"); }),
+            "f.prm: section 'Time', key 'End': is not set, and has no default");
+}
+
+TEST(InputFile, UnreadableFiles)
+{
+  EXPECT_EQ(message_of<InputError>([] { InputFile::read("/no/such.prm"); }),
+            "/no/such.prm: cannot be read: No such file or directory");
+  EXPECT_EQ(message_of<InputError>([] { InputFile::read("/tmp"); }),
+            "/tmp: cannot be read: it is a directory");
+}
+
+TEST(Patterns, InWords)
+{
+  namespace p = moraine::patterns;
+  using moraine::describe;
+  EXPECT_EQ(describe(p::positive()), "a number > 0");
+  EXPECT_EQ(describe(p::non_negative()), "a number >= 0");
+  EXPECT_EQ(describe(p::number()), "a number");
+  EXPECT_EQ(describe(p::in_range(-1, 0.5)), "a number from -1 to 0.5");
+  EXPECT_EQ(describe(p::integer_in_range(1, 9)), "a whole number from 1 to 9");
+  EXPECT_EQ(describe(p::non_negative_integer()), "a whole number >= 0");
+  EXPECT_EQ(describe(p::point<3>()), "3 numbers, separated by commas");
+  EXPECT_EQ(describe(p::numbers()), "numbers, separated by commas");
+  EXPECT_EQ(describe(p::positive_numbers(1)),
+            "one or more numbers > 0, separated by commas");
+  EXPECT_EQ(describe(p::positive_integers(2, 3)),
+            "2 to 3 whole numbers >= 1, separated by commas");
+  EXPECT_EQ(describe(p::several_of({"a", "b"})),
+            "any of a, b, separated by commas");
+  EXPECT_EQ(describe(dealii::Patterns::Bool()), "true or false");
+  EXPECT_EQ(describe(dealii::Patterns::Anything()), "any text");
+  EXPECT_EQ(describe(dealii::Patterns::FileName()), "the name of a file");
+}
