@@ -3,10 +3,12 @@
 
 #include <moraine/output/vtu_file.h>
 
+#include <moraine/core/atomic_file.h>
+#include <moraine/output/on_root.h>
+
 #include <deal.II/base/mpi.h>
 
-#include <filesystem>
-#include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace moraine
@@ -18,12 +20,12 @@ namespace moraine
   namespace
   {
     /**
-     * Write the texts of all ranks into @p out on rank 0, in the order of
-     * ranks; rank 0 holds one foreign text at a time.
+     * Write the texts of all ranks into @p out of rank 0, in the order of
+     * ranks; it holds one foreign text at a time.
      */
     void
     collect(const std::string &text,
-            std::ostream      &out,
+            std::ostream      *out,
             const MPI_Comm    &communicator)
     {
       constexpr int tag = 0;
@@ -32,7 +34,7 @@ namespace moraine
           MPI_Send(text.data(), text.size(), MPI_CHAR, 0, tag, communicator);
           return;
         }
-      out << text;
+      *out << text;
       std::string received;
       for (unsigned int rank = 1;
            rank < Utilities::MPI::n_mpi_processes(communicator);
@@ -50,7 +52,7 @@ namespace moraine
                    tag,
                    communicator,
                    MPI_STATUS_IGNORE);
-          out << received;
+          *out << received;
         }
     }
   } // namespace
@@ -123,28 +125,17 @@ namespace moraine
     DataOutBase::write_vtu_main(
       patches, names, get_nonscalar_data_ranges(), flags, text);
 
-    const std::string partial = path + ".part";
-    std::ofstream     file;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      {
-        file.open(partial);
-        DataOutBase::write_vtu_header(file, flags);
-      }
-    // A stream that failed ignores what follows; on_root() finds out.
-    collect(text.str(), file, communicator);
+    std::unique_ptr<AtomicFile> file;
     on_root(communicator, [&]() {
-      if (file)
-        DataOutBase::write_vtu_footer(file);
-      file.close();
-      std::error_code error;
-      if (file)
-        std::filesystem::rename(partial, path, error);
-      if (!file || error)
-        {
-          std::filesystem::remove(partial, error);
-          throw ComputationError("cannot write the file " + path +
-                                 ": is the folder there, is the disk full?");
-        }
+      file = std::make_unique<AtomicFile>(path);
+      DataOutBase::write_vtu_header(file->stream(), flags);
+    });
+    collect(text.str(), file ? &file->stream() : nullptr, communicator);
+    on_root(communicator, [&]() {
+      // deal.II takes a stream that failed for a mistake of ours.
+      if (file->stream())
+        DataOutBase::write_vtu_footer(file->stream());
+      file->commit();
     });
   }
 

@@ -4,10 +4,9 @@
 #ifndef moraine_output_vtu_file_h
 #define moraine_output_vtu_file_h
 
-#include <moraine/core/exceptions.h>
-#include <moraine/output/on_root.h>
-
 #include <deal.II/base/data_out_base.h>
+
+#include <mpi.h>
 
 #include <map>
 #include <string>
