@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_core_memory_h
+#define moraine_core_memory_h
+
+#include <mpi.h>
+
+namespace moraine
+{
+  /** Resident memory in MiB of the rank that has most; all ranks must call. */
+  struct Memory
+  {
+    double current_mib = 0;
+    double peak_mib    = 0;
+  };
+
+  Memory
+  memory_in_use(const MPI_Comm communicator);
+
+  /**
+   * Let the peak begin anew at what is resident now, on this rank.
+   * @return false where the system does not allow it.
+   */
+  bool
+  reset_peak_memory();
+} // namespace moraine
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/run/study_expansion.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The choices of one text, split at '|' outside brackets. */
+    std::vector<std::string>
+    alternatives(const std::string &text, const std::string &where)
+    {
+      std::vector<std::string> words(1);
+      int                      depth = 0;
+      for (const char c : text)
+        {
+          depth += (c == '(') - (c == ')');
+          if (c == '|' && depth == 0)
+            words.emplace_back();
+          else
+            words.back() += c;
+        }
+      for (std::string &word : words)
+        {
+          word = Utilities::trim(word);
+          if (word.empty())
+            throw InputError(where + ": found '{{" + text +
+                             "}}', which has an empty choice; allowed: "
+                             "{{first|second|...}}");
+        }
+      return words;
+    }
+
+
+
+    /** All values that an entry's text stands for, its last choice fastest. */
+    std::vector<std::string>
+    values_of(const std::string &text, const std::string &where)
+    {
+      const auto begin = text.find("{{");
+      if (begin == std::string::npos)
+        {
+          if (text.find("}}") != std::string::npos)
+            throw InputError(where + ": found '" + text +
+                             "', a '}}' without '{{'");
+          return {text};
+        }
+      const auto end = text.find("}}", begin);
+      if (end == std::string::npos)
+        throw InputError(where + ": found '" + text + "', a '{{' without '}}'");
+
+      std::vector<std::string> values;
+      const auto               tails = values_of(text.substr(end + 2), where);
+      for (const std::string &word :
+           alternatives(text.substr(begin + 2, end - begin - 2), where))
+        for (const std::string &tail : tails)
+          values.push_back(text.substr(0, begin) + word + tail);
+      return values;
+    }
+
+
+
+    std::string
+    path_of(const InputFile::Entry &entry)
+    {
+      return entry.section.empty() ? entry.key :
+                                     entry.section + "/" + entry.key;
+    }
+
+
+
+    void
+    check_names(const InputFile::Entry &entry)
+    {
+      if (path_of(entry).find("{{") != std::string::npos)
+        throw InputError(entry.origin + ": " + place(entry.section, entry.key) +
+                         ": '{{' is allowed in values only");
+    }
+
+
+
+    std::string
+    label_of(const std::vector<InputFile::Entry>                    &keys,
+             const std::vector<std::pair<std::string, std::string>> &choices)
+    {
+      std::string label;
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        {
+          const auto same = std::count_if(keys.begin(),
+                                          keys.end(),
+                                          [&](const InputFile::Entry &other) {
+                                            return other.key == keys[i].key;
+                                          });
+          label += (i == 0 ? "" : ", ") +
+                   (same > 1 ? choices[i].first : keys[i].key) + " = " +
+                   choices[i].second;
+        }
+      return label;
+    }
+  } // namespace
+
+
+
+  std::vector<StudyCase>
+  expand_study(const InputFile &input)
+  {
+    std::vector<InputFile::Entry> keys;
+    std::vector<StudyCase>        cases{{input, {}, ""}};
+    for (std::size_t e = 0; e < input.entries().size(); ++e)
+      {
+        const InputFile::Entry &entry = input.entries()[e];
+        check_names(entry);
+        const auto values =
+          values_of(entry.value,
+                    entry.origin + ": " + place(entry.section, entry.key));
+        if (values.size() == 1 && values[0] == entry.value)
+          continue;
+
+        keys.push_back(entry);
+        std::vector<StudyCase> finer;
+        for (const StudyCase &coarse : cases)
+          for (const std::string &value : values)
+            {
+              finer.push_back(
+                {coarse.input.with_value(e, value), coarse.choices, ""});
+              finer.back().choices.emplace_back(path_of(entry), value);
+            }
+        cases = std::move(finer);
+      }
+    for (StudyCase &study_case : cases)
+      study_case.label = label_of(keys, study_case.choices);
+    return cases;
+  }
+} // namespace moraine
