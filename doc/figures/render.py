@@ -200,9 +200,8 @@ def arguments():
 def main():
     args = arguments()
     data = read(args.file)
-    value_range = args.range or add_value(data, args.field, args.component)
-    if args.range:
-        add_value(data, args.field, args.component)
+    found_range = add_value(data, args.field, args.component)
+    value_range = args.range or found_range
     is_points = data.GetPointData().HasArray("volume")
     shapes = as_boxes(data) if is_points else data
 
@@ -215,7 +214,8 @@ def main():
     mapper.SetScalarRange(*value_range)
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().LightingOff()
+    if is_flat(data):
+        actor.GetProperty().LightingOff()
     if not is_points:
         actor.GetProperty().EdgeVisibilityOn()
 

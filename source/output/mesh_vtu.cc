@@ -7,6 +7,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <deal.II/grid/reference_cell.h>
+
 namespace moraine
 {
   using namespace dealii;
@@ -34,6 +36,7 @@ namespace moraine
     {
       const unsigned int           n_nodes = space.nodes_per_cell();
       DataOutBase::Patch<dim, dim> patch;
+      patch.reference_cell       = ReferenceCells::get_hypercube<dim>();
       patch.n_subdivisions       = space.degree();
       patch.points_are_available = true;
       for (const unsigned int v : GeometryInfo<dim>::vertex_indices())

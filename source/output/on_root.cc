@@ -40,24 +40,6 @@ namespace moraine
         }
       return {Outcome::done, ""};
     }
-
-    void
-    throw_everywhere(const MPI_Comm                        &communicator,
-                     const std::pair<Outcome, std::string> &outcome,
-                     const unsigned int                     teller)
-    {
-      const int kind =
-        Utilities::MPI::broadcast(communicator,
-                                  static_cast<int>(outcome.first),
-                                  teller);
-      if (kind == static_cast<int>(Outcome::done))
-        return;
-      const std::string message =
-        Utilities::MPI::broadcast(communicator, outcome.second, teller);
-      if (kind == static_cast<int>(Outcome::input_error))
-        throw InputError(message);
-      throw ComputationError(message);
-    }
   } // namespace
 
 
@@ -68,21 +50,15 @@ namespace moraine
     std::pair<Outcome, std::string> outcome{Outcome::done, ""};
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       outcome = outcome_of(work);
-    throw_everywhere(communicator, outcome, 0);
-  }
 
-
-
-  void
-  on_all(const MPI_Comm &communicator, const std::function<void()> &work)
-  {
-    const auto         outcome = outcome_of(work);
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int teller =
-      Utilities::MPI::min(outcome.first == Outcome::done ? n_ranks : rank,
-                          communicator);
-    if (teller < n_ranks)
-      throw_everywhere(communicator, outcome, teller);
+    const int kind =
+      Utilities::MPI::broadcast(communicator, static_cast<int>(outcome.first));
+    if (kind == static_cast<int>(Outcome::done))
+      return;
+    const std::string message =
+      Utilities::MPI::broadcast(communicator, outcome.second);
+    if (kind == static_cast<int>(Outcome::input_error))
+      throw InputError(message);
+    throw ComputationError(message);
   }
 } // namespace moraine

@@ -121,9 +121,11 @@ namespace moraine
     // A date would make two equal runs differ.
     const DataOutBase::VtkFlags flags(
       time, step, false, DataOutBase::VtkFlags::best_speed, false, units);
+    // For a rank without patches deal.II declares tensors of 3 components.
     std::ostringstream text;
-    DataOutBase::write_vtu_main(
-      patches, names, get_nonscalar_data_ranges(), flags, text);
+    if (!patches.empty())
+      DataOutBase::write_vtu_main(
+        patches, names, get_nonscalar_data_ranges(), flags, text);
 
     std::unique_ptr<AtomicFile> file;
     on_root(communicator, [&]() {

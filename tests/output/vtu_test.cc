@@ -78,7 +78,8 @@ namespace moraine
         {
                       const std::size_t end = text.find('>', at);
                       const std::string tag = text.substr(at, end - at);
-                      if (attribute(tag, "type") != "Float32")
+                      if (attribute(tag, "type") != "Float32" ||
+              attribute(tag, "format") != "binary")
             continue;
           const std::string name  = attribute(tag, "Name");
                       Array            &array = arrays[name.empty() ? "position" : name];
@@ -160,7 +161,9 @@ namespace moraine
                     0.25f + 0.5f * (number % 2));
         }
       if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
-        EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+        {
+          EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+        }
       std::sort(ids.begin(), ids.end());
       for (unsigned int i = 0; i < ids.size(); ++i)
         EXPECT_EQ(ids[i], 85 + i);

@@ -19,16 +19,6 @@ namespace moraine
    */
   void
   on_root(const MPI_Comm &communicator, const std::function<void()> &work);
-
-  /**
-   * Run @p work on every rank and agree on how it ended. Collective. @p work
-   * may communicate only if it cannot fail on some ranks alone.
-   *
-   * @throws On every rank what the lowest rank that failed threw, as in
-   * on_root().
-   */
-  void
-  on_all(const MPI_Comm &communicator, const std::function<void()> &work);
 } // namespace moraine
 
 #endif
