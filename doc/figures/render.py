@@ -121,21 +121,29 @@ def text_style(text, size):
     text.ShadowOff()
 
 
-def colour_bar(table, title, size):
+def colour_bar(table, size):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
-    bar.SetTitle(title)
     bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%-#.4g")
+    bar.SetLabelFormat("%.4g")
     bar.UnconstrainedFontSizeOn()
-    text_style(bar.GetTitleTextProperty(), size)
     text_style(bar.GetLabelTextProperty(), size)
-    bar.SetPosition(0.82, 0.15)
+    bar.SetPosition(0.84, 0.12)
     bar.SetWidth(0.12)
-    bar.SetHeight(0.7)
+    bar.SetHeight(0.72)
     bar.SetBarRatio(0.25)
-    bar.SetVerticalTitleSeparation(size)
     return bar
+
+
+def title_above_bar(title, size):
+    """A text of its own: the bar would cut off what is wider than itself."""
+    text = vtk.vtkTextActor()
+    text.SetInput(title)
+    text_style(text.GetTextProperty(), size)
+    text.GetTextProperty().SetJustificationToRight()
+    text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    text.SetPosition(0.97, 0.9)
+    return text
 
 
 def axes(data, renderer, unit, size):
@@ -170,7 +178,9 @@ def look_at(renderer, data, aspect):
         camera.SetViewUp(0, 1, 0)
     else:
         diagonal = sum(x * x for x in size) ** 0.5
-        height = 1.4 * diagonal
+        height = 1.1 * diagonal
+        centre[0] += 0.08 * diagonal
+        centre[1] += 0.05 * diagonal
         camera.SetPosition(centre[0] + diagonal, centre[1] - 1.6 * diagonal,
                            centre[2] + diagonal)
         camera.SetViewUp(0, 0, 1)
@@ -216,6 +226,9 @@ def main():
     actor.SetMapper(mapper)
     if is_flat(data):
         actor.GetProperty().LightingOff()
+    else:
+        actor.GetProperty().SetAmbient(0.6)
+        actor.GetProperty().SetDiffuse(0.4)
     if not is_points:
         actor.GetProperty().EdgeVisibilityOn()
 
@@ -236,7 +249,8 @@ def main():
     title = args.title or " ".join([args.field, args.component]).strip()
     if args.unit:
         title += f" [{args.unit}]"
-    renderer.AddActor2D(colour_bar(table, title, font))
+    renderer.AddActor2D(colour_bar(table, font))
+    renderer.AddActor2D(title_above_bar(title, font))
     look_at(renderer, shapes, args.size[0] / args.size[1])
     renderer.AddActor(axes(shapes, renderer, args.length_unit, font))
 
