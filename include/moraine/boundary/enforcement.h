@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_boundary_enforcement_h
+#define moraine_boundary_enforcement_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace moraine
+{
+  /**
+   * The family of ways to enforce @f$M u = M g@f$ on a surface that cuts cells.
+   * With outward normal n, @f$Q = n \cdot C \cdot n@f$ and the flux
+   * @f$f(u) = M\,(C : \mathrm{sym}(W \nabla u))\, n@f$,
+   * @f$W = w_c M + w_f (1 - M)@f$, the surface adds to the left-hand side
+   *
+   * @f[ -\int \eta \cdot f(u) - s \int f(\eta) \cdot (u - g)
+   *     + c_3 \int \eta \cdot M Q M (u - g) - \int \eta \cdot t . @f]
+   *
+   * | enforcement       | w_c | w_f | s  | c_3              |
+   * |-------------------|-----|-----|----|------------------|
+   * | weighted          | 1/2 | 1   | 1  | 4/(3 δ)          |
+   * | symmetric Nitsche | 1   | 1   | 1  | γ/h              |
+   * | skew Nitsche      | 1   | 1   | -1 | γ/h              |
+   * | penalty           | 0   | 0   | 0  | β/h              |
+   *
+   * The weighted row is the closed form of the Dirichlet-weighted basis
+   * (Cortis et al. 2017, eqs. 13-28) for a band δ thin against the cell h:
+   * integrals of d', d d' and d'^2 across the band. t is the reaction the
+   * surface carries from the last step or pass.
+   */
+  struct Enforcement
+  {
+    double w_constrained;    ///< @f$w_c@f$
+    double w_free;           ///< @f$w_f@f$
+    double adjoint_sign;     ///< @f$s@f$
+    double stiffness_factor; ///< @f$c_3 h@f$
+    bool   carries_reaction; ///< between steps
+    bool   augments;         ///< within a step, until the constraint holds
+  };
+
+  /** The keys that choose an Enforcement. */
+  struct EnforcementParameters
+  {
+    std::string enforcement    = "skew Nitsche";
+    double      band_width     = 1e-6;
+    double      nitsche_factor = 10;
+    double      penalty_factor = 1e6;
+    bool        carry_reaction = true;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    Enforcement
+    enforcement_of() const;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_boundary_implicit_boundary_h
+#define moraine_boundary_implicit_boundary_h
+
+#include <moraine/boundary/enforcement.h>
+#include <moraine/boundary/rigid_motion.h>
+#include <moraine/boundary/surface.h>
+#include <moraine/mesh/grid_space.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** What a surface constrains. */
+  template <int dim>
+  struct Constraint
+  {
+    enum Kind
+    {
+      fixed,     ///< @f$M = 1@f$
+      roller,    ///< @f$M = n \otimes n@f$
+      components ///< @f$M = \sum e_i \otimes e_i@f$
+    };
+    Kind                  kind = fixed;
+    std::array<bool, dim> component{};
+
+    dealii::SymmetricTensor<2, dim>
+    projection(const dealii::Tensor<1, dim> &normal) const;
+  };
+
+  /**
+   * A place of a cut surface with what the surface carries there. The values
+   * and gradients of the shape functions stand beside it in the boundary's
+   * arrays.
+   */
+  template <int dim>
+  struct BoundaryPoint
+  {
+    dealii::Point<dim>     x;
+    dealii::Tensor<1, dim> normal;     ///< outward, at the start of the step
+    double                 JxW;        ///< length or area
+    unsigned int           cell;       ///< active_cell_index()
+    double                 h;          ///< size of that cell
+    dealii::Tensor<1, dim> prescribed; ///< @f$\Delta g@f$ of the step
+    dealii::Tensor<1, dim> reaction;   ///< carried @f$t@f$, of the trial state
+    dealii::Tensor<1, dim> committed_reaction;
+    dealii::Tensor<1, dim> gap; ///< committed @f$M(u - g)@f$
+  };
+
+  /**
+   * A point's constraint in the trial state: projection, violation of the step
+   * and the normal they refer to.
+   */
+  template <int dim>
+  struct ConstraintState
+  {
+    dealii::Tensor<1, dim>          normal;
+    dealii::SymmetricTensor<2, dim> M;
+    dealii::Tensor<1, dim>          violation; ///< @f$M(\Delta u - \Delta g)@f$
+  };
+
+  /**
+   * A surface with a constraint that need not follow the mesh. Each step its
+   * pieces in the active cells of this rank are found again if anything moved,
+   * and what the surface carries is handed over in the frame of the surface.
+   *
+   * A piece in a cell without unknowns that lies within @p reach of an active
+   * cell belongs to the nearest one and sees its functions continued over the
+   * edge, because the material represented by points close to the edge reaches
+   * over it.
+   *
+   * A roller on a curved wall asks that the surface points land on the wall,
+   * @f$\phi_{n+1}(x + \Delta u) = 0@f$, if the points move at all; linear
+   * otherwise.
+   */
+  template <int dim>
+  class ImplicitBoundary
+  {
+  public:
+    /** Prescribed displacement relative to the surface's motion, of (x, t). */
+    using Displacement =
+      std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
+                                           const double)>;
+
+    ImplicitBoundary(const std::string                  &name,
+                     std::shared_ptr<const Surface<dim>> surface,
+                     const RigidMotion<dim>             &motion,
+                     const Displacement                 &displacement,
+                     const Constraint<dim>              &constraint,
+                     const Enforcement                  &enforcement,
+                     const double                        penetration_limit);
+
+    /**
+     * Place the surface at time @p t and find its pieces.
+     *
+     * @param reach distance over which pieces outside active cells count.
+     * @param moves_points whether the material moves through the mesh.
+     */
+    void
+    begin_step(const GridSpace<dim> &space,
+               const double          t,
+               const double          reach,
+               const bool            moves_points,
+               const bool            cells_changed);
+
+    /** Set the prescribed increments of a step to @p t_end. */
+    void
+    set_target(const double t_end);
+
+    /** The constraint at a point for the trial increment @p du there. */
+    ConstraintState<dim>
+    constraint_state(const BoundaryPoint<dim>     &point,
+                     const dealii::Tensor<1, dim> &du) const;
+
+    /** Commit the reactions and violations of the trial state. */
+    void
+    accept(const std::vector<dealii::Tensor<1, dim>> &tractions,
+           const std::vector<dealii::Tensor<1, dim>> &violations);
+
+    /** Distance behind the surface at the end of the step; 0 if in front. */
+    double
+    penetration(const dealii::Point<dim> &x, const double range) const;
+
+    const std::string &
+    name() const
+    {
+      return boundary_name;
+    }
+
+    const Enforcement &
+    enforcement() const
+    {
+      return how;
+    }
+
+    /** Largest depth a point may end behind the surface, in cell sizes. */
+    double
+    penetration_limit() const
+    {
+      return limit;
+    }
+
+    std::vector<BoundaryPoint<dim>> &
+    points()
+    {
+      return boundary_points;
+    }
+
+    const std::vector<BoundaryPoint<dim>> &
+    points() const
+    {
+      return boundary_points;
+    }
+
+    /** Values of the shape functions at a point. */
+    const double *
+    N(const unsigned int q) const
+    {
+      return &values[q * n_nodes];
+    }
+
+    const dealii::Tensor<1, dim> *
+    grad_N(const unsigned int q) const
+    {
+      return &gradients[q * n_nodes];
+    }
+
+  private:
+    void
+    find_pieces(const GridSpace<dim> &space, const double reach);
+
+    void
+    add_pieces(const GridSpace<dim>                        &space,
+               const typename GridSpace<dim>::CellIterator &cell,
+               const CellVertices<dim>                     &vertices,
+               const double                                 reach);
+
+    /** Evaluate the functions of active cell @p cell_index at every point. */
+    void
+    evaluate_shapes(const GridSpace<dim> &space);
+
+    void
+    take_over(const std::vector<BoundaryPoint<dim>> &previous,
+              const Pose<dim>                       &previous_pose,
+              const MPI_Comm                        &communicator);
+
+    const std::string                   boundary_name;
+    MovedSurface<dim>                   at_start;
+    MovedSurface<dim>                   at_end;
+    const RigidMotion<dim>              motion;
+    const Displacement                  displacement;
+    const Constraint<dim>               constraint;
+    const Enforcement                   how;
+    const double                        limit;
+    double                              t_start = 0;
+    bool                                placed  = false;
+    bool                                lands   = false;
+    unsigned int                        n_nodes = 0;
+    std::vector<BoundaryPoint<dim>>     boundary_points;
+    std::vector<double>                 values;
+    std::vector<dealii::Tensor<1, dim>> gradients;
+  };
+} // namespace moraine
+
+#endif

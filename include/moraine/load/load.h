@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_load_load_h
+#define moraine_load_load_h
+
+#include <moraine/boundary/surface.h>
+#include <moraine/mesh/grid_space.h>
+
+#include <deal.II/grid/grid_tools_cache.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** A vector prescribed at places and times. */
+  template <int dim>
+  using VectorFunction = std::function<
+    dealii::Tensor<1, dim>(const dealii::Point<dim> &, const double)>;
+
+  /**
+   * A force per volume in some of the bodies: b(x, t), or gravity
+   * @f$\rho\, g(x, t)@f$.
+   */
+  template <int dim>
+  struct BodyForce
+  {
+    std::string         name;
+    VectorFunction<dim> value;
+    bool                times_density = false;
+    std::vector<bool>   acts_on; ///< one entry per body
+  };
+
+  /** A force per area (2D: per length) on a side of the mesh. */
+  template <int dim>
+  struct SideTraction
+  {
+    std::string                name;
+    dealii::types::boundary_id side = 0;
+    VectorFunction<dim>        value;
+  };
+
+  /**
+   * Forces carried by the material: tractions on a surface, or single forces.
+   * Places are moved with the displacement increment of the grid. They are few
+   * and known to all ranks.
+   */
+  template <int dim>
+  class CarriedLoad
+  {
+  public:
+    struct Place
+    {
+      dealii::Point<dim> x;
+      double             weight; ///< area it stands for; 1 for a single force
+      /** Cell whose functions it sees, if this rank owns it. */
+      unsigned int active_cell_index = GridSpace<dim>::no_cell;
+    };
+
+    CarriedLoad(const std::string        &name,
+                const VectorFunction<dim> &value,
+                std::vector<Place>         places);
+
+    /**
+     * Find the cells of the places.
+     * @throws ComputationError naming the load if a place is not on the
+     * material.
+     */
+    void
+    find_cells(const GridSpace<dim>               &space,
+               const dealii::GridTools::Cache<dim> &cache,
+               const double                         reach);
+
+    /** Carry the places along with the trial increments. Collective. */
+    void
+    move(const GridSpace<dim>                      &space,
+         const std::vector<dealii::Tensor<1, dim>> &nodal_increments);
+
+    const std::vector<Place> &
+    places() const
+    {
+      return load_places;
+    }
+
+    dealii::Tensor<1, dim>
+    value(const dealii::Point<dim> &x, const double t) const
+    {
+      return function(x, t);
+    }
+
+    const std::string &
+    name() const
+    {
+      return load_name;
+    }
+
+  private:
+    const std::string         load_name;
+    const VectorFunction<dim> function;
+    std::vector<Place>        load_places;
+  };
+
+  /** The places of a traction surface in a mesh, the same on all ranks. */
+  template <int dim>
+  std::vector<typename CarriedLoad<dim>::Place>
+  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
+
+  /** Everything that pushes from outside. */
+  template <int dim>
+  struct Loads
+  {
+    std::vector<BodyForce<dim>>    body_forces;
+    std::vector<SideTraction<dim>> side_tractions;
+    std::vector<CarriedLoad<dim>>  carried;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_mesh_active_search_h
+#define moraine_mesh_active_search_h
+
+#include <moraine/mesh/grid_space.h>
+
+namespace moraine
+{
+  /**
+   * The active cell whose functions serve a place @p x that lies in @p cell:
+   * the cell itself, or else the nearest active one around it that is not
+   * further than @p reach, because the material that points close to an edge
+   * stand for reaches over it. Returns end() if there is none. All ranks get the
+   * same answer.
+   */
+  template <int dim>
+  typename GridSpace<dim>::CellIterator
+  nearest_active_cell(const GridSpace<dim>                        &space,
+                      const typename GridSpace<dim>::CellIterator &cell,
+                      const dealii::Point<dim>                    &x,
+                      const double                                 reach);
+
+  /**
+   * Shape functions of an active cell this rank knows at the place @p x, also
+   * outside of the cell. Arrays hold space.nodes_per_cell() entries.
+   */
+  template <int dim>
+  void
+  evaluate_shapes(const GridSpace<dim>     &space,
+                  const unsigned int        active_cell_index,
+                  const dealii::Point<dim> &x,
+                  double                   *N,
+                  dealii::Tensor<1, dim>   *grad_N);
+} // namespace moraine
+
+#endif

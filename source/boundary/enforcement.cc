@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/boundary/enforcement.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  EnforcementParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Enforcement",
+      enforcement,
+      "How the constraint is imposed: the Dirichlet-weighted basis of a thin "
+      "band, Nitsche's method (symmetric or skew), or a penalty.",
+      Patterns::Selection("weighted|symmetric Nitsche|skew Nitsche|penalty"));
+    prm.add_parameter("Band width",
+                      band_width,
+                      "Of 'weighted': width of the band over the cell size, "
+                      "delta/h.",
+                      Patterns::Double(1e-12, 1.));
+    prm.add_parameter("Nitsche factor",
+                      nitsche_factor,
+                      "Of Nitsche's method: gamma in gamma/h, > 0.",
+                      Patterns::Double(1e-12));
+    prm.add_parameter("Penalty factor",
+                      penalty_factor,
+                      "Of 'penalty': beta in beta/h, > 0.",
+                      Patterns::Double(1e-12));
+    prm.add_parameter(
+      "Carry reaction",
+      carry_reaction,
+      "Of 'weighted' and 'penalty': let the surface carry its reaction and "
+      "repeat the solution with the same factorisation until the constraint "
+      "holds. Without it the error is of the order of the band width.");
+  }
+
+
+
+  Enforcement
+  EnforcementParameters::enforcement_of() const
+  {
+    if (enforcement == "weighted")
+      return {
+        0.5, 1., 1., 4. / (3. * band_width), carry_reaction, carry_reaction};
+    if (enforcement == "symmetric Nitsche")
+      return {1., 1., 1., nitsche_factor, true, false};
+    if (enforcement == "skew Nitsche")
+      return {1., 1., -1., nitsche_factor, true, false};
+    return {0., 0., 0., penalty_factor, carry_reaction, carry_reaction};
+  }
+} // namespace moraine

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/load/load.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/mesh/active_search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  CarriedLoad<dim>::CarriedLoad(const std::string         &name,
+                                const VectorFunction<dim> &value,
+                                std::vector<Place>         places)
+    : load_name(name)
+    , function(value)
+    , load_places(std::move(places))
+  {}
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::find_cells(const GridSpace<dim>       &space,
+                               const GridTools::Cache<dim> &cache,
+                               const double                reach)
+  {
+    typename GridSpace<dim>::CellIterator hint;
+    for (Place &place : load_places)
+      {
+        place.active_cell_index = GridSpace<dim>::no_cell;
+        const auto cell =
+          GridTools::find_active_cell_around_point(cache, place.x, hint).first;
+        if (cell.state() == IteratorState::valid)
+          {
+            hint             = cell;
+            const auto owner = nearest_active_cell(space, cell, place.x, reach);
+            if (owner.state() == IteratorState::valid)
+              {
+                if (owner->is_locally_owned())
+                  place.active_cell_index = owner->active_cell_index();
+                continue;
+              }
+          }
+        std::ostringstream message;
+        message << "load '" << load_name << "': its place (" << place.x
+                << ") is not on any material";
+        throw ComputationError(message.str());
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::move(const GridSpace<dim>              &space,
+                         const std::vector<Tensor<1, dim>> &nodal_increments)
+  {
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<double>         N(n);
+    std::vector<Tensor<1, dim>> grad_N(n);
+    std::vector<double>         moved(dim * load_places.size(), 0.);
+    for (unsigned int k = 0; k < load_places.size(); ++k)
+      {
+        const unsigned int cell = load_places[k].active_cell_index;
+        if (cell == GridSpace<dim>::no_cell)
+          continue;
+        evaluate_shapes(space, cell, load_places[k].x, N.data(), grad_N.data());
+        const unsigned int *nodes = space.cell_nodes(cell);
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            moved[dim * k + d] += N[a] * nodal_increments[nodes[a]][d];
+      }
+    Utilities::MPI::sum(moved, space.communicator(), moved);
+    for (unsigned int k = 0; k < load_places.size(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        load_places[k].x[d] += moved[dim * k + d];
+  }
+
+
+
+  template <int dim>
+  std::vector<typename CarriedLoad<dim>::Place>
+  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
+  {
+    std::vector<SurfacePoint<dim>> pieces;
+    const BoundingBox<dim>         box = surface.bounding_box();
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      {
+        const BoundingBox<dim> cell_box = cell->bounding_box();
+        bool                   apart    = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          apart = apart ||
+                  box.lower_bound(d) >
+                    cell_box.upper_bound(d) + 1e-9 * mesh.cell_size() ||
+                  cell_box.lower_bound(d) >
+                    box.upper_bound(d) + 1e-9 * mesh.cell_size();
+        if (!apart)
+          surface.pieces(vertices_of<dim>(cell), 3, pieces);
+      }
+    std::vector<typename CarriedLoad<dim>::Place> places;
+    for (const auto &piece : pieces)
+      {
+        typename CarriedLoad<dim>::Place place;
+        place.x      = piece.x;
+        place.weight = piece.JxW;
+        places.push_back(place);
+      }
+    return places;
+  }
+
+
+
+  template class CarriedLoad<2>;
+  template class CarriedLoad<3>;
+  template std::vector<CarriedLoad<2>::Place>
+  places_on(const Surface<2> &, const BackgroundMesh<2> &);
+  template std::vector<CarriedLoad<3>::Place>
+  places_on(const Surface<3> &, const BackgroundMesh<3> &);
+} // namespace moraine
