@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_output_directory_h
+#define moraine_output_output_directory_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <mpi.h>
+
+#include <string>
+
+namespace moraine
+{
+  /**
+   * The folder a run writes into, and the names of what it writes:
+   *
+   * original.prm, parameters.prm, log.txt, history.csv, summary.json,
+   * points.pvd with points/00000.vtu, ..., mesh.pvd with mesh/00000.vtu, ...
+   */
+  class OutputDirectory
+  {
+  public:
+    /**
+     * Make the folder, or check the one that is there. Collective.
+     *
+     * @param overwrite remove the files of an earlier run. Only files with the
+     * names above are removed.
+     * @throws InputError on every rank if the folder holds files of an earlier
+     * run and @p overwrite is not set, or if it cannot be made or written.
+     */
+    OutputDirectory(const std::string &path,
+                    const bool         overwrite,
+                    const MPI_Comm    &communicator);
+
+    /** Path of a file in the folder. */
+    std::string
+    file(const std::string &name) const;
+
+    /** "points/00012.vtu": name of a VTU file relative to the folder. */
+    static std::string
+    vtu_name(const std::string &series, const unsigned int number);
+
+    /**
+     * Write original.prm, the file as given, and parameters.prm, every
+     * parameter with its value and text. Collective.
+     *
+     * @throws ComputationError naming the file if it cannot be written.
+     */
+    void
+    write_parameter_files(const std::string              &original_text,
+                          const dealii::ParameterHandler &prm) const;
+
+  private:
+    std::string path;
+    MPI_Comm    communicator;
+  };
+} // namespace moraine
+
+#endif

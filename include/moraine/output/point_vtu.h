@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_point_vtu_h
+#define moraine_output_point_vtu_h
+
+#include <moraine/points/point_set.h>
+
+#include <string>
+
+namespace moraine
+{
+  /**
+   * Write the points of one step as one VTU file, whatever the number of ranks.
+   * Collective. The file appears at @p path only when it is complete.
+   *
+   * Every field of the layout is written under its name and with its unit: one
+   * number as a scalar, dim numbers as a vector, a stress-like field as a
+   * symmetric 3x3 tensor (in 2D with its zz component), anything else as
+   * scalars name_0, name_1, .... Added are
+   *
+   * | field            | meaning                                            |
+   * |------------------|----------------------------------------------------|
+   * | id               | number of the point                                |
+   * | von_mises_stress | @f$\sqrt{3/2\, s:s}@f$, @f$s@f$ the deviator       |
+   * | mean_stress      | @f$(\sigma_{xx}+\sigma_{yy}+\sigma_{zz})/3@f$      |
+   *
+   * Points are ordered by id within the part of each rank. Numbers are stored
+   * in single precision; ids above 16 777 216 are rounded.
+   *
+   * @throws ComputationError naming the file if it cannot be written.
+   */
+  template <int dim>
+  void
+  write_point_vtu(const PointSet<dim> &points,
+                  const std::string   &path,
+                  const double         time,
+                  const unsigned int   step);
+} // namespace moraine
+
+#endif

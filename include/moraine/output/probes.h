@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_probes_h
+#define moraine_output_probes_h
+
+#include <moraine/output/grid_evaluation.h>
+#include <moraine/output/named_value.h>
+#include <moraine/points/point_set.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Section `Probes/<name>`: a place whose values become columns of
+   * history.csv.
+   */
+  template <int dim>
+  struct ProbeParameters
+  {
+    std::string              name;
+    std::vector<double>      location;
+    std::string              kind       = "nearest point";
+    std::vector<std::string> quantities = {"displacement"};
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * @throws InputError if the location is missing, or if a quantity is asked
+     * for that this kind of probe does not have.
+     */
+    void
+    check() const;
+  };
+
+  /**
+   * The probes of a scene.
+   *
+   * A probe of kind *nearest point* chooses the point that is nearest to its
+   * location at the start (of equally near ones the one with the smallest id)
+   * and follows it. A probe of kind *interpolated* stands on the material: the
+   * increments of the mesh displacement at its place add up to its displacement
+   * and carry it along. Where an interpolated probe leaves the active cells its
+   * values are nan from then on.
+   */
+  template <int dim>
+  class Probes
+  {
+  public:
+    /**
+     * Chooses the points. Collective.
+     *
+     * @param moves_through_mesh whether material moves through the mesh (the
+     * mesh is reset after a step). Otherwise a place keeps its position in its
+     * cell, and step increments are always evaluated at its location at the
+     * start.
+     */
+    Probes(const std::vector<ProbeParameters<dim>> &parameters,
+           const PointSet<dim>                     &points,
+           const bool                               moves_through_mesh);
+
+    /**
+     * Add up the accepted step of the interpolated probes, to be called once
+     * for each. Collective.
+     *
+     * @param step_increment displacement of this step at a place of the mesh as
+     * it stood before the step; see grid_evaluation().
+     */
+    void
+    accept_step(const PlaceFunction<dim> &step_increment);
+
+    /**
+     * The values now, the same on every rank, named "u_x at A" and so on.
+     * Collective.
+     *
+     * @throws ComputationError if a point that is followed is gone.
+     */
+    std::vector<NamedValue>
+    values(const PointSet<dim> &points) const;
+
+  private:
+    struct Probe
+    {
+      ProbeParameters<dim>   parameters;
+      dealii::Point<dim>     start;
+      unsigned int           point_id = 0;
+      dealii::Tensor<1, dim> displacement;
+
+      bool
+      follows_point() const;
+    };
+
+    void
+    choose_point(Probe &probe, const PointSet<dim> &points) const;
+
+    /** Position, displacement and stress of the points that are followed. */
+    std::vector<std::vector<double>>
+    gather_points(const PointSet<dim> &points) const;
+
+    std::vector<Probe> probes;
+    bool               moves_through_mesh;
+  };
+} // namespace moraine
+
+#endif

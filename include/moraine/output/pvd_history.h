@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_pvd_history_h
+#define moraine_output_pvd_history_h
+
+#include <mpi.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * A .pvd file: the list of times and VTU files that ParaView opens as one
+   * animation. It is replaced as a whole at each step, so it is complete
+   * whenever the run ends.
+   */
+  class PvdHistory
+  {
+  public:
+    PvdHistory(const std::string &path, const MPI_Comm &communicator);
+
+    /**
+     * Add a step and write the file. Collective.
+     *
+     * @param file The VTU file, relative to the folder of the .pvd file.
+     * @throws ComputationError naming the .pvd file if it cannot be written.
+     */
+    void
+    add(const double time, const std::string &file);
+
+  private:
+    std::string                                 path;
+    MPI_Comm                                    communicator;
+    std::vector<std::pair<double, std::string>> times_and_names;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_summary_h
+#define moraine_output_summary_h
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /** What summary.json says about a run; lists keep their order. */
+  struct Summary
+  {
+    template <class T>
+    using List = std::vector<std::pair<std::string, T>>;
+
+    /** "ok", "not converged", "interrupted" or "failed". */
+    std::string status = "ok";
+    /** What went wrong; left out if nothing did. */
+    std::string   message;
+    std::string   version;
+    unsigned int  dimension         = 0;
+    unsigned int  ranks             = 1;
+    std::uint64_t cells             = 0;
+    std::uint64_t active_cells      = 0;
+    std::uint64_t unknowns          = 0;
+    std::uint64_t points            = 0;
+    unsigned int  steps             = 0;
+    unsigned int  rejected_steps    = 0;
+    unsigned int  newton_iterations = 0;
+    unsigned int  linear_iterations = 0;
+    unsigned int  bytes_per_point   = 0;
+    double        peak_memory_mib   = 0;
+    double        wall_seconds      = 0;
+    /** Seconds by part of the program. */
+    List<double> timings;
+    /** Names of the effects simulated. */
+    std::vector<std::string> effects;
+    /** Left out if the scene has no exact solution. */
+    List<std::optional<double>> errors;
+    /** Last values of the probes by column name. */
+    List<double> probes;
+    /** Last force of each boundary, by component. */
+    List<std::vector<double>> reactions;
+
+    /** The text of summary.json. A number that is not finite becomes null. */
+    std::string
+    json() const;
+
+    /**
+     * Write json() from rank 0, replacing the file as a whole. Collective.
+     *
+     * @throws ComputationError naming @p path if it cannot be written.
+     */
+    void
+    write(const std::string &path, const MPI_Comm &communicator) const;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_output_vtu_file_h
+#define moraine_output_vtu_file_h
+
+#include <deal.II/base/data_out_base.h>
+
+#include <mpi.h>
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Patches with named fields on their way into a VTU file. deal.II writes;
+   * this class only holds what it asks for.
+   */
+  template <int patch_dim, int dim>
+  class VtuFile : public dealii::DataOutInterface<patch_dim, dim>
+  {
+  public:
+    using Patch = dealii::DataOutBase::Patch<patch_dim, dim>;
+
+    /** Declare a field of one number; its row is the next one. */
+    void
+    add_scalar(const std::string &name, const std::string &unit);
+
+    /** Declare a field of dim numbers, drawn as a vector. */
+    void
+    add_vector(const std::string &name, const std::string &unit);
+
+    /** Declare a field of nine numbers, drawn as a 3x3 tensor in 2D and 3D. */
+    void
+    add_tensor(const std::string &name, const std::string &unit);
+
+    /** Rows declared so far. */
+    unsigned int
+    n_rows() const
+    {
+      return names.size();
+    }
+
+    std::vector<Patch> patches;
+
+    /**
+     * Write one file for all ranks and agree on the result. Collective.
+     *
+     * @throws ComputationError naming @p path.
+     */
+    void
+    write(const std::string &path,
+          const double       time,
+          const unsigned int step,
+          const MPI_Comm    &communicator);
+
+  protected:
+    const std::vector<Patch> &
+    get_patches() const override;
+
+    std::vector<std::string>
+    get_dataset_names() const override;
+
+    std::vector<std::tuple<
+      unsigned int,
+      unsigned int,
+      std::string,
+      dealii::DataComponentInterpretation::DataComponentInterpretation>>
+    get_nonscalar_data_ranges() const override;
+
+  private:
+    void
+    add_range(
+      const std::string &name,
+      const std::string &unit,
+      const unsigned int n_components,
+      const dealii::DataComponentInterpretation::DataComponentInterpretation
+        interpretation);
+
+    std::vector<std::string>           names;
+    std::map<std::string, std::string> units;
+    std::vector<std::tuple<
+      unsigned int,
+      unsigned int,
+      std::string,
+      dealii::DataComponentInterpretation::DataComponentInterpretation>>
+      ranges;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/grid_evaluation.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <memory>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** How far outside a unit cell counts as inside. */
+    constexpr double tolerance = 1e-9;
+
+    template <int dim>
+    bool
+    may_contain(const typename Triangulation<dim>::active_cell_iterator &cell,
+                const Point<dim>                                        &place)
+    {
+      const auto box = cell->bounding_box();
+      return box.point_inside(place, tolerance);
+    }
+
+    /** Unit cell coordinates of @p place, if it is in the cell. */
+    template <int dim>
+    bool
+    find_in_cell(const Mapping<dim> &mapping,
+                 const typename Triangulation<dim>::active_cell_iterator &cell,
+                 const Point<dim>                                        &place,
+                 Point<dim>                                              &unit)
+    {
+      try
+        {
+          unit = mapping.transform_real_to_unit_cell(cell, place);
+        }
+      catch (const typename Mapping<dim>::ExcTransformationFailed &)
+        {
+          return false;
+        }
+      return GeometryInfo<dim>::is_inside_unit_cell(unit, tolerance);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PlaceFunction<dim>
+  grid_evaluation(const GridSpace<dim>              &space,
+                  const std::vector<Tensor<1, dim>> &values)
+  {
+    const auto element       = std::make_shared<FE_Q<dim>>(space.degree());
+    const auto lexicographic = element->get_poly_space_numbering_inverse();
+
+    return [&space, &values, element, lexicographic](const Point<dim> &place,
+                                                     Tensor<1, dim>   &result) {
+      const auto    &mesh      = space.mesh();
+      constexpr auto nowhere   = numbers::invalid_unsigned_int;
+      unsigned int   cell_here = nowhere;
+      Tensor<1, dim> value_here;
+      Point<dim>     unit;
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && space.is_active(cell) &&
+            may_contain<dim>(cell, place) &&
+            find_in_cell<dim>(mesh.mapping(), cell, place, unit))
+          {
+            const unsigned int *nodes = space.cell_nodes(cell);
+            for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+              value_here +=
+                element->shape_value(lexicographic[a], unit) * values[nodes[a]];
+            cell_here = cell->active_cell_index();
+            break;
+          }
+
+      // On a face between ranks both have found a cell: take the first.
+      const unsigned int cell_taken =
+        Utilities::MPI::min(cell_here, space.communicator());
+      if (cell_taken == nowhere)
+        return false;
+      result = Utilities::MPI::sum(cell_here == cell_taken ? value_here :
+                                                             Tensor<1, dim>(),
+                                   space.communicator());
+      return true;
+    };
+  }
+
+
+
+  template PlaceFunction<2>
+  grid_evaluation(const GridSpace<2> &, const std::vector<Tensor<1, 2>> &);
+  template PlaceFunction<3>
+  grid_evaluation(const GridSpace<3> &, const std::vector<Tensor<1, 3>> &);
+} // namespace moraine

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/output_directory.h>
+
+#include <moraine/core/atomic_file.h>
+#include <moraine/core/exceptions.h>
+#include <moraine/output/on_root.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace moraine
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    constexpr const char *file_names[]   = {"history.csv",
+                                            "summary.json",
+                                            "points.pvd",
+                                            "mesh.pvd",
+                                            "log.txt",
+                                            "parameters.prm",
+                                            "original.prm"};
+    constexpr const char *series_names[] = {"points", "mesh"};
+
+    /** Whether a file name is of the kind OutputDirectory::vtu_name() gives. */
+    bool
+    is_numbered_vtu(const fs::path &file)
+    {
+      const std::string number = file.stem().string();
+      return file.extension() == ".vtu" && number.size() >= 5 &&
+             std::all_of(number.begin(), number.end(), [](unsigned char c) {
+               return std::isdigit(c) != 0;
+             });
+    }
+
+    /** Files in @p folder that a run has written. */
+    std::vector<fs::path>
+    results_in(const fs::path &folder)
+    {
+      std::vector<fs::path> results;
+      for (const char *name : file_names)
+        if (fs::exists(folder / name))
+          results.push_back(folder / name);
+      for (const char *series : series_names)
+        if (fs::is_directory(folder / series))
+          for (const auto &entry : fs::directory_iterator(folder / series))
+            if (is_numbered_vtu(entry.path()))
+              results.push_back(entry.path());
+      return results;
+    }
+
+    void
+    check_writable(const fs::path &folder)
+    {
+      const fs::path probe = folder / ".moraine-writable";
+      std::ofstream  file(probe);
+      file << "x" << std::flush;
+      const bool written = static_cast<bool>(file);
+      file.close();
+      std::error_code ignored;
+      fs::remove(probe, ignored);
+      if (!written)
+        throw InputError("cannot write into the output directory '" +
+                         folder.string() +
+                         "'; check its permissions and the space on the disk, "
+                         "or choose another one with --output");
+    }
+
+    void
+    prepare(const fs::path &folder, const bool overwrite)
+    {
+      const std::vector<fs::path> results = results_in(folder);
+      if (!results.empty() && !overwrite)
+        throw InputError("the output directory '" + folder.string() +
+                         "' holds results of an earlier run (" +
+                         results.front().filename().string() +
+                         "); choose another one with --output, or replace "
+                         "them with --overwrite");
+      for (const char *series : series_names)
+        fs::create_directories(folder / series);
+      check_writable(folder);
+      for (const fs::path &file : results)
+        fs::remove(file);
+    }
+  } // namespace
+
+
+
+  OutputDirectory::OutputDirectory(const std::string &path,
+                                   const bool         overwrite,
+                                   const MPI_Comm    &communicator)
+    : path(path)
+    , communicator(communicator)
+  {
+    on_root(communicator, [&]() {
+      try
+        {
+          prepare(path, overwrite);
+        }
+      catch (const fs::filesystem_error &error)
+        {
+          throw InputError("cannot make the output directory '" + path +
+                           "': " + error.code().message() +
+                           "; choose another one with --output");
+        }
+    });
+  }
+
+
+
+  std::string
+  OutputDirectory::file(const std::string &name) const
+  {
+    return (fs::path(path) / name).string();
+  }
+
+
+
+  std::string
+  OutputDirectory::vtu_name(const std::string &series,
+                            const unsigned int number)
+  {
+    return series + "/" + dealii::Utilities::int_to_string(number, 5) + ".vtu";
+  }
+
+
+
+  void
+  OutputDirectory::write_parameter_files(
+    const std::string              &original_text,
+    const dealii::ParameterHandler &prm) const
+  {
+    on_root(communicator, [&]() {
+      AtomicFile original(file("original.prm"));
+      original.stream() << original_text;
+      original.commit();
+      AtomicFile parameters(file("parameters.prm"));
+      prm.print_parameters(parameters.stream(), dealii::ParameterHandler::Text);
+      parameters.commit();
+    });
+  }
+} // namespace moraine

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/probes.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+#include <moraine/output/component_names.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  ProbeParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Location",
+                      location,
+                      "Where the probe is at the start [length].",
+                      patterns::numbers(0, dim));
+    prm.add_parameter(
+      "Kind",
+      kind,
+      "'nearest point' follows the material point nearest to the location; "
+      "'interpolated' follows the place itself, which the displacement of the "
+      "mesh carries along.",
+      patterns::selection({"nearest point", "interpolated"}));
+    prm.add_parameter("Quantities",
+                      quantities,
+                      "What becomes columns of history.csv: displacement and "
+                      "position [length], stress [stress] (of a point only).",
+                      patterns::several_of(
+                        {"displacement", "position", "stress"}));
+  }
+
+
+
+  template <int dim>
+  void
+  ProbeParameters<dim>::check() const
+  {
+    const std::string section = "Probes/" + name;
+    if (location.size() != dim)
+      throw InputError(place(section, "Location") + ": found " +
+                       std::to_string(location.size()) +
+                       " numbers, but a place in this scene has " +
+                       std::to_string(dim));
+    if (quantities.empty())
+      throw InputError(place(section, "Quantities") +
+                       ": found nothing; allowed are displacement, position "
+                       "and stress");
+    if (kind == "interpolated" &&
+        std::count(quantities.begin(), quantities.end(), "stress") > 0)
+      throw InputError(place(section, "Quantities") +
+                       ": found 'stress', but stress is known at points only; "
+                       "allowed with 'Kind = interpolated' are displacement "
+                       "and position");
+  }
+
+
+
+  template <int dim>
+  bool
+  Probes<dim>::Probe::follows_point() const
+  {
+    return parameters.kind == "nearest point";
+  }
+
+
+
+  template <int dim>
+  Probes<dim>::Probes(const std::vector<ProbeParameters<dim>> &parameters,
+                      const PointSet<dim>                     &points,
+                      const bool moves_through_mesh)
+    : moves_through_mesh(moves_through_mesh)
+  {
+    for (const auto &one : parameters)
+      {
+        one.check();
+        Probe probe;
+        probe.parameters = one;
+        std::copy(one.location.begin(),
+                  one.location.end(),
+                  probe.start.begin_raw());
+        if (probe.follows_point())
+          choose_point(probe, points);
+        probes.push_back(std::move(probe));
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::choose_point(Probe &probe, const PointSet<dim> &points) const
+  {
+    const auto &tria         = points.mesh().triangulation();
+    const auto  communicator = tria.get_communicator();
+
+    double smallest = std::numeric_limits<double>::max();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      smallest = std::min(smallest, points.position(p).distance(probe.start));
+    smallest = Utilities::MPI::min(smallest, communicator);
+
+    // Round-off must not choose between points that are equally near.
+    const double limit = smallest + 1e-10 * points.mesh().cell_size();
+    unsigned int id    = numbers::invalid_unsigned_int;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (points.position(p).distance(probe.start) <= limit)
+        id = std::min(id, points.id(p));
+    probe.point_id = Utilities::MPI::min(id, communicator);
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::accept_step(const PlaceFunction<dim> &step_increment)
+  {
+    for (Probe &probe : probes)
+      if (!probe.follows_point())
+        {
+          // A place that has left the mesh does not come back.
+          const Point<dim> where =
+            moves_through_mesh ? probe.start + probe.displacement : probe.start;
+          Tensor<1, dim> increment;
+          if (std::isnan(probe.displacement[0]) ||
+              !step_increment(where, increment))
+            for (unsigned int c = 0; c < dim; ++c)
+              increment[c] = std::numeric_limits<double>::quiet_NaN();
+          probe.displacement += increment;
+        }
+  }
+
+
+
+  template <int dim>
+  std::vector<std::vector<double>>
+  Probes<dim>::gather_points(const PointSet<dim> &points) const
+  {
+    constexpr unsigned int n_stress = n_stress_components<dim>;
+    constexpr unsigned int n        = 2 * dim + n_stress;
+
+    // The last number of each counts how often the point was found.
+    std::vector<double> all(probes.size() * (n + 1), 0.);
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      for (unsigned int i = 0; i < probes.size(); ++i)
+        if (probes[i].follows_point() && points.id(p) == probes[i].point_id)
+          {
+            double       *out    = &all[i * (n + 1)];
+            const double *values = points.values(p);
+            out  = std::copy_n(points.position(p).begin_raw(), dim, out);
+            out  = std::copy_n(values + points.displacement_offset(), dim, out);
+            out  = std::copy_n(values + points.stress_offset(), n_stress, out);
+            *out = 1.;
+          }
+    Utilities::MPI::sum(all,
+                        points.mesh().triangulation().get_communicator(),
+                        all);
+
+    std::vector<std::vector<double>> result;
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      {
+        const auto first = all.begin() + i * (n + 1);
+        if (probes[i].follows_point() && first[n] != 1.)
+          throw ComputationError(
+            "probe '" + probes[i].parameters.name + "': point " +
+            std::to_string(probes[i].point_id) + ", which it follows, is gone");
+        result.emplace_back(first, first + n);
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<NamedValue>
+  Probes<dim>::values(const PointSet<dim> &points) const
+  {
+    std::vector<NamedValue> columns;
+    if (probes.empty())
+      return columns;
+
+    const auto of_points = gather_points(points);
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      {
+        const Probe        &probe = probes[i];
+        const std::string   at    = " at " + probe.parameters.name;
+        std::vector<double> values(of_points[i]);
+        if (!probe.follows_point())
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              values[c]       = probe.start[c] + probe.displacement[c];
+              values[dim + c] = probe.displacement[c];
+            }
+        for (const std::string &quantity : probe.parameters.quantities)
+          if (quantity == "position")
+            for (unsigned int c = 0; c < dim; ++c)
+              columns.push_back({direction_name(c) + at, "length", values[c]});
+          else if (quantity == "displacement")
+            for (unsigned int c = 0; c < dim; ++c)
+              columns.push_back(
+                {"u_" + direction_name(c) + at, "length", values[dim + c]});
+          else
+            for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+              columns.push_back({"sigma_" + stress_component_name(c) + at,
+                                 "stress",
+                                 values[2 * dim + c]});
+      }
+    return columns;
+  }
+
+
+
+  template struct ProbeParameters<2>;
+  template struct ProbeParameters<3>;
+  template class Probes<2>;
+  template class Probes<3>;
+} // namespace moraine

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/summary.h>
+
+#include <moraine/core/json.h>
+#include <moraine/output/on_root.h>
+
+#include <limits>
+#include <sstream>
+
+namespace moraine
+{
+  namespace
+  {
+    /** A list of names and values as an object, members in their order. */
+    template <class T>
+    Json
+    object_of(const Summary::List<T> &list)
+    {
+      Json object = Json::object();
+      for (const auto &[name, value] : list)
+        object[name] = value;
+      return object;
+    }
+
+    Json
+    to_json(const Summary &summary)
+    {
+      Json json;
+      json["status"] = summary.status;
+      if (!summary.message.empty())
+        json["message"] = summary.message;
+      json["version"]           = summary.version;
+      json["dimension"]         = summary.dimension;
+      json["ranks"]             = summary.ranks;
+      json["cells"]             = summary.cells;
+      json["active_cells"]      = summary.active_cells;
+      json["unknowns"]          = summary.unknowns;
+      json["points"]            = summary.points;
+      json["steps"]             = summary.steps;
+      json["rejected_steps"]    = summary.rejected_steps;
+      json["newton_iterations"] = summary.newton_iterations;
+      json["linear_iterations"] = summary.linear_iterations;
+      json["bytes_per_point"]   = summary.bytes_per_point;
+      json["peak_memory_mib"]   = summary.peak_memory_mib;
+      json["wall_seconds"]      = summary.wall_seconds;
+      json["timings"]           = object_of(summary.timings);
+      json["effects"]           = summary.effects;
+      if (!summary.errors.empty())
+        {
+          Summary::List<Json> errors;
+          for (const auto &[name, value] : summary.errors)
+            errors.emplace_back(name, value ? Json(*value) : Json());
+          json["errors"] = object_of(errors);
+        }
+      json["probes"]    = object_of(summary.probes);
+      json["reactions"] = object_of(summary.reactions);
+      return json;
+    }
+  } // namespace
+
+
+
+  std::string
+  Summary::json() const
+  {
+    std::ostringstream text;
+    to_json(*this).write(text);
+    return text.str();
+  }
+
+
+
+  void
+  Summary::write(const std::string &path, const MPI_Comm &communicator) const
+  {
+    on_root(communicator, [&]() { to_json(*this).save(path); });
+  }
+} // namespace moraine

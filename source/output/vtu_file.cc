@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/vtu_file.h>
+
+#include <moraine/core/atomic_file.h>
+#include <moraine/output/on_root.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <memory>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+  using DataComponentInterpretation::component_is_part_of_tensor;
+  using DataComponentInterpretation::component_is_part_of_vector;
+
+  namespace
+  {
+    /**
+     * Write the texts of all ranks into @p out of rank 0, in the order of
+     * ranks; it holds one foreign text at a time.
+     */
+    void
+    collect(const std::string &text,
+            std::ostream      *out,
+            const MPI_Comm    &communicator)
+    {
+      constexpr int tag = 0;
+      if (Utilities::MPI::this_mpi_process(communicator) != 0)
+        {
+          MPI_Send(text.data(), text.size(), MPI_CHAR, 0, tag, communicator);
+          return;
+        }
+      *out << text;
+      std::string received;
+      for (unsigned int rank = 1;
+           rank < Utilities::MPI::n_mpi_processes(communicator);
+           ++rank)
+        {
+          MPI_Status status;
+          int        size = 0;
+          MPI_Probe(rank, tag, communicator, &status);
+          MPI_Get_count(&status, MPI_CHAR, &size);
+          received.resize(size);
+          MPI_Recv(received.data(),
+                   size,
+                   MPI_CHAR,
+                   rank,
+                   tag,
+                   communicator,
+                   MPI_STATUS_IGNORE);
+          *out << received;
+        }
+    }
+  } // namespace
+
+
+
+  template <int patch_dim, int dim>
+  void
+  VtuFile<patch_dim, dim>::add_range(
+    const std::string &name,
+    const std::string &unit,
+    const unsigned int n_components,
+    const DataComponentInterpretation::DataComponentInterpretation
+      interpretation)
+  {
+    ranges.emplace_back(names.size(),
+                        names.size() + n_components - 1,
+                        name,
+                        interpretation);
+    names.insert(names.end(), n_components, name);
+    if (unit != "-")
+      units[name] = unit;
+  }
+
+
+
+  template <int patch_dim, int dim>
+  void
+  VtuFile<patch_dim, dim>::add_scalar(const std::string &name,
+                                      const std::string &unit)
+  {
+    names.push_back(name);
+    if (unit != "-")
+      units[name] = unit;
+  }
+
+
+
+  template <int patch_dim, int dim>
+  void
+  VtuFile<patch_dim, dim>::add_vector(const std::string &name,
+                                      const std::string &unit)
+  {
+    add_range(name, unit, dim, component_is_part_of_vector);
+  }
+
+
+
+  template <int patch_dim, int dim>
+  void
+  VtuFile<patch_dim, dim>::add_tensor(const std::string &name,
+                                      const std::string &unit)
+  {
+    add_range(name, unit, 9, component_is_part_of_tensor);
+  }
+
+
+
+  template <int patch_dim, int dim>
+  void
+  VtuFile<patch_dim, dim>::write(const std::string &path,
+                                 const double       time,
+                                 const unsigned int step,
+                                 const MPI_Comm    &communicator)
+  {
+    // A date would make two equal runs differ.
+    const DataOutBase::VtkFlags flags(
+      time, step, false, DataOutBase::VtkFlags::best_speed, false, units);
+    // For a rank without patches deal.II declares tensors of 3 components.
+    std::ostringstream text;
+    if (!patches.empty())
+      DataOutBase::write_vtu_main(
+        patches, names, get_nonscalar_data_ranges(), flags, text);
+
+    std::unique_ptr<AtomicFile> file;
+    on_root(communicator, [&]() {
+      file = std::make_unique<AtomicFile>(path);
+      DataOutBase::write_vtu_header(file->stream(), flags);
+    });
+    collect(text.str(), file ? &file->stream() : nullptr, communicator);
+    on_root(communicator, [&]() {
+      // deal.II takes a stream that failed for a mistake of ours.
+      if (file->stream())
+        DataOutBase::write_vtu_footer(file->stream());
+      file->commit();
+    });
+  }
+
+
+
+  template <int patch_dim, int dim>
+  const std::vector<typename VtuFile<patch_dim, dim>::Patch> &
+  VtuFile<patch_dim, dim>::get_patches() const
+  {
+    return patches;
+  }
+
+
+
+  template <int patch_dim, int dim>
+  std::vector<std::string>
+  VtuFile<patch_dim, dim>::get_dataset_names() const
+  {
+    return names;
+  }
+
+
+
+  template <int patch_dim, int dim>
+  std::vector<
+    std::tuple<unsigned int,
+               unsigned int,
+               std::string,
+               DataComponentInterpretation::DataComponentInterpretation>>
+  VtuFile<patch_dim, dim>::get_nonscalar_data_ranges() const
+  {
+    return ranges;
+  }
+
+
+
+  template class VtuFile<0, 2>;
+  template class VtuFile<0, 3>;
+  template class VtuFile<2, 2>;
+  template class VtuFile<3, 3>;
+} // namespace moraine

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/output/history.h>
+#include <moraine/output/output_directory.h>
+#include <moraine/output/summary.h>
+
+#include <gtest/gtest.h>
+
+#include "scene.h"
+
+namespace moraine
+{
+  namespace
+  {
+    /** Touch a file from rank 0, for all to see. */
+    void
+    touch(const std::string &path)
+    {
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::ofstream(path) << "old";
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+
+    std::string
+    refusal(const std::string &path)
+    {
+      try
+        {
+          const OutputDirectory directory(path, false, MPI_COMM_WORLD);
+        }
+      catch (const InputError &error)
+        {
+          return error.what();
+        }
+      return "not refused";
+    }
+  } // namespace
+
+
+
+  TEST(History, header_and_rows)
+  {
+    const Folder      folder;
+    const std::string path = folder.file("history.csv");
+    History           history(path, MPI_COMM_WORLD);
+    history.add_row({{"t", "-", 0.}, {"u_y at A, top", "length", 1. / 3.}});
+    EXPECT_EQ(content(path),
+              "t,\"u_y at A, top [length]\"\n0,0.333333333333333\n");
+    MPI_Barrier(MPI_COMM_WORLD);
+    history.add_row({{"t", "-", 0.5}, {"u_y at A, top", "length", -1e-20}});
+    EXPECT_EQ(
+      content(path),
+      "t,\"u_y at A, top [length]\"\n0,0.333333333333333\n0.5,-1e-20\n");
+    EXPECT_THROW(history.add_row({{"t", "-", 1.}}), dealii::ExceptionBase);
+  }
+
+
+
+  TEST(History, failed_write_names_the_file)
+  {
+    History history("/dev/full", MPI_COMM_WORLD);
+    try
+      {
+        history.add_row({{"t", "-", 0.}});
+        FAIL() << "nothing thrown";
+      }
+    catch (const ComputationError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("/dev/full"),
+                  std::string::npos);
+      }
+  }
+
+
+
+  TEST(OutputDirectory, refuses_results_and_overwrites_only_them)
+  {
+    const Folder      folder;
+    const std::string path = folder.file("a/b");
+    {
+      const OutputDirectory directory(path, false, MPI_COMM_WORLD);
+      EXPECT_EQ(directory.file("log.txt"), path + "/log.txt");
+      EXPECT_EQ(OutputDirectory::vtu_name("points", 12), "points/00012.vtu");
+    }
+    for (const char *name : {"/mine.txt", "/points/mine.vtu", "/mesh/1.vtu"})
+      touch(path + name);
+    EXPECT_EQ(refusal(path), "not refused");
+    for (const char *name :
+         {"/history.csv", "/points/00000.vtu", "/mesh/00003.vtu", "/mesh.pvd"})
+      touch(path + name);
+
+    EXPECT_EQ(refusal(path),
+              "the output directory '" + path +
+                "' holds results of an earlier run (history.csv); choose "
+                "another one with --output, or replace them with --overwrite");
+    EXPECT_EQ(content(path + "/history.csv"), "old");
+    MPI_Barrier(MPI_COMM_WORLD);
+
+    const OutputDirectory directory(path, true, MPI_COMM_WORLD);
+    for (const char *name :
+         {"/history.csv", "/points/00000.vtu", "/mesh/00003.vtu", "/mesh.pvd"})
+      EXPECT_FALSE(std::filesystem::exists(path + name)) << name;
+    for (const char *name : {"/mine.txt", "/points/mine.vtu", "/mesh/1.vtu"})
+      EXPECT_EQ(content(path + name), "old") << name;
+  }
+
+
+
+  TEST(OutputDirectory, that_cannot_be_made)
+  {
+    const Folder      folder;
+    const std::string file = folder.file("file");
+    touch(file);
+    EXPECT_EQ(refusal(file + "/results"),
+              "cannot make the output directory '" + file +
+                "/results': Not a directory; choose another one with --output");
+    EXPECT_EQ(content(file), "old");
+  }
+
+
+
+  TEST(OutputDirectory, keeps_the_input)
+  {
+    const Folder          folder;
+    const OutputDirectory directory(folder.file("out"), false, MPI_COMM_WORLD);
+    dealii::ParameterHandler prm;
+    double                   size = 2.;
+    prm.add_parameter("Size", size, "How long [length].");
+    directory.write_parameter_files("set Size = 2 # mine\n", prm);
+    EXPECT_EQ(content(directory.file("original.prm")), "set Size = 2 # mine\n");
+    const std::string all = content(directory.file("parameters.prm"));
+    EXPECT_NE(all.find("# How long [length]."), std::string::npos) << all;
+    EXPECT_NE(all.find("set Size = 2"), std::string::npos) << all;
+  }
+
+
+
+  TEST(Summary, members_in_order)
+  {
+    const Folder folder;
+    Summary      summary;
+    summary.version        = "1.0";
+    summary.dimension      = 2;
+    summary.points         = 5000000000;
+    summary.timings        = {{"solve", 0.5}, {"assembly", 0.25}};
+    summary.effects        = {"internal force"};
+    summary.errors         = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
+    summary.probes         = {{"u_x at A", 0.125}};
+    summary.reactions      = {{"left", {1., -2.}}};
+    const std::string path = folder.file("summary.json");
+    summary.write(path, MPI_COMM_WORLD);
+    EXPECT_EQ(content(path), R"({
+  "status": "ok",
+  "version": "1.0",
+  "dimension": 2,
+  "ranks": 1,
+  "cells": 0,
+  "active_cells": 0,
+  "unknowns": 0,
+  "points": 5000000000,
+  "steps": 0,
+  "rejected_steps": 0,
+  "newton_iterations": 0,
+  "linear_iterations": 0,
+  "bytes_per_point": 0,
+  "peak_memory_mib": 0,
+  "wall_seconds": 0,
+  "timings": {
+    "solve": 0.5,
+    "assembly": 0.25
+  },
+  "effects": ["internal force"],
+  "errors": {
+    "r_u": 1e-10,
+    "r_sigma_xy": null
+  },
+  "probes": {
+    "u_x at A": 0.125
+  },
+  "reactions": {
+    "left": [1, -2]
+  }
+}
+)");
+    EXPECT_THROW(summary.write(folder.file("none/summary.json"),
+                               MPI_COMM_WORLD),
+                 ComputationError);
+  }
+} // namespace moraine

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/mesh/grid_space.h>
+#include <moraine/output/mesh_vtu.h>
+#include <moraine/output/point_vtu.h>
+#include <moraine/output/pvd_history.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <map>
+
+#include "scene.h"
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A field of a VTU file, the pieces of all ranks one after the other. */
+    struct Array
+    {
+      unsigned int       n_components = 0;
+      std::string        unit;
+      std::vector<float> values;
+    };
+
+    std::string
+    attribute(const std::string &tag, const std::string &name)
+    {
+      const auto start = tag.find(" " + name + "=\"");
+      if (start == std::string::npos)
+        return "";
+      const auto first = start + name.size() + 3;
+      return tag.substr(first, tag.find('"', first) - first);
+    }
+
+    /** Compressed binary data as VTK defines it, in one block. */
+    std::vector<float>
+    decode(const std::string &text)
+    {
+      std::uint32_t     head[4];
+      const std::size_t head_length = 24;
+      const auto        head_bytes =
+        Utilities::decode_base64(text.substr(0, head_length));
+      std::memcpy(head, head_bytes.data(), sizeof(head));
+      EXPECT_EQ(head[0], 1u);
+      const auto packed = Utilities::decode_base64(text.substr(head_length));
+      std::vector<float> values(head[1] / sizeof(float));
+      uLongf             size = head[1];
+      EXPECT_EQ(uncompress(reinterpret_cast<Bytef *>(values.data()),
+                           &size,
+                           packed.data(),
+                           head[3]),
+                Z_OK);
+      EXPECT_EQ(size, head[1]);
+      return values;
+    }
+
+    std::map<std::string, Array>
+    read_vtu(const std::string &path)
+    {
+      std::map<std::string, Array> arrays;
+      const std::string            text = content(path);
+      EXPECT_EQ(text.substr(0, 5), "<?xml");
+      EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
+      const std::string open = "<DataArray";
+      for (std::size_t at = text.find(open); at != std::string::npos;
+           at             = text.find(open, at + 1))
+        {
+                      const std::size_t end = text.find('>', at);
+                      const std::string tag = text.substr(at, end - at);
+                      if (attribute(tag, "type") != "Float32" ||
+              attribute(tag, "format") != "binary")
+            continue;
+          const std::string name  = attribute(tag, "Name");
+                      Array            &array = arrays[name.empty() ? "position" : name];
+                      const std::string n     = attribute(tag, "NumberOfComponents");
+                      array.n_components      = n.empty() ? 1 : std::stoi(n);
+                      array.unit              = attribute(tag, "units");
+                      std::string data =
+                        text.substr(end + 1, text.find('<', end) - end - 1);
+                      data.erase(std::remove_if(data.begin(),
+                                    data.end(),
+                                    [](unsigned char c) {
+                                      return std::isspace(c) != 0;
+                                    }),
+                     data.end());
+                      if (!data.empty())
+            {
+                          const auto values = decode(data);
+                          array.values.insert(array.values.end(),
+                                  values.begin(),
+                                  values.end());
+            }
+        }
+      return arrays;
+    }
+
+    std::vector<float>
+    of_point(const Array &array, const unsigned int i)
+    {
+      const auto first = array.values.begin() + i * array.n_components;
+      return {first, first + array.n_components};
+    }
+
+    template <int dim>
+    void
+    check_points(const Folder &folder)
+    {
+      const BackgroundMesh<dim> mesh(mesh_parameters<dim>(), MPI_COMM_WORLD);
+      PointFields               layout;
+      const unsigned int plastic = layout.request("plastic_strain", 1, "-");
+      PointSet<dim>      points(mesh, layout);
+      fill(points);
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          double *values                           = points.values(p);
+          values[plastic]                          = 0.5;
+          values[points.displacement_offset() + 1] = points.id(p);
+          for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+            values[points.stress_offset() + c] = c + 1;
+        }
+      const std::string path = folder.file("points.vtu");
+      write_point_vtu(points, path, 2.5, 3);
+
+      auto arrays = read_vtu(path);
+      ASSERT_EQ(arrays["id"].values.size(), points.n_global());
+      ASSERT_EQ(arrays["displacement"].n_components, 3u);
+      ASSERT_EQ(arrays["stress"].n_components, 9u);
+      EXPECT_EQ(arrays["displacement"].unit, "length");
+      EXPECT_EQ(arrays["stress"].unit, "stress");
+      EXPECT_EQ(arrays["volume"].unit, dim == 2 ? "length^2" : "length^3");
+      EXPECT_EQ(arrays["body"].values, std::vector<float>(16, 0.f));
+      EXPECT_EQ(arrays["plastic_strain"].values, std::vector<float>(16, 0.5f));
+
+      const std::vector<float> stress =
+        dim == 2 ? std::vector<float>{1, 4, 0, 4, 2, 0, 0, 0, 3} :
+                   std::vector<float>{1, 4, 5, 4, 2, 6, 5, 6, 3};
+      std::vector<float> ids = arrays["id"].values;
+      for (unsigned int i = 0; i < ids.size(); ++i)
+        {
+          EXPECT_EQ(of_point(arrays["stress"], i), stress);
+          EXPECT_EQ(of_point(arrays["displacement"], i),
+                    (std::vector<float>{0, ids[i], 0}));
+          // von Mises: 3/2 s:s with s = (-1, 0, 1), 4, (5, 6)
+          EXPECT_FLOAT_EQ(arrays["von_mises_stress"].values[i],
+                          std::sqrt(dim == 2 ? 51. : 234.));
+          EXPECT_FLOAT_EQ(arrays["mean_stress"].values[i], 2.);
+          // fill(): cell index and which of the two points follow from the id
+          const unsigned int number = 100 - static_cast<int>(ids[i]);
+          EXPECT_EQ(std::fmod(arrays["position"].values[3 * i], 1.f),
+                    0.25f + 0.5f * (number % 2));
+        }
+      if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+        {
+          EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+        }
+      std::sort(ids.begin(), ids.end());
+      for (unsigned int i = 0; i < ids.size(); ++i)
+        EXPECT_EQ(ids[i], 85 + i);
+      EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+    }
+  } // namespace
+
+
+
+  TEST(PointVtu, named_vectors_and_tensors)
+  {
+    const Folder folder;
+    check_points<2>(folder);
+    check_points<3>(folder);
+  }
+
+
+
+  TEST(PointVtu, a_rank_without_points)
+  {
+    const Folder            folder;
+    const BackgroundMesh<2> mesh(mesh_parameters<2>(), MPI_COMM_WORLD);
+    PointSet<2>             points(mesh, {});
+    const auto              cell = mesh.triangulation().begin_active();
+    if (cell->is_locally_owned())
+      points.insert(cell, cell->center(), Point<2>(0.5, 0.5), 7, 0, 1.);
+    points.finish_insertion();
+    const std::string path = folder.file("one.vtu");
+    write_point_vtu(points, path, 0., 0);
+    EXPECT_EQ(read_vtu(path)["id"].values, std::vector<float>{7.f});
+  }
+
+
+
+  TEST(PointVtu, failed_write_is_told_to_all_ranks)
+  {
+    const Folder            folder;
+    const BackgroundMesh<2> mesh(mesh_parameters<2>(), MPI_COMM_WORLD);
+    PointSet<2>             points(mesh, {});
+    fill(points);
+    const std::string path = folder.file("no-such-folder/points.vtu");
+    try
+      {
+        write_point_vtu(points, path, 0., 0);
+        FAIL() << "nothing thrown";
+      }
+    catch (const ComputationError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(path), std::string::npos)
+          << error.what();
+      }
+  }
+
+
+
+  TEST(MeshVtu, deformed_active_cells)
+  {
+    const Folder            folder;
+    const BackgroundMesh<2> mesh(mesh_parameters<2>(), MPI_COMM_WORLD);
+    for (const unsigned int degree : {1u, 2u})
+      {
+        GridSpace<2>               space(mesh, degree);
+        std::vector<unsigned char> active(8, 0);
+        active[0] = active[7] = 1;
+        space.set_active_cells(active);
+        std::vector<Tensor<1, 2>> u(space.n_nodes());
+        for (unsigned int n = 0; n < u.size(); ++n)
+          u[n][0] = 10 + space.node_position(n)[1];
+        space.move_nodes(u);
+        const std::string path = folder.file("mesh.vtu");
+        write_mesh_vtu<2>(
+          space, {{"step_displacement", "length", u}}, path, 1., 1);
+
+        auto       arrays = read_vtu(path);
+        const auto values = arrays["step_displacement"].values;
+        const auto places = arrays["position"].values;
+        EXPECT_EQ(arrays["step_displacement"].n_components, 3u);
+        ASSERT_EQ(values.size(), 3 * 2 * (degree + 1) * (degree + 1));
+        ASSERT_EQ(places.size(), values.size());
+        double sum_x = 0;
+        for (unsigned int i = 0; i < values.size(); i += 3)
+          {
+            EXPECT_FLOAT_EQ(values[i], 10 + places[i + 1]);
+            sum_x += places[i] - values[i];
+          }
+        // Nodes of two equal squares: their mean place is that of the centres.
+        Point<2> centre;
+        for (const auto &cell : mesh.triangulation().active_cell_iterators())
+          if (active[cell->active_cell_index()] != 0)
+            centre += 0.5 * cell->center();
+        EXPECT_NEAR(sum_x / (values.size() / 3.), centre[0], 1e-5);
+      }
+  }
+
+
+
+  TEST(PvdHistory, is_complete_after_every_step)
+  {
+    const Folder      folder;
+    const std::string path = folder.file("points.pvd");
+    PvdHistory        history(path, MPI_COMM_WORLD);
+    history.add(0., "points/00000.vtu");
+    EXPECT_NE(content(path).find("</VTKFile>"), std::string::npos);
+    MPI_Barrier(MPI_COMM_WORLD);
+    history.add(0.5, "points/00001.vtu");
+    const std::string text = content(path);
+    EXPECT_NE(text.find("timestep=\"0\" group=\"\" part=\"0\" "
+                        "file=\"points/00000.vtu\""),
+              std::string::npos)
+      << text;
+    EXPECT_NE(text.find("timestep=\"0.5\" group=\"\" part=\"0\" "
+                        "file=\"points/00001.vtu\""),
+              std::string::npos)
+      << text;
+    EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
+  }
+} // namespace moraine
