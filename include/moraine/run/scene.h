@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_scene_h
+#define moraine_run_scene_h
+
+#include <moraine/boundary/enforcement.h>
+#include <moraine/boundary/surface_library.h>
+#include <moraine/core/input_file.h>
+#include <moraine/material/linear_elastic.h>
+#include <moraine/mesh/background_mesh.h>
+#include <moraine/output/error_norms.h>
+#include <moraine/output/probes.h>
+#include <moraine/points/shape_library.h>
+#include <moraine/solver/linear_solver.h>
+#include <moraine/solver/newton.h>
+#include <moraine/state/state.h>
+#include <moraine/time/time_control.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** Section `Method`: the three choices in which methods differ. */
+  struct MethodParameters
+  {
+    std::string  method               = "material point";
+    unsigned int degree               = 1;
+    unsigned int points_per_direction = 2;
+    std::string  point_layout         = "equally spaced";
+    std::string  mesh_after_step      = "default";
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    bool
+    is_finite_element() const
+    {
+      return method == "finite element";
+    }
+
+    MeshAfterStep
+    after_step() const;
+  };
+
+  /** Section `Bodies/<name>`. */
+  template <int dim>
+  struct BodyParameters
+  {
+    std::string          material;
+    ShapeParameters<dim> shape;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Section `Boundaries/<name>`. */
+  template <int dim>
+  struct BoundaryParameters
+  {
+    SurfaceParameters<dim> surface;
+    EnforcementParameters  enforcement;
+    std::string            constraint = "fixed";
+    std::string            components;
+    std::string            displacement;
+    std::string            translation;
+    std::string            rotation_angle;
+    std::vector<double>    rotation_centre;
+    std::vector<double>    rotation_axis;
+    double                 penetration_limit = 0;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Section `Grid conditions/<name>`. */
+  struct GridConditionParameters
+  {
+    std::string         side;
+    std::vector<double> lower_corner;
+    std::vector<double> upper_corner;
+    std::string         components;
+    std::string         displacement;
+
+    template <int dim>
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Section `Loads/<name>`. */
+  template <int dim>
+  struct LoadParameters
+  {
+    std::string              type = "body force";
+    std::string              value;
+    std::string              curve;
+    std::vector<std::string> bodies;
+    std::string              side;
+    std::vector<double>      location;
+    SurfaceParameters<dim>   surface;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Section `Output`. */
+  struct OutputParameters
+  {
+    std::string directory;
+    bool        points = true;
+    bool        mesh   = true;
+    OutputTimes times;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /**
+   * Everything a scene says, read strictly and checked across sections. The
+   * members of the named sections keep the order of the file.
+   */
+  template <int dim>
+  class Scene
+  {
+  public:
+    template <class Parameters>
+    using Named = std::vector<std::pair<std::string, Parameters>>;
+
+    /** @throws InputError for anything wrong that can be seen in the text. */
+    explicit Scene(const InputFile &input);
+
+    Scene(const Scene &) = delete;
+
+    /** All parameters with their values. */
+    dealii::ParameterHandler &
+    parameters()
+    {
+      return prm;
+    }
+
+    std::string                            title;
+    MeshParameters<dim>                    mesh;
+    MethodParameters                       method;
+    Named<MaterialParameters>              materials;
+    Named<BodyParameters<dim>>             bodies;
+    Named<BoundaryParameters<dim>>         boundaries;
+    Named<GridConditionParameters>         grid_conditions;
+    Named<LoadParameters<dim>>             loads;
+    TimeParameters                         time;
+    NewtonParameters                       newton;
+    LinearSolverParameters                 linear_solver;
+    OutputParameters                       output;
+    std::vector<ProbeParameters<dim>>      probes;
+    ExactSolutionParameters<dim>           exact;
+
+  private:
+    void
+    declare();
+
+    void
+    check(const InputFile &input) const;
+
+    unsigned int             dimension = dim;
+    dealii::ParameterHandler prm;
+  };
+
+  /** Declare the keys of section `Study`, which `moraine study` reads. */
+  struct StudyParameters
+  {
+    std::string error;
+    std::string group_by;
+    std::string title;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/scene.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/nearest.h>
+#include <moraine/core/patterns.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  MethodParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Method",
+      method,
+      "finite element: Gauss points that stay in their cell. material point: "
+      "points that move through the mesh. GIMP: the same, averaged over the box "
+      "of each point; needs a box of equal cells.",
+      patterns::selection({"finite element", "material point", "GIMP"}));
+    prm.add_parameter("Degree",
+                      degree,
+                      "Degree of the shape functions, 1 or 2; 2 with finite "
+                      "elements only.",
+                      patterns::integer_in_range(1, 2));
+    prm.add_parameter("Points per direction",
+                      points_per_direction,
+                      "Points a full cell gets in each direction. Finite "
+                      "elements have degree + 1 Gauss points instead.",
+                      patterns::integer_in_range(1, 1000));
+    prm.add_parameter("Point layout",
+                      point_layout,
+                      "Where the points of a full cell are. Finite elements "
+                      "always use Gauss points.",
+                      patterns::selection({"equally spaced", "Gauss"}));
+    prm.add_parameter(
+      "Mesh after step",
+      mesh_after_step,
+      "reset: points move and the mesh stays. follow material: nodes move with "
+      "the material. keep: nothing moves (small displacement). default: follow "
+      "material with finite elements, reset otherwise.",
+      patterns::selection({"default", "reset", "follow material", "keep"}));
+  }
+
+
+
+  MeshAfterStep
+  MethodParameters::after_step() const
+  {
+    if (mesh_after_step == "keep")
+      return MeshAfterStep::keep;
+    if (mesh_after_step == "follow material" ||
+        (mesh_after_step == "default" && is_finite_element()))
+      return MeshAfterStep::follow_material;
+    return MeshAfterStep::reset;
+  }
+
+
+
+  template <int dim>
+  void
+  BodyParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Material",
+                      material,
+                      "Name of its material; may be left out if there is one "
+                      "only.");
+    shape.add_parameters(prm);
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    surface.add_parameters(prm);
+    prm.add_parameter("Constraint",
+                      constraint,
+                      "fixed: all components. roller: the component normal to "
+                      "the surface. components: those of key 'Components'.",
+                      patterns::selection({"fixed", "roller", "components"}));
+    prm.add_parameter("Components",
+                      components,
+                      "Of 'components': which, as x, y or x, y.",
+                      patterns::several_of({"x", "y", "z"}));
+    prm.add_parameter(
+      "Displacement",
+      displacement,
+      "Prescribed displacement of the material relative to the moving surface "
+      "(length), dim expressions in x, y, z, t separated by ';'.");
+    prm.add_parameter("Translation",
+                      translation,
+                      "Motion of the surface and of the material it holds "
+                      "(length), dim expressions in t separated by ';'.");
+    prm.add_parameter("Rotation angle",
+                      rotation_angle,
+                      "Rotation of the surface (degrees), an expression in t. A "
+                      "constant places the surface; a change moves it.");
+    prm.add_parameter("Rotation centre",
+                      rotation_centre,
+                      "Point of the axis of rotation; the origin if left out.",
+                      patterns::numbers(0, dim));
+    prm.add_parameter("Rotation axis",
+                      rotation_axis,
+                      "In 3D: direction of the axis of rotation; z if left out.",
+                      patterns::numbers(0, 3));
+    prm.add_parameter(
+      "Penetration limit",
+      penetration_limit,
+      "Largest depth a point may end behind the surface, in cell sizes; a step "
+      "that goes deeper is rejected and halved. 0: no limit, only reported.",
+      patterns::non_negative());
+    enforcement.add_parameters(prm);
+  }
+
+
+
+  template <int dim>
+  void
+  GridConditionParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Side",
+                      side,
+                      dim == 2 ?
+                        "A side of the mesh: left, right, bottom, top." :
+                        "A side of the mesh: left, right (x), front, back (y), "
+                        "bottom, top (z).");
+    prm.add_parameter("Lower corner",
+                      lower_corner,
+                      "With 'Upper corner': the nodes in this box, instead of or "
+                      "within a side.",
+                      patterns::numbers(0, dim));
+    prm.add_parameter("Upper corner",
+                      upper_corner,
+                      "See 'Lower corner'.",
+                      patterns::numbers(0, dim));
+    prm.add_parameter("Components",
+                      components,
+                      "Components that are prescribed, as x, y; all if left out.",
+                      patterns::several_of({"x", "y", "z"}));
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "Prescribed displacement (length), dim expressions in x, "
+                      "y, z, t separated by ';'; zero if left out.");
+  }
+
+
+
+  template <int dim>
+  void
+  LoadParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Type",
+      type,
+      "body force (force/volume), gravity (acceleration, times density), side "
+      "traction (force/area on a side of the mesh), surface traction "
+      "(force/area on a surface carried by the material), point force (force "
+      "carried by the material).",
+      patterns::selection({"body force",
+                           "gravity",
+                           "side traction",
+                           "surface traction",
+                           "point force"}));
+    prm.add_parameter("Value",
+                      value,
+                      "dim expressions in x, y, z, t separated by ';'.");
+    prm.add_parameter("Curve",
+                      curve,
+                      "Factor over time: an expression in t or a table 't: f, t: "
+                      "f, ...'; 1 if left out.");
+    prm.add_parameter("Bodies",
+                      bodies,
+                      "Of body force and gravity: names of the bodies; all if "
+                      "left out.");
+    prm.add_parameter("Side", side, "Of side traction: a side of the mesh.");
+    prm.add_parameter("Location",
+                      location,
+                      "Of point force: where it acts at the start.",
+                      patterns::numbers(0, dim));
+    surface.add_parameters(prm);
+  }
+
+
+
+  void
+  OutputParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Directory",
+                      directory,
+                      "Folder for the results; output/<name of the scene> if "
+                      "left out.");
+    prm.add_parameter("Points", points, "Write the points as VTU.");
+    prm.add_parameter("Mesh", mesh, "Write the active cells as VTU.");
+    times.add_parameters(prm);
+  }
+
+
+
+  void
+  StudyParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Error",
+                      error,
+                      "Of 'moraine study': the error to plot, a name from "
+                      "'errors' in summary.json.");
+    prm.add_parameter("Group by",
+                      group_by,
+                      "Of 'moraine study': the key whose values become curves.");
+    prm.add_parameter("Title", title, "Of 'moraine study': title of the plot.");
+  }
+
+
+
+  namespace
+  {
+    template <class Parameters>
+    void
+    take_names(const InputFile                                  &input,
+               const std::string                                &section,
+               std::vector<std::pair<std::string, Parameters>> &list)
+    {
+      for (const std::string &name : input.names_in(section))
+        list.emplace_back(name, Parameters());
+    }
+
+
+
+    template <class List, class Declare>
+    void
+    in_subsections(ParameterHandler  &prm,
+                   const std::string &section,
+                   List              &list,
+                   const Declare     &declare)
+    {
+      prm.enter_subsection(section);
+      for (auto &[name, parameters] : list)
+        {
+          prm.enter_subsection(name);
+          declare(parameters);
+          prm.leave_subsection();
+        }
+      prm.leave_subsection();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Scene<dim>::Scene(const InputFile &input)
+  {
+    take_names(input, "Materials", materials);
+    take_names(input, "Bodies", bodies);
+    take_names(input, "Boundaries", boundaries);
+    take_names(input, "Grid conditions", grid_conditions);
+    take_names(input, "Loads", loads);
+    for (const std::string &name : input.names_in("Probes"))
+      {
+        probes.emplace_back();
+        probes.back().name = name;
+      }
+    declare();
+    input.parse(prm);
+    check(input);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::declare()
+  {
+    prm.add_parameter("Dimension",
+                      dimension,
+                      "2 (plane strain) or 3.",
+                      patterns::integer_in_range(2, 3));
+    prm.add_parameter("Title", title, "Shown at the start of a run.");
+
+    const auto section = [this](const std::string &name, auto &parameters) {
+      prm.enter_subsection(name);
+      parameters.add_parameters(prm);
+      prm.leave_subsection();
+    };
+    const auto add_all = [this](auto &parameters) {
+      parameters.add_parameters(prm);
+    };
+    section("Mesh", mesh);
+    section("Method", method);
+    in_subsections(prm, "Materials", materials, add_all);
+    in_subsections(prm, "Bodies", bodies, add_all);
+    in_subsections(prm, "Boundaries", boundaries, add_all);
+    in_subsections(prm, "Grid conditions", grid_conditions, [this](auto &c) {
+      c.template add_parameters<dim>(prm);
+    });
+    in_subsections(prm, "Loads", loads, add_all);
+    section("Time", time);
+    prm.enter_subsection("Solver");
+    newton.add_parameters(prm);
+    linear_solver.add_parameters(prm);
+    prm.leave_subsection();
+    section("Output", output);
+    prm.enter_subsection("Probes");
+    for (auto &probe : probes)
+      section(probe.name, probe);
+    prm.leave_subsection();
+    section("Exact solution", exact);
+    StudyParameters study;
+    prm.enter_subsection("Study");
+    prm.declare_entry("Error",
+                      "",
+                      Patterns::Anything(),
+                      "Of 'moraine study': the error to plot against time, a "
+                      "name from 'errors' in summary.json.");
+    prm.declare_entry("Group by",
+                      "",
+                      Patterns::Anything(),
+                      "Of 'moraine study': the key whose values become curves.");
+    prm.declare_entry("Title",
+                      "",
+                      Patterns::Anything(),
+                      "Of 'moraine study': title of the plot.");
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check(const InputFile &input) const
+  {
+    for (const char *key : {"Lower corner", "Upper corner"})
+      input.require("Mesh", key);
+    mesh.n_cells();
+    time.check();
+    const auto reject = [](const std::string &section,
+                           const std::string &key,
+                           const std::string &found,
+                           const std::string &allowed) {
+      throw InputError(place(section, key) + ": found '" + found +
+                       "', allowed: " + allowed);
+    };
+    if (bodies.empty())
+      throw InputError("section 'Bodies': found no body, allowed: at least one "
+                       "subsection with a shape");
+    if (materials.empty())
+      throw InputError("section 'Materials': found no material, allowed: at "
+                       "least one subsection");
+    std::vector<std::string> material_names;
+    for (const auto &material : materials)
+      {
+        material_names.push_back(material.first);
+        for (const char *key : {"Young modulus", "Poisson ratio"})
+          input.require("Materials/" + material.first, key);
+        make_material(material.second, "Materials/" + material.first);
+      }
+    for (const auto &[name, body] : bodies)
+      if (body.material.empty() ? materials.size() > 1 :
+                                  std::find(material_names.begin(),
+                                            material_names.end(),
+                                            body.material) ==
+                                    material_names.end())
+        reject("Bodies/" + name,
+               "Material",
+               body.material,
+               "the name of a material (" + join(material_names) + ")" +
+                 did_you_mean(body.material, material_names));
+    if (method.degree == 2 && !method.is_finite_element())
+      reject("Method",
+             "Degree",
+             "2",
+             "1 with method '" + method.method + "'; 2 with 'finite element'");
+    if (method.is_finite_element() && method.mesh_after_step == "reset")
+      reject("Method",
+             "Mesh after step",
+             "reset",
+             "follow material or keep with finite elements, whose points stay "
+             "in their cells");
+    if (method.method == "GIMP" && method.mesh_after_step == "follow material")
+      reject("Method",
+             "Mesh after step",
+             "follow material",
+             "reset or keep with GIMP, which needs a regular mesh");
+    for (const auto &probe : probes)
+      probe.check();
+  }
+
+
+
+  template struct BodyParameters<2>;
+  template struct BodyParameters<3>;
+  template struct BoundaryParameters<2>;
+  template struct BoundaryParameters<3>;
+  template struct LoadParameters<2>;
+  template struct LoadParameters<3>;
+  template class Scene<2>;
+  template class Scene<3>;
+} // namespace moraine
