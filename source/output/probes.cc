@@ -36,8 +36,9 @@ namespace moraine
                       quantities,
                       "What becomes columns of history.csv: displacement and "
                       "position [length], stress [stress] (of a point only).",
-                      patterns::several_of(
-                        {"displacement", "position", "stress"}));
+                      Patterns::List(patterns::selection(
+                                       {"displacement", "position", "stress"}),
+                                     1));
   }
 
 

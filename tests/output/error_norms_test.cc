@@ -59,9 +59,11 @@ namespace moraine
     insert_two_points(points);
 
     ExactSolutionParameters<2> parameters;
-    parameters.displacement = "a*x; 0";
-    parameters.stress       = "10*x*t; 0; 0; 0";
-    parameters.constants    = {{"a", 0.2}};
+    ParameterHandler           prm;
+    parameters.add_parameters(prm);
+    prm.parse_input_from_string("set Displacement = a*x; 0\n"
+                                "set Stress = 10*b*x*t; 0; 0; 0\n"
+                                "set Constants = a: 0.2, b: 1\n");
     auto norms =
       as_map(error_norms<2>(points, parameters.solution(), 1., true));
 

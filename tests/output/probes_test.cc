@@ -149,6 +149,24 @@ namespace moraine
 
 
 
+  TEST(ProbeParameters, are_read)
+  {
+    ProbeParameters<3> parameters;
+    ParameterHandler   prm;
+    parameters.add_parameters(prm);
+    EXPECT_TRUE(parameters.location.empty());
+    prm.parse_input_from_string("set Location = 1, 2.5, -3\n"
+                                "set Kind = interpolated\n"
+                                "set Quantities = displacement, position\n");
+    EXPECT_EQ(parameters.location, (std::vector<double>{1., 2.5, -3.}));
+    EXPECT_EQ(parameters.kind, "interpolated");
+    EXPECT_EQ(parameters.quantities,
+              (std::vector<std::string>{"displacement", "position"}));
+    EXPECT_THROW(prm.set("Quantities", "colour"), ExceptionBase);
+  }
+
+
+
   TEST(ProbeParameters, mistakes_are_named)
   {
     EXPECT_EQ(
