@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+
+#include <moraine/points/combined_shapes.h>
+#include <moraine/points/curved_shapes.h>
+#include <moraine/points/seeding.h>
+#include <moraine/points/straight_shapes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+using namespace moraine;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  template <int dim>
+  std::vector<SeededPoint<dim>>
+  seed_mesh(const CellSeeder<dim> &seeder,
+            const Shape<dim>      &shape,
+            const unsigned int     n,
+            const double           lower,
+            const double           h,
+            const double           bend = 0.)
+  {
+    std::vector<SeededPoint<dim>> points;
+    for (unsigned int c = 0; c < std::pow(n, dim); ++c)
+      {
+        typename ConvexPolytope<dim>::CellVertices cell;
+        for (unsigned int v = 0; v < cell.size(); ++v)
+          {
+            unsigned int rest = c;
+            for (unsigned int d = 0; d < dim; ++d, rest /= n)
+              cell[v][d] = lower + h * (rest % n + ((v >> d) & 1));
+            const Point<dim> x = cell[v];
+            for (unsigned int d = 0; d < dim; ++d)
+              cell[v][d] += bend * h * std::sin(9. * x[(d + 1) % dim]);
+          }
+        seeder.seed(cell, shape, points);
+      }
+    return points;
+  }
+
+  template <int dim>
+  double
+  total(const std::vector<SeededPoint<dim>> &points)
+  {
+    double sum = 0.;
+    for (const auto &point : points)
+      sum += point.volume;
+    return sum;
+  }
+
+  // the message of what PointFile<dim>::read says about a file of this text
+  template <int dim>
+  std::string
+  complaint(const std::string &text)
+  {
+    const std::string name =
+      testing::TempDir() + "moraine_points_" +
+      std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) +
+      ".csv";
+    std::ofstream(name) << text;
+    std::string message = "none";
+    try
+      {
+        PointFile<dim>::read(name);
+      }
+    catch (const InputError &error)
+      {
+        message       = error.what();
+        const auto at = message.find(name);
+        EXPECT_NE(at, std::string::npos) << message;
+        if (at != std::string::npos)
+          message.replace(at, name.size(), "FILE");
+      }
+    std::remove(name.c_str());
+    return message;
+  }
+} // namespace
+
+
+
+TEST(Seeding, VolumesSumUpToTheBody)
+{
+  const MovedShape<2> flat(std::make_shared<ConvexShape<2>>(ConvexShape<2>::box(
+                             Point<2>(0., 0.), Point<2>(1., 0.5))),
+                           Placement<2>(30., Point<2>(0.3, 0.1), {}, {}));
+  const MovedShape<3> solid(
+    std::make_shared<ConvexShape<3>>(
+      ConvexShape<3>::box(Point<3>(), Point<3>(1., 0.5, 0.7))),
+    Placement<3>(30., Point<3>(), Tensor<1, 3>({1., 2., 3.}), {}));
+  for (const PointLayout layout : {PointLayout::gauss, PointLayout::equal})
+    for (const unsigned int n : {1, 2, 3})
+      {
+        const CellSeeder<2> seeder(n, layout);
+        EXPECT_NEAR(total(seed_mesh(seeder, flat, 14, -0.51, 0.13)) / 0.5,
+                    1.,
+                    1e-12);
+        EXPECT_NEAR(total(seed_mesh(seeder, flat, 14, -0.51, 0.13, 0.15)) / 0.5,
+                    1.,
+                    1e-12);
+        EXPECT_NEAR(
+          total(seed_mesh(CellSeeder<3>(n, layout), solid, 8, -0.61, 0.27)) /
+            0.35,
+          1.,
+          1e-12);
+      }
+  EXPECT_NEAR(total(seed_mesh(CellSeeder<2>(2, PointLayout::equal),
+                              BallShape<2>(Point<2>(0.2, 0.1), 0.7),
+                              15,
+                              -0.8,
+                              0.13)) /
+                (0.49 * dealii::numbers::PI),
+              1.,
+              1e-12);
+}
+
+
+
+TEST(Seeding, FullCellWithGaussLayoutIsTheGaussRule)
+{
+  const auto everywhere =
+    ConvexShape<2>::box(Point<2>(-9., -9.), Point<2>(9., 9.));
+  const dealii::QGauss<2> rule(3);
+  const auto              points =
+    seed_mesh(CellSeeder<2>(3, PointLayout::gauss), everywhere, 1, 0.5, 2.);
+  ASSERT_EQ(points.size(), 9u);
+  for (unsigned int q = 0; q < 9; ++q)
+    {
+      const Point<2> expected(0.5 + 2. * rule.point(q)[0],
+                              0.5 + 2. * rule.point(q)[1]);
+      EXPECT_LT(points[q].position.distance(expected), 1e-15);
+      EXPECT_NEAR(points[q].volume, 4. * rule.weight(q), 1e-15);
+      EXPECT_FALSE(points[q].is_clipped);
+    }
+
+  // a taper: x = xi (1 + eta), so detJ = 1 + eta
+  std::vector<SeededPoint<2>> tapered;
+  CellSeeder<2>(2, PointLayout::gauss)
+    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {2., 1.}}}, everywhere, tapered);
+  const double g = 0.5 + 0.5 / std::sqrt(3.);
+  ASSERT_EQ(tapered.size(), 4u);
+  EXPECT_NEAR(tapered[3].position[0], g * (1. + g), 1e-15);
+  EXPECT_NEAR(tapered[3].volume, 0.25 * (1. + g), 1e-15);
+}
+
+
+
+TEST(Seeding, AlignedBodyIsNotClippedByRoundOff)
+{
+  // 0.1 * 3 is not 0.3: faces agree with the mesh to round-off only
+  const auto body = ConvexShape<2>::box(Point<2>(0.3, 0.3), Point<2>(0.7, 0.6));
+  for (const PointLayout layout : {PointLayout::gauss, PointLayout::equal})
+    {
+      const auto points =
+        seed_mesh(CellSeeder<2>(2, layout), body, 10, 0., 0.1);
+      EXPECT_EQ(points.size(), 48u);
+      EXPECT_NEAR(total(points), 0.12, 1e-15);
+      for (const auto &point : points)
+        EXPECT_FALSE(point.is_clipped);
+    }
+}
+
+
+
+TEST(Seeding, ClippedPointsAreCentroids)
+{
+  const auto body = ConvexShape<2>::box(Point<2>(0.25, 0.), Point<2>(1., 1.));
+  std::vector<SeededPoint<2>> points;
+  CellSeeder<2>(2, PointLayout::gauss)
+    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}}}, body, points);
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_TRUE(points[0].is_clipped);
+  EXPECT_NEAR(points[0].position[0], 0.375, 1e-15);
+  EXPECT_NEAR(points[0].position[1], 0.25, 1e-15);
+  EXPECT_NEAR(points[0].volume, 0.125, 1e-15);
+  EXPECT_FALSE(points[1].is_clipped);
+  EXPECT_NEAR(points[1].position[0], 0.5 + 0.5 / std::sqrt(3.), 1e-15);
+  EXPECT_NEAR(points[1].unit_lengths[0], 0.5, 1e-15);
+}
+
+
+
+TEST(Seeding, ThinBodyKeepsItsVolume)
+{
+  // a wire whose section is 1e-14 of a cell face
+  const auto   wire    = ConvexShape<3>::box(Point<3>(0., 0.5, 0.5),
+                                        Point<3>(3., 0.5 + 1e-7, 0.5 + 1e-7));
+  const double section = std::pow((0.5 + 1e-7) - 0.5, 2);
+  EXPECT_NEAR(
+    total(seed_mesh(CellSeeder<3>(1, PointLayout::equal), wire, 3, 0., 1.)) /
+      (3. * section),
+    1.,
+    1e-7);
+}
+
+
+
+TEST(PointFile, ReadsPointsAndFurtherColumns)
+{
+  const std::string name =
+    testing::TempDir() + "moraine_good_points_" +
+    std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) +
+    ".csv";
+  std::ofstream(name)
+    << "x, y, z, volume, age\r\n1,2,3,0.5,7\r\n\n4,5,6,1e-3,8";
+  const auto points = PointFile<3>::read(name);
+  std::remove(name.c_str());
+  ASSERT_EQ(points.positions.size(), 2u);
+  EXPECT_EQ(points.positions[1], Point<3>(4., 5., 6.));
+  EXPECT_EQ(points.volumes[1], 1e-3);
+  EXPECT_EQ(points.column_names, std::vector<std::string>{"age"});
+  EXPECT_EQ(points.columns[0], std::vector<double>{7.});
+}
+
+
+
+TEST(PointFile, BadRowsAreNamed)
+{
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,2,3\n\n1,abc,3\n"),
+            "FILE:4: column 'y': found 'abc'. Allowed: a finite number");
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,nan,3\n"),
+            "FILE:2: column 'y': found 'nan'. Allowed: a finite number");
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,2 m,3\n"),
+            "FILE:2: column 'y': found '2 m'. Allowed: a finite number");
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,2\n"),
+            "FILE:2: found 2 values. Allowed: 3, one for each column of the "
+            "header");
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,2,3,\n"),
+            "FILE:2: found 4 values. Allowed: 3, one for each column of the "
+            "header");
+  EXPECT_EQ(complaint<2>("x,y,volume\n1,2,0\n"),
+            "FILE:2: column 'volume': found '0'. Allowed: a number > 0");
+  EXPECT_EQ(complaint<3>("x,y,volume\n1,2,3\n"),
+            "FILE:1: found the header 'x,y,volume'. Allowed in 3D: "
+            "x,y,z,volume and, if wanted, names of more columns");
+  EXPECT_EQ(complaint<2>("x,y,volume,a,a\n1,2,3,4,5\n"),
+            "FILE:1: the column name 'a' is given twice");
+  EXPECT_EQ(complaint<2>("x,y,volume\n"),
+            "The point file 'FILE' has no points.");
+  EXPECT_THROW(PointFile<2>::read("/nowhere/points.csv"), InputError);
+}
