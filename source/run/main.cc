@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/version.h>
+#include <moraine/run/command_line.h>
 
-#include <iostream>
+#include <deal.II/base/mpi.h>
 
 int
-main()
+main(int argc, char **argv)
 {
-  std::cout << "moraine " << moraine::version << std::endl;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  return moraine::main_program({argv + 1, argv + argc});
 }

@@ -98,18 +98,20 @@ namespace moraine
                       translation,
                       "Motion of the surface and of the material it holds "
                       "(length), dim expressions in t separated by ';'.");
-    prm.add_parameter("Rotation angle",
-                      rotation_angle,
-                      "Rotation of the surface (degrees), an expression in t. A "
-                      "constant places the surface; a change moves it.");
+    prm.add_parameter(
+      "Rotation angle",
+      rotation_angle,
+      "Rotation of the surface (degrees), an expression in t. A "
+      "constant places the surface; a change moves it.");
     prm.add_parameter("Rotation centre",
                       rotation_centre,
                       "Point of the axis of rotation; the origin if left out.",
                       patterns::numbers(0, dim));
-    prm.add_parameter("Rotation axis",
-                      rotation_axis,
-                      "In 3D: direction of the axis of rotation; z if left out.",
-                      patterns::numbers(0, 3));
+    prm.add_parameter(
+      "Rotation axis",
+      rotation_axis,
+      "In 3D: direction of the axis of rotation; z if left out.",
+      patterns::numbers(0, 3));
     prm.add_parameter(
       "Penetration limit",
       penetration_limit,
@@ -131,19 +133,21 @@ namespace moraine
                         "A side of the mesh: left, right, bottom, top." :
                         "A side of the mesh: left, right (x), front, back (y), "
                         "bottom, top (z).");
-    prm.add_parameter("Lower corner",
-                      lower_corner,
-                      "With 'Upper corner': the nodes in this box, instead of or "
-                      "within a side.",
-                      patterns::numbers(0, dim));
+    prm.add_parameter(
+      "Lower corner",
+      lower_corner,
+      "With 'Upper corner': the nodes in this box, instead of or "
+      "within a side.",
+      patterns::numbers(0, dim));
     prm.add_parameter("Upper corner",
                       upper_corner,
                       "See 'Lower corner'.",
                       patterns::numbers(0, dim));
-    prm.add_parameter("Components",
-                      components,
-                      "Components that are prescribed, as x, y; all if left out.",
-                      patterns::several_of({"x", "y", "z"}));
+    prm.add_parameter(
+      "Components",
+      components,
+      "Components that are prescribed, as x, y; all if left out.",
+      patterns::several_of({"x", "y", "z"}));
     prm.add_parameter("Displacement",
                       displacement,
                       "Prescribed displacement (length), dim expressions in x, "
@@ -171,10 +175,11 @@ namespace moraine
     prm.add_parameter("Value",
                       value,
                       "dim expressions in x, y, z, t separated by ';'.");
-    prm.add_parameter("Curve",
-                      curve,
-                      "Factor over time: an expression in t or a table 't: f, t: "
-                      "f, ...'; 1 if left out.");
+    prm.add_parameter(
+      "Curve",
+      curve,
+      "Factor over time: an expression in t or a table 't: f, t: "
+      "f, ...'; 1 if left out.");
     prm.add_parameter("Bodies",
                       bodies,
                       "Of body force and gravity: names of the bodies; all if "
@@ -203,27 +208,12 @@ namespace moraine
 
 
 
-  void
-  StudyParameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Error",
-                      error,
-                      "Of 'moraine study': the error to plot, a name from "
-                      "'errors' in summary.json.");
-    prm.add_parameter("Group by",
-                      group_by,
-                      "Of 'moraine study': the key whose values become curves.");
-    prm.add_parameter("Title", title, "Of 'moraine study': title of the plot.");
-  }
-
-
-
   namespace
   {
     template <class Parameters>
     void
-    take_names(const InputFile                                  &input,
-               const std::string                                &section,
+    take_names(const InputFile                                 &input,
+               const std::string                               &section,
                std::vector<std::pair<std::string, Parameters>> &list)
     {
       for (const std::string &name : input.names_in(section))
@@ -310,17 +300,17 @@ namespace moraine
       section(probe.name, probe);
     prm.leave_subsection();
     section("Exact solution", exact);
-    StudyParameters study;
     prm.enter_subsection("Study");
     prm.declare_entry("Error",
                       "",
                       Patterns::Anything(),
                       "Of 'moraine study': the error to plot against time, a "
                       "name from 'errors' in summary.json.");
-    prm.declare_entry("Group by",
-                      "",
-                      Patterns::Anything(),
-                      "Of 'moraine study': the key whose values become curves.");
+    prm.declare_entry(
+      "Group by",
+      "",
+      Patterns::Anything(),
+      "Of 'moraine study': the key whose values become curves.");
     prm.declare_entry("Title",
                       "",
                       Patterns::Anything(),
@@ -360,16 +350,16 @@ namespace moraine
         make_material(material.second, "Materials/" + material.first);
       }
     for (const auto &[name, body] : bodies)
-      if (body.material.empty() ? materials.size() > 1 :
-                                  std::find(material_names.begin(),
-                                            material_names.end(),
-                                            body.material) ==
-                                    material_names.end())
+      if (body.material.empty() ?
+            materials.size() > 1 :
+            std::find(material_names.begin(),
+                      material_names.end(),
+                      body.material) == material_names.end())
         reject("Bodies/" + name,
                "Material",
                body.material,
-               "the name of a material (" + join(material_names) + ")" +
-                 did_you_mean(body.material, material_names));
+               "the name of a material" +
+                 suggest(body.material, material_names));
     if (method.degree == 2 && !method.is_finite_element())
       reject("Method",
              "Degree",

@@ -142,20 +142,20 @@ namespace moraine
       return prm;
     }
 
-    std::string                            title;
-    MeshParameters<dim>                    mesh;
-    MethodParameters                       method;
-    Named<MaterialParameters>              materials;
-    Named<BodyParameters<dim>>             bodies;
-    Named<BoundaryParameters<dim>>         boundaries;
-    Named<GridConditionParameters>         grid_conditions;
-    Named<LoadParameters<dim>>             loads;
-    TimeParameters                         time;
-    NewtonParameters                       newton;
-    LinearSolverParameters                 linear_solver;
-    OutputParameters                       output;
-    std::vector<ProbeParameters<dim>>      probes;
-    ExactSolutionParameters<dim>           exact;
+    std::string                       title;
+    MeshParameters<dim>               mesh;
+    MethodParameters                  method;
+    Named<MaterialParameters>         materials;
+    Named<BodyParameters<dim>>        bodies;
+    Named<BoundaryParameters<dim>>    boundaries;
+    Named<GridConditionParameters>    grid_conditions;
+    Named<LoadParameters<dim>>        loads;
+    TimeParameters                    time;
+    NewtonParameters                  newton;
+    LinearSolverParameters            linear_solver;
+    OutputParameters                  output;
+    std::vector<ProbeParameters<dim>> probes;
+    ExactSolutionParameters<dim>      exact;
 
   private:
     void
@@ -166,17 +166,6 @@ namespace moraine
 
     unsigned int             dimension = dim;
     dealii::ParameterHandler prm;
-  };
-
-  /** Declare the keys of section `Study`, which `moraine study` reads. */
-  struct StudyParameters
-  {
-    std::string error;
-    std::string group_by;
-    std::string title;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
   };
 } // namespace moraine
 

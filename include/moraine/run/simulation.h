@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_simulation_h
+#define moraine_run_simulation_h
+
+#include <moraine/assembly/mechanics_system.h>
+#include <moraine/core/console.h>
+#include <moraine/output/history.h>
+#include <moraine/output/output_directory.h>
+#include <moraine/output/pvd_history.h>
+#include <moraine/output/summary.h>
+#include <moraine/run/scene.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** How `moraine run` was called. */
+  struct RunOptions
+  {
+    std::string output_directory; ///< overrides the scene's
+    bool        overwrite    = false;
+    bool        write_output = true; ///< studies keep the summary only
+  };
+
+  /**
+   * A scene turned into rooms in order, and the loop over its steps. It knows
+   * everybody's name and computes nothing itself.
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /**
+     * Build the mesh, the points and everything that acts on them.
+     * @throws InputError for mistakes that show only now: empty or overlapping
+     * bodies, bodies outside the mesh, boundaries that touch no body.
+     */
+    Simulation(Scene<dim>     &scene,
+               const MPI_Comm &communicator,
+               Console        &console);
+
+    /** Say what will be simulated. */
+    void
+    describe();
+
+    /**
+     * Step to the end.
+     * @return the summary, also when the run ended early; its status says so.
+     */
+    Summary
+    run(const RunOptions &options, const InputFile &input);
+
+  private:
+    void
+    make_bodies();
+
+    void
+    seed(const std::vector<std::shared_ptr<const Shape<dim>>> &shapes);
+
+    void
+    insert_point_file(const std::string &file, const unsigned int body);
+
+    void
+    check_bodies() const;
+
+    void
+    make_basis();
+
+    void
+    make_boundaries();
+
+    void
+    make_grid_conditions();
+
+    void
+    make_loads();
+
+    /** Find cells and pieces for the first step and check what they touch. */
+    void
+    begin_first_step();
+
+    /** One step that must be accepted, with as many cuts as it takes. */
+    void
+    advance(TimeControl &time);
+
+    /** A row of history.csv and the VTU files that are due. */
+    void
+    write_results(const TimeControl &time, const bool due);
+
+    void
+    write_vtu(const double t);
+
+    void
+    print_step(const TimeControl &time, const NewtonReport &report);
+
+    void
+    print_closing(const Summary &summary);
+
+    Summary
+    make_summary(const TimeControl &time, const double wall_seconds);
+
+    Scene<dim>                                  &scene;
+    const MPI_Comm                               communicator;
+    Console                                     &console;
+    std::ostringstream                           unused_timer_output;
+    dealii::TimerOutput                          timer;
+    std::vector<std::shared_ptr<const Material>> materials;
+    std::vector<std::string>                     body_names;
+    std::vector<double>                          body_volumes;
+    std::unique_ptr<BackgroundMesh<dim>>         mesh;
+    std::unique_ptr<GridSpace<dim>>              space;
+    std::unique_ptr<PointSet<dim>>               points;
+    std::unique_ptr<Basis<dim>>                  basis;
+    std::unique_ptr<State<dim>>                  state;
+    std::vector<ImplicitBoundary<dim>>           boundaries;
+    std::vector<GridCondition<dim>>              grid_conditions;
+    Loads<dim>                                   loads;
+    std::unique_ptr<MechanicsSystem<dim>>        system;
+    std::unique_ptr<LinearSolver>                linear_solver;
+    std::unique_ptr<Probes<dim>>                 probes;
+    std::vector<std::string>                     effects;
+
+    std::optional<OutputDirectory>      directory;
+    std::optional<History>              history;
+    std::optional<PvdHistory>           points_pvd;
+    std::optional<PvdHistory>           mesh_pvd;
+    unsigned int                        n_vtu_written = 0;
+    std::vector<BoundaryReport<dim>>    reports;
+    std::vector<dealii::Tensor<1, dim>> last_increments;
+    unsigned int                        newton_iterations = 0;
+    unsigned int                        linear_iterations = 0;
+    std::string                         solver_name;
+    bool                                first_step = true;
+  };
+
+} // namespace moraine
+
+#endif

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// The part of Simulation that steps and reports.
+
+#include <moraine/run/simulation.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/interrupt.h>
+#include <moraine/core/memory.h>
+#include <moraine/core/version.h>
+#include <moraine/output/grid_evaluation.h>
+#include <moraine/output/mesh_vtu.h>
+#include <moraine/output/point_vtu.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <iomanip>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    double
+    wall_clock()
+    {
+      return std::chrono::duration<double>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::describe()
+  {
+    begin_first_step();
+    std::vector<double> volumes(body_names.size(), 0.);
+    for (unsigned int p = 0; p < points->n_local(); ++p)
+      volumes[points->body(p)] += points->volume(p);
+    Utilities::MPI::sum(volumes, communicator, volumes);
+
+    console << "Moraine " << version << ", " << dim << "D, "
+            << Utilities::MPI::n_mpi_processes(communicator)
+            << (Utilities::MPI::n_mpi_processes(communicator) == 1 ?
+                  " process\n" :
+                  " processes\n");
+    if (!scene.title.empty())
+      console << scene.title << '\n';
+    console << "  method      " << scene.method.method << ", Q"
+            << scene.method.degree << ", mesh "
+            << (state->mesh_after_step() == MeshAfterStep::reset ?
+                  "reset after each step" :
+                state->mesh_after_step() == MeshAfterStep::keep ?
+                  "kept" :
+                  "follows the material")
+            << '\n'
+            << "  mesh        " << mesh->triangulation().n_global_active_cells()
+            << " cells, " << space->n_active_cells() << " active, "
+            << space->n_dofs() << " unknowns\n"
+            << "  points      " << points->n_global() << ", "
+            << points->bytes_per_point() << " bytes each\n";
+    for (unsigned int b = 0; b < body_names.size(); ++b)
+      console << "  body        " << body_names[b] << ", volume "
+              << std::setprecision(8) << volumes[b] << '\n';
+    const auto n_points = system->n_boundary_points();
+    effects.push_back("internal force");
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      {
+        const std::string &how =
+          scene.boundaries[b].second.enforcement.enforcement;
+        console << "  boundary    " << boundaries[b].name() << ", "
+                << scene.boundaries[b].second.constraint << ", " << how << ", "
+                << n_points[b] << " quadrature points\n";
+        effects.push_back("implicit boundary " + boundaries[b].name() + " (" +
+                          how + ")");
+      }
+    for (const auto &condition : grid_conditions)
+      effects.push_back("grid condition " + condition.name);
+    for (const auto &[name, load] : scene.loads)
+      {
+        console << "  load        " << name << ", " << load.type << '\n';
+        effects.push_back(load.type + " " + name);
+      }
+    console << "  steps       " << scene.time.n_steps
+            << " from t = " << scene.time.start_time << " to "
+            << scene.time.end_time << std::endl;
+  }
+
+
+
+  template <int dim>
+  Summary
+  Simulation<dim>::run(const RunOptions &options, const InputFile &input)
+  {
+    const double start = wall_clock();
+    describe();
+    if (options.write_output)
+      {
+        directory.emplace(options.output_directory,
+                          options.overwrite,
+                          communicator);
+        directory->write_parameter_files(input.text(), scene.parameters());
+        console.open_log(directory->file("log.txt"));
+        history.emplace(directory->file("history.csv"), communicator);
+        points_pvd.emplace(directory->file("points.pvd"), communicator);
+        mesh_pvd.emplace(directory->file("mesh.pvd"), communicator);
+        last_increments.assign(space->n_nodes(), Tensor<1, dim>());
+        write_vtu(scene.time.start_time);
+        console << "  results in  " << options.output_directory << '\n'
+                << std::endl;
+      }
+
+    TimeControl time(scene.time);
+    std::string status = "ok", message;
+    try
+      {
+        while (!time.finished())
+          {
+            if (interrupted(communicator))
+              {
+                status  = "interrupted";
+                message = "stopped by the user after the last accepted step";
+                break;
+              }
+            advance(time);
+          }
+      }
+    catch (const ComputationError &error)
+      {
+        status  = "not converged";
+        message = error.what();
+      }
+
+    Summary summary = make_summary(time, wall_clock() - start);
+    summary.status  = status;
+    summary.message = message;
+    if (directory)
+      summary.write(directory->file("summary.json"), communicator);
+    print_closing(summary);
+    return summary;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::advance(TimeControl &time)
+  {
+    if (!first_step)
+      system->begin_step(time.time());
+    Newton     newton(scene.newton);
+    LA::Vector x;
+    for (;;)
+      {
+        time.next();
+        system->set_target(time.trial_time());
+        system->initial_guess(x);
+        if (system->coupling_changed())
+          {
+            system->assemble(x, true);
+            system->check_that_it_is_held(first_step);
+          }
+        const NewtonReport report = newton.solve(*system, *linear_solver, x);
+        newton_iterations += report.iterations;
+        linear_iterations += report.linear_iterations;
+        solver_name        = report.linear_solver;
+        std::string reason = report.message;
+        bool        good   = report.converged();
+        if (good && system->worst_penetration_over_limit(x) > 1)
+          {
+            good   = false;
+            reason = "a point would end behind a boundary";
+          }
+        if (good)
+          {
+            time.accept(report.iterations);
+            print_step(time, report);
+            break;
+          }
+        console << "  step to t = " << time.trial_time()
+                << " rejected: " << reason << std::endl;
+        if (!time.reject(reason))
+          throw ComputationError(time.message());
+      }
+    first_step = false;
+    probes->accept_step(
+      grid_evaluation<dim>(*space, state->nodal_increments()));
+    last_increments = state->nodal_increments();
+    reports         = system->accept(x);
+    write_results(time, scene.output.times.due(time));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_results(const TimeControl &time, const bool due)
+  {
+    if (!directory)
+      return;
+    TimerOutput::Scope      scope(timer, "output");
+    std::vector<NamedValue> row;
+    row.push_back({"t", "-", time.time()});
+    for (const auto &report : reports)
+      for (unsigned int d = 0; d < dim; ++d)
+        row.push_back(
+          {std::string("reaction_") + "xyz"[d] + " of " + report.name,
+           "force",
+           report.reaction[d]});
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      {
+        row.push_back(
+          {"violation of " + reports[b].name, "length", reports[b].violation});
+        row.push_back({"penetration of " + reports[b].name,
+                       "length",
+                       reports[b].penetration});
+      }
+    for (const auto &value : probes->values(*points))
+      row.push_back(value);
+    history->add_row(row);
+    if (due)
+      write_vtu(time.time());
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_vtu(const double t)
+  {
+    if (scene.output.points)
+      {
+        const std::string name =
+          OutputDirectory::vtu_name("points", n_vtu_written);
+        write_point_vtu(*points, directory->file(name), t, n_vtu_written);
+        points_pvd->add(t, name);
+      }
+    if (scene.output.mesh)
+      {
+        const std::string name =
+          OutputDirectory::vtu_name("mesh", n_vtu_written);
+        write_mesh_vtu<dim>(*space,
+                            {{"step_displacement", "length", last_increments}},
+                            directory->file(name),
+                            t,
+                            n_vtu_written);
+        mesh_pvd->add(t, name);
+      }
+    ++n_vtu_written;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_step(const TimeControl  &time,
+                              const NewtonReport &report)
+  {
+    console << "  step " << std::setw(4) << time.n_accepted()
+            << "  t = " << std::setw(10) << std::left << std::setprecision(6)
+            << time.time() << std::right << "  iterations "
+            << report.iterations;
+    if (report.linear_iterations > 0)
+      console << " (linear " << report.linear_iterations << ")";
+    console << "  residual " << std::scientific << std::setprecision(1)
+            << (report.residuals.empty() ? 0. : report.residuals.back())
+            << std::defaultfloat << std::endl;
+  }
+
+
+
+  template <int dim>
+  Summary
+  Simulation<dim>::make_summary(const TimeControl &time,
+                                const double       wall_seconds)
+  {
+    Summary summary;
+    summary.version           = version;
+    summary.dimension         = dim;
+    summary.ranks             = Utilities::MPI::n_mpi_processes(communicator);
+    summary.cells             = mesh->triangulation().n_global_active_cells();
+    summary.active_cells      = space->n_active_cells();
+    summary.unknowns          = space->n_dofs();
+    summary.points            = points->n_global();
+    summary.steps             = time.n_accepted();
+    summary.rejected_steps    = time.n_rejected();
+    summary.newton_iterations = newton_iterations;
+    summary.linear_iterations = linear_iterations;
+    summary.bytes_per_point   = points->bytes_per_point();
+    summary.peak_memory_mib   = memory_in_use(communicator).peak_mib;
+    summary.wall_seconds      = wall_seconds;
+    summary.effects           = effects;
+    double covered            = 0;
+    for (const auto &[name, seconds] :
+         timer.get_summary_data(TimerOutput::total_wall_time))
+      {
+        summary.timings.emplace_back(name, seconds);
+        covered += seconds;
+      }
+    const ExactSolution<dim> exact = scene.exact.solution();
+    if (exact.displacement || exact.stress)
+      summary.errors =
+        error_norms(*points,
+                    exact,
+                    time.time(),
+                    state->mesh_after_step() != MeshAfterStep::keep);
+    for (const auto &value : probes->values(*points))
+      summary.probes.emplace_back(value.name, value.value);
+    for (const auto &report : reports)
+      {
+        std::vector<double> reaction(dim);
+        for (unsigned int d = 0; d < dim; ++d)
+          reaction[d] = report.reaction[d];
+        summary.reactions.emplace_back(report.name, reaction);
+      }
+    return summary;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_closing(const Summary &summary)
+  {
+    console << '\n' << "  part                       seconds   share\n";
+    for (const auto &[name, seconds] : summary.timings)
+      console << "  " << std::left << std::setw(24) << name << std::right
+              << std::fixed << std::setprecision(3) << std::setw(10) << seconds
+              << std::setprecision(1) << std::setw(7)
+              << 100 * seconds / std::max(summary.wall_seconds, 1e-12)
+              << " %\n";
+    console << "  " << std::left << std::setw(24) << "whole run" << std::right
+            << std::setprecision(3) << std::setw(10) << summary.wall_seconds
+            << std::defaultfloat << "\n";
+    if (!summary.errors.empty())
+      {
+        console << "\n  error against the exact solution\n";
+        for (const auto &[name, value] : summary.errors)
+          {
+            console << "  " << std::left << std::setw(24) << name << std::right;
+            if (value)
+              console << std::scientific << std::setprecision(3)
+                      << std::setw(12) << *value << std::defaultfloat << '\n';
+            else
+              console << "   (exact value is zero)\n";
+          }
+      }
+    console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
+            << " rejected, " << summary.newton_iterations
+            << " Newton iterations, "
+            << (solver_name.empty() ? "" : solver_name + ", ")
+            << std::setprecision(4) << summary.peak_memory_mib
+            << " MiB at most\n";
+    if (summary.status != "ok")
+      console << "  ended early: " << summary.message << '\n';
+    console << "" << std::flush;
+  }
+
+
+
+#define INSTANTIATE(dim)                        \
+  template void    Simulation<dim>::describe(); \
+  template Summary Simulation<dim>::run(const RunOptions &, const InputFile &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Runs scenes and prints what a test compares.
+
+A test is tests/<label>/<name>.py beside <name>.output. It runs scenes with
+run(), and prints with bound(), number() and text(). What it prints must equal
+the .output file line by line; numbers are printed with the digits that matter,
+so the comparison is exact and nothing passes by a tolerance hidden elsewhere.
+
+    run("prm/cortis-2017/block-30.prm", {"Mesh/Cell size": 5})  -> Run
+    bound("r_u", value, 1e-10)      prints  r_u <= 1e-10: yes
+    number("torque", value, 4)      prints  torque 1.234e+00 (4 digits)
+    text("status", "ok")
+
+The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
+Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
+"""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+root = pathlib.Path(__file__).resolve().parent.parent
+program = None
+ranks = 1
+printed = []
+_folder = None
+_count = 0
+
+
+class Run:
+    """The result of one run: exit code, output text, summary and history."""
+
+    def __init__(self, code, output, folder):
+        self.code = code
+        self.output = output
+        self.folder = folder
+        summary = folder / "summary.json"
+        self.summary = json.loads(summary.read_text()) if summary.exists() else {}
+        self.errors = self.summary.get("errors", {})
+        self.probes = self.summary.get("probes", {})
+        self.reactions = self.summary.get("reactions", {})
+
+    def history(self):
+        """history.csv as a list of dictionaries; units are cut off names."""
+        with open(self.folder / "history.csv") as file:
+            return [
+                {key.split(" [")[0]: float(value) for key, value in row.items()}
+                for row in csv.DictReader(file)
+            ]
+
+
+def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
+    """Run a scene (path from the top of the project) into a fresh folder."""
+    global _count
+    _count += 1
+    folder = _folder / str(_count)
+    words = [str(program), command, str(root / scene)]
+    n = on_ranks or ranks
+    if n > 1:
+        words = ["mpirun", "-n", str(n)] + words
+    if command == "run":
+        words += ["--output", str(folder)]
+    for key, value in (settings or {}).items():
+        words += ["--set", f"{key} = {value}"]
+    process = subprocess.run(
+        words + list(extra), capture_output=True, text=True, cwd=_folder
+    )
+    output = process.stdout + process.stderr
+    if expect is not None and process.returncode != expect:
+        print(output)
+        sys.exit(f"exit code {process.returncode}, expected {expect}: {words}")
+    return Run(process.returncode, output, folder)
+
+
+def text(name, value):
+    printed.append(f"{name}: {value}")
+
+
+def bound(name, value, limit):
+    """Whether |value| <= limit; shows the value only if it is not."""
+    ok = value is not None and abs(value) <= limit
+    printed.append(f"{name} <= {limit:g}: " + ("yes" if ok else f"NO, {value}"))
+
+
+def at_least(name, value, limit):
+    ok = value is not None and value >= limit
+    printed.append(f"{name} >= {limit:g}: " + ("yes" if ok else f"NO, {value}"))
+
+
+def number(name, value, digits):
+    printed.append(f"{name} {value:.{digits - 1}e}")
+
+
+def main():
+    global program, ranks, _folder
+    test = pathlib.Path(sys.argv[1]).resolve()
+    program = pathlib.Path(sys.argv[2]).resolve()
+    ranks = int(sys.argv[3])
+    _folder = pathlib.Path(tempfile.mkdtemp(prefix="moraine-"))
+    try:
+        names = {n: globals()[n] for n in
+                 ("run", "text", "bound", "at_least", "number", "root")}
+        names["ranks"] = ranks
+        names["program"] = program
+        names["folder"] = _folder
+        exec(compile(test.read_text(), str(test), "exec"), names)
+    finally:
+        shutil.rmtree(_folder, ignore_errors=True)
+    reference = test.with_suffix(".output")
+    found = "\n".join(printed) + "\n"
+    print(found, end="")
+    if "--update" in sys.argv:
+        reference.write_text(found)
+        return
+    expected = reference.read_text()
+    if found != expected:
+        import difflib
+        sys.stdout.writelines(
+            difflib.unified_diff(expected.splitlines(True),
+                                 found.splitlines(True),
+                                 "expected", "found"))
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    main()
