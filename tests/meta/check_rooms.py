@@ -10,8 +10,8 @@ import sys
 import meta
 
 LEVELS = [["core"], ["mesh", "material", "solver"], ["points", "time"],
-          ["basis", "state"], ["boundary", "load"], ["assembly", "output"],
-          ["run"]]
+          ["basis"], ["state"], ["boundary"], ["load"],
+          ["assembly", "output"], ["run"]]
 LEVEL = {room: n for n, rooms in enumerate(LEVELS) for room in rooms}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
