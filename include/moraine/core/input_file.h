@@ -113,6 +113,16 @@ namespace moraine
       std::string origin;
     };
 
+    /**
+     * The value of an entry with every `$name` replaced by the value of key
+     * `name` in section `Constants`, so that a scene (or a study) says a value
+     * once.
+     *
+     * @throw InputError for a name that section does not have.
+     */
+    std::string
+    with_constants(const Entry &entry) const;
+
     void
     scan();
 
