@@ -45,6 +45,13 @@ namespace moraine
       "the material. keep: nothing moves (small displacement). default: follow "
       "material with finite elements, reset otherwise.",
       patterns::selection({"default", "reset", "follow material", "keep"}));
+    prm.add_parameter(
+      "Empty stiffness",
+      empty_stiffness,
+      "Stiffness of the part of cells that points leave empty, as a fraction "
+      "of the material's. It acts on the increment of a step and holds nodes "
+      "that too few points touch; 0: none, 1e-4: enough for most.",
+      patterns::non_negative());
   }
 
 

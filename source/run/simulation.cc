@@ -56,6 +56,13 @@ namespace moraine
               << std::setprecision(8) << volumes[b] << '\n';
     const auto n_points = system->n_boundary_points();
     effects.push_back("internal force");
+    if (scene.method.empty_stiffness > 0)
+      {
+        console << "  empty parts of cells have "
+                << scene.method.empty_stiffness
+                << " of the material's stiffness\n";
+        effects.push_back("stiffness of empty parts");
+      }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       {
         const std::string &how =

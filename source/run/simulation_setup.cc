@@ -142,8 +142,14 @@ namespace moraine
     make_boundaries();
     make_grid_conditions();
     make_loads();
-    system = std::make_unique<MechanicsSystem<dim>>(
-      *state, boundaries, grid_conditions, loads, body_names, timer);
+    system =
+      std::make_unique<MechanicsSystem<dim>>(*state,
+                                             boundaries,
+                                             grid_conditions,
+                                             loads,
+                                             body_names,
+                                             timer,
+                                             scene.method.empty_stiffness);
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
     probes        = std::make_unique<Probes<dim>>(
       scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);

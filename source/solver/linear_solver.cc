@@ -450,10 +450,9 @@ namespace moraine
     auto         &s = *implementation;
     const AddTime timing(s.set_up_seconds);
     ++s.n_set_ups;
+    clear();
     s.matrix = &matrix;
     s.method = s.choose(symmetric);
-    s.direct.reset();
-    s.multigrid.reset();
     s.fall_back_reason.clear();
     s.is_finite = std::isfinite(matrix.frobenius_norm());
     if (!s.is_finite)
@@ -502,6 +501,16 @@ namespace moraine
     if (report.message.empty())
       report.message = s.fall_back_reason;
     return report;
+  }
+
+
+
+  void
+  LinearSolver::clear()
+  {
+    implementation->direct.reset();
+    implementation->multigrid.reset();
+    implementation->matrix = nullptr;
   }
 
 

@@ -33,6 +33,7 @@ namespace moraine
     unsigned int points_per_direction = 2;
     std::string  point_layout         = "equally spaced";
     std::string  mesh_after_step      = "default";
+    double       empty_stiffness      = 0.;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
