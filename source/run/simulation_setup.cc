@@ -311,11 +311,14 @@ namespace moraine
   void
   Simulation<dim>::make_basis()
   {
+    std::vector<bool> is_seeded;
+    for (const std::string &name : body_names)
+      for (const auto &[body_name, body] : scene.bodies)
+        if (body_name == name)
+          is_seeded.push_back(!body.shape.is_point_file());
     if (scene.method.method == "GIMP")
-      basis =
-        std::make_unique<GimpBasis<dim>>(*space,
-                                         *points,
-                                         scene.method.points_per_direction);
+      basis = std::make_unique<GimpBasis<dim>>(
+        *space, *points, scene.method.points_per_direction, is_seeded);
     else if (scene.method.degree == 1)
       basis = std::make_unique<CellBasis<dim, 1>>(*space, *points);
     else
