@@ -8,6 +8,7 @@
 #include <moraine/core/patterns.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace moraine
 {
@@ -264,6 +265,13 @@ namespace moraine
       }
     declare();
     input.parse(prm);
+    // Files are named as seen from the folder of the scene.
+    for (auto &[name, body] : bodies)
+      if (body.shape.is_point_file())
+        body.shape.point_file =
+          (std::filesystem::path(input.name()).parent_path() /
+           body.shape.point_file)
+            .string();
     check(input);
   }
 

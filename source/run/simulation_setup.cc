@@ -166,9 +166,16 @@ namespace moraine
       shape_parameters[name] = body.shape;
     const NamedShapes<dim> shapes = make_shapes(shape_parameters, "Bodies");
 
+    // What another body is made from is a tool without material of its own.
+    std::set<std::string> operands;
+    for (const auto &[name, body] : scene.bodies)
+      operands.insert(body.shape.operands.begin(), body.shape.operands.end());
+
     std::vector<std::shared_ptr<const Shape<dim>>> in_order;
     for (const auto &[name, body] : scene.bodies)
       {
+        if (operands.count(name) > 0)
+          continue;
         body_names.push_back(name);
         for (const auto &[material_name, parameters] : scene.materials)
           if (body.material == material_name || scene.materials.size() == 1)
@@ -180,7 +187,7 @@ namespace moraine
     seed(in_order);
     for (unsigned int b = 0; b < body_names.size(); ++b)
       if (!in_order[b])
-        insert_point_file(scene.bodies[b].second.shape.point_file, b);
+        insert_point_file(shape_parameters.at(body_names[b]).point_file, b);
     points->finish_insertion();
     check_bodies();
   }
@@ -310,11 +317,14 @@ namespace moraine
   void
   Simulation<dim>::make_basis()
   {
+    std::vector<bool> is_seeded;
+    for (const std::string &name : body_names)
+      for (const auto &[body_name, body] : scene.bodies)
+        if (body_name == name)
+          is_seeded.push_back(!body.shape.is_point_file());
     if (scene.method.method == "GIMP")
-      basis =
-        std::make_unique<GimpBasis<dim>>(*space,
-                                         *points,
-                                         scene.method.points_per_direction);
+      basis = std::make_unique<GimpBasis<dim>>(
+        *space, *points, scene.method.points_per_direction, is_seeded);
     else if (scene.method.degree == 1)
       basis = std::make_unique<CellBasis<dim, 1>>(*space, *points);
     else

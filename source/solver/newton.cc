@@ -33,6 +33,12 @@ namespace moraine
      */
     constexpr double round_off = 1e-13;
 
+    /**
+     * What round-off leaves of the forces at the start of a step, which cancel
+     * altogether where a step ends without stress.
+     */
+    constexpr double cancelled = 1e-14;
+
 
 
     double
@@ -76,6 +82,7 @@ namespace moraine
       LA::Vector             &x;
       NewtonReport            report;
       double                  norm                  = 0.;
+      double                  scale_at_start        = 0.;
       unsigned int            iterations_since_pass = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
@@ -139,8 +146,9 @@ namespace moraine
     bool
     Iteration::small() const
     {
-      return norm <= std::max(parameters.tolerance * system.force_scale(),
-                              parameters.absolute_tolerance);
+      return norm <= std::max({parameters.tolerance * system.force_scale(),
+                               parameters.absolute_tolerance,
+                               cancelled * scale_at_start});
     }
 
 
@@ -284,6 +292,7 @@ namespace moraine
       system.initial_guess(x);
       evaluate(true);
       record();
+      scale_at_start = system.force_scale();
       if (!std::isfinite(norm))
         {
           stop(NewtonStatus::not_a_number,
