@@ -477,6 +477,16 @@ namespace moraine
 
 
 
+  void
+  LinearSolver::release()
+  {
+    implementation->direct.reset();
+    implementation->multigrid.reset();
+    implementation->matrix = nullptr;
+  }
+
+
+
   unsigned int
   LinearSolver::n_set_ups() const
   {

@@ -333,7 +333,11 @@ namespace moraine
                 LinearSolver    &linear_solver,
                 LA::Vector      &x)
   {
-    return Iteration(parameters, system, linear_solver, x).run();
+    const NewtonReport report =
+      Iteration(parameters, system, linear_solver, x).run();
+    // The system may give its matrix another pattern before the next step.
+    linear_solver.release();
+    return report;
   }
 
 

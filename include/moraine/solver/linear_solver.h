@@ -87,7 +87,7 @@ namespace moraine
 
     /**
      * Factorise @p matrix or build its preconditioner. The matrix must live
-     * until the next set_up().
+     * until the next set_up() or release().
      *
      * @param near_null_space Rigid-body modes for algebraic multigrid; may be
      * empty.
@@ -103,6 +103,13 @@ namespace moraine
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
+
+    /**
+     * Forget the matrix and what was built from it. Must come before the matrix
+     * ends or is given another pattern.
+     */
+    void
+    release();
 
     /**
      * How many times set_up() was called.
