@@ -124,8 +124,8 @@ namespace moraine
     }
 
     /**
-     * @param points_per_direction divisions of a cell at seeding, which give
-     * the boxes their shape.
+     * The divisions of a cell at seeding, @p points_per_direction, give the
+     * boxes their shape.
      * @throws InputError if the mesh is not a box of equal cells.
      */
     GimpBasis(const GridSpace<dim> &space,

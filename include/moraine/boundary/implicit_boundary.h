@@ -98,10 +98,10 @@ namespace moraine
                      const double                        penetration_limit);
 
     /**
-     * Place the surface at time @p t and find its pieces.
-     *
-     * @param reach distance over which pieces outside active cells count.
-     * @param moves_points whether the material moves through the mesh.
+     * Place the surface at time @p t and find its pieces. Those outside active
+     * cells count up to a distance @p reach. @p moves_points says whether the
+     * points move at all, @p cells_changed whether pieces must be found again
+     * even if the surface stands still.
      */
     void
     begin_step(const GridSpace<dim> &space,
