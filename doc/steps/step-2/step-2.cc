@@ -12,6 +12,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
+#include <moraine/output/point_vtu.h>
 #include <moraine/points/point_set.h>
 #include <moraine/points/seeding.h>
 #include <moraine/points/straight_shapes.h>
@@ -233,4 +234,7 @@ main(int argc, char **argv)
       system.accept(increment);
       print_stress(points, t_end);
     }
+
+  // Something to look at, with ParaView or doc/figures/render.py.
+  write_point_vtu(points, "block.vtu", 1., n_steps);
 }

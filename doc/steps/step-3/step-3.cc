@@ -10,6 +10,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
+#include <moraine/output/point_vtu.h>
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/point_set.h>
 #include <moraine/points/seeding.h>
@@ -213,4 +214,7 @@ main(int argc, char **argv)
       AssertThrow(report.converged(), ExcMessage(report.message));
       print_reports(system.accept(increment), weight * volume, t_end);
     }
+
+  // Something to look at, with ParaView or doc/figures/render.py.
+  write_point_vtu(points, "step-3.vtu", 1., n_steps);
 }
