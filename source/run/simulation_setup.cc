@@ -14,7 +14,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <iomanip>
+#include <algorithm>
+#include <sstream>
 
 namespace moraine
 {
@@ -463,6 +464,9 @@ namespace moraine
         throw InputError("section 'Boundaries/" + boundaries[b].name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
+    system->set_target(scene.time.start_time);
+    system->assemble(space->vector(), true);
+    system->check_that_it_is_held(true);
   }
 
 

@@ -335,8 +335,8 @@ namespace moraine
   {
     const NewtonReport report =
       Iteration(parameters, system, linear_solver, x).run();
-    // The system may give its matrix another pattern before the next step.
-    linear_solver.release();
+    // The system may build its matrix anew before the next step.
+    linear_solver.clear();
     return report;
   }
 

@@ -99,9 +99,10 @@ namespace moraine
 
     /**
      * Place the surface at time @p t and find its pieces. Those outside active
-     * cells count up to a distance @p reach. @p moves_points says whether the
-     * points move at all, @p cells_changed whether pieces must be found again
-     * even if the surface stands still.
+     * cells count up to a distance @p reach. If the points do not move (@p
+     * moves_points is false, small displacement), the surface stays where it
+     * was at first and its motion is prescribed there. @p cells_changed says
+     * that pieces must be found again even if the surface stands still.
      */
     void
     begin_step(const GridSpace<dim> &space,
@@ -206,10 +207,11 @@ namespace moraine
     const Constraint<dim>               constraint;
     const Enforcement                   how;
     const double                        limit;
-    double                              t_start = 0;
-    bool                                placed  = false;
-    bool                                lands   = false;
-    unsigned int                        n_nodes = 0;
+    double                              t_start           = 0;
+    bool                                placed            = false;
+    bool                                moves_with_points = true;
+    bool                                lands             = false;
+    unsigned int                        n_nodes           = 0;
     std::vector<BoundaryPoint<dim>>     boundary_points;
     std::vector<double>                 values;
     std::vector<dealii::Tensor<1, dim>> gradients;

@@ -83,7 +83,10 @@ namespace moraine
     void
     make_loads();
 
-    /** Find cells and pieces for the first step and check what they touch. */
+    /**
+     * Find cells and pieces for the first step; check that boundaries touch a
+     * body and that every body is held.
+     */
     void
     begin_first_step();
 
@@ -105,11 +108,12 @@ namespace moraine
     print_closing(const Summary &summary);
 
     Summary
-    make_summary(const TimeControl &time, const double wall_seconds);
+    make_summary(const TimeControl &time);
 
     Scene<dim>                                  &scene;
     const MPI_Comm                               communicator;
     Console                                     &console;
+    dealii::Timer                                wall_time;
     std::ostringstream                           unused_timer_output;
     dealii::TimerOutput                          timer;
     std::vector<std::shared_ptr<const Material>> materials;

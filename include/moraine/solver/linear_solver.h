@@ -67,8 +67,8 @@ namespace moraine
 
   /**
    * Solves K dx = r by a factorisation or by a preconditioned Krylov method.
-   * What set_up() builds is kept until the next set_up(), so that many right
-   * hand sides can be solved with it.
+   * What set_up() builds is kept until the next set_up() or clear(), so that
+   * many right hand sides can be solved with it.
    *
    * Failures (a singular matrix, no convergence) are reported, not thrown: the
    * residual is always recomputed from the solution, and an answer that is not
@@ -87,7 +87,8 @@ namespace moraine
 
     /**
      * Factorise @p matrix or build its preconditioner. The matrix must live
-     * until the next set_up() or release().
+     * until the next set_up() or clear(): what Amesos and ML build refers to
+     * it, even while they are destroyed.
      *
      * The rigid-body modes @p near_null_space are for algebraic multigrid; they
      * may be empty.
@@ -104,18 +105,23 @@ namespace moraine
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
 
-    /**
-     * Forget the matrix and what was built from it. Must come before the matrix
-     * ends or is given another pattern.
-     */
+    /** Forget what set_up() built; the matrix may go or change its pattern. */
     void
-    release();
+    clear();
 
     /**
      * How many times set_up() was called.
      */
     unsigned int
     n_set_ups() const;
+
+    /** Wall time spent in set_up() so far. */
+    double
+    set_up_seconds() const;
+
+    /** Wall time spent in solve() so far. */
+    double
+    solve_seconds() const;
 
   private:
     struct Implementation;
