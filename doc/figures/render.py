@@ -75,7 +75,7 @@ def is_flat(data):
     return bounds[5] - bounds[4] == 0.0
 
 
-def as_glyphs(data):
+def as_glyphs(data, scale):
     """A disc (3D: ball) of its volume for every point."""
     fields = data.GetPointData()
     volume = fields.GetArray("volume")
@@ -98,7 +98,7 @@ def as_glyphs(data):
         shape = vtk.vtkSphereSource()
         shape.SetThetaResolution(12)
         shape.SetPhiResolution(12)
-    shape.SetRadius(1.0)
+    shape.SetRadius(scale)
     glyphs = vtk.vtkGlyph3D()
     glyphs.SetInputData(data)
     glyphs.SetSourceConnection(shape.GetOutputPort())
@@ -181,6 +181,19 @@ def edge_lines(data):
     if is_flat(data):
         actor.SetPosition(0, 0, -0.1)
     return actor
+
+
+def grid(x0, y0, x1, y1, h):
+    """A flat mesh of squares, for results that have no mesh file."""
+    data = vtk.vtkRectilinearGrid()
+    n = [round((x1 - x0) / h) + 1, round((y1 - y0) / h) + 1]
+    data.SetDimensions(n[0], n[1], 1)
+    for name, start, count in (("X", x0, n[0]), ("Y", y0, n[1])):
+        places = vtk.vtkDoubleArray()
+        for i in range(count):
+            places.InsertNextValue(start + i * h)
+        getattr(data, f"Set{name}Coordinates")(places)
+    return data
 
 
 def wall_line(coordinates):
@@ -272,6 +285,11 @@ def arguments():
         description="Draw a VTU file of a run as a PNG picture.")
     parser.add_argument("file", help="VTU file of points or of a mesh")
     parser.add_argument("--mesh", help="VTU file whose cell edges are drawn too")
+    parser.add_argument("--grid", nargs=5, type=float,
+                        metavar=("X0", "Y0", "X1", "Y1", "H"),
+                        help="instead of --mesh: squares of size H")
+    parser.add_argument("--point-scale", type=float, default=1.0,
+                        help="size of points over that of their volume")
     parser.add_argument("--wall", nargs="+", type=float, action="append",
                         default=[], metavar="X Y",
                         help="a line through these points, in 2D")
@@ -298,7 +316,7 @@ def main():
     found_range = add_value(data, args.field, args.component)
     flat = is_flat(data)
     is_points = data.GetPointData().HasArray("volume")
-    shapes = as_glyphs(data) if is_points else data
+    shapes = as_glyphs(data, args.point_scale) if is_points else data
 
     table = colours(args.diverging)
     mapper = vtk.vtkDataSetMapper()
@@ -321,8 +339,8 @@ def main():
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
     boxes = [shapes.GetBounds()]
-    if args.mesh:
-        mesh = read(args.mesh)
+    if args.mesh or args.grid:
+        mesh = read(args.mesh) if args.mesh else grid(*args.grid)
         boxes.append(mesh.GetBounds())
         renderer.AddActor(edge_lines(mesh))
     for wall in args.wall:
@@ -331,7 +349,7 @@ def main():
         boxes.append([min(xs), max(xs), min(ys), max(ys), 0, 0])
     bounds = union(boxes)
 
-    font = max(12, args.size[1] // 35)
+    font = max(16, args.size[1] // 35)
     size, scale = size_for(bounds, args.size[1], font) if flat else \
         (args.size, 1)
     title = args.title or " ".join([args.field, args.component]).strip()
