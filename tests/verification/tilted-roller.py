@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
 # The scene of the README: slope and stop together carry the weight of 500 N.
 from math import cos, hypot, radians, sin
 
