@@ -27,7 +27,7 @@ run() {
 # last FOLDER: its last VTU file
 last() { find "$1" -name '*.vtu' | sort | tail -n 1; }
 
-render() { python3 "$figures/render.py" "$@"; }
+render() { "$figures/render.py" "$@"; }
 
 run footing cortis-2017/footing.prm
 render "$(last footing/points)" --mesh "$(last footing/mesh)" \
@@ -38,7 +38,7 @@ render "$(last footing/points)" --mesh "$(last footing/mesh)" \
 
 run tilted boundaries/tilted-roller.prm
 render "$(last tilted/points)" --mesh "$(last tilted/mesh)" \
-  --field stress --component yy \
+  --field stress --component yy --range -5.5 0 \
   --heading "Block on a slope of 25 degrees" \
   --title "vertical stress" --unit "N/mm²" --length-unit mm \
   --wall -21.13 45.32 0 0 90.63 42.26 -o "$figures/tilted-roller.png"
@@ -49,12 +49,12 @@ for step in 1 2 3; do
   (cd "step-$step" && "$build/doc/step-$step" >log)
 done
 for step in 1 2; do
-  render "step-$step/block.vtu" --field stress --component xx --range 25 61 \
+  render "step-$step/block.vtu" --field stress --component xx --range 15 61 \
     --heading "step-$step" --title "stress xx" --unit "N/mm²" \
     --length-unit mm --size 900 520 --grid 0 0 110 50 10 --point-scale 0.7 \
     -o "$figures/step-$step.png"
 done
-render step-3/step-3.vtu --field mean_stress \
+render step-3/step-3.vtu --field mean_stress --range -4.5 0 \
   --heading "step-3: block on a slope" --title "mean stress" --unit "N/mm²" \
   --length-unit mm --grid -30 -10 100 95 5 \
   --wall -21.13 45.32 0 0 90.63 42.26 -o "$figures/step-3.png"
