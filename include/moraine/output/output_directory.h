@@ -24,8 +24,9 @@ namespace moraine
     /**
      * Make the folder, or check the one that is there. Collective.
      *
-     * @param overwrite remove the files of an earlier run. Only files with the
-     * names above are removed.
+     * With @p overwrite the files of an earlier run are removed; only files
+     * with the names above are.
+     *
      * @throws InputError on every rank if the folder holds files of an earlier
      * run and @p overwrite is not set, or if it cannot be made or written.
      */
