@@ -117,7 +117,7 @@ namespace moraine
     errno    = 0;
     tee->log.open(path);
     if (!tee->log)
-      throw ComputationError(path +
+      throw InputError(path +
                              ": cannot be written: " + std::strerror(errno));
     tee->log << tee->before_log << std::flush;
     tee->before_log.clear();
@@ -133,7 +133,7 @@ namespace moraine
       return;
     tee->log.close();
     if (!tee->log)
-      throw ComputationError(log_path +
+      throw InputError(log_path +
                              ": cannot be written (is the disk full?)");
   }
 

@@ -14,6 +14,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -68,8 +69,10 @@ namespace moraine
     void
     insert_point_file(const std::string &file, const unsigned int body);
 
+    /** That each body has points, and lies in the mesh as a whole. */
     void
-    check_bodies() const;
+    check_bodies(
+      const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const;
 
     void
     make_basis();
@@ -98,6 +101,17 @@ namespace moraine
     void
     write_vtu(const double t);
 
+    /**
+     * The points alone, which a run that ends early leaves behind: the mesh may
+     * be that of the next step already.
+     */
+    void
+    write_points(const double t);
+
+    /** @throw ComputationError naming the point that the step pushes out. */
+    void
+    check_that_points_stay(const TimeControl &time, const LA::Vector &x);
+
     void
     print_step(const TimeControl &time, const NewtonReport &report);
 
@@ -105,8 +119,9 @@ namespace moraine
     print_closing(const Summary &summary);
 
     Summary
-    make_summary(const TimeControl &time, const double wall_seconds);
+    make_summary(const TimeControl &time);
 
+    const std::chrono::steady_clock::time_point  started;
     Scene<dim>                                  &scene;
     const MPI_Comm                               communicator;
     Console                                     &console;
@@ -133,6 +148,7 @@ namespace moraine
     std::optional<PvdHistory>           points_pvd;
     std::optional<PvdHistory>           mesh_pvd;
     unsigned int                        n_vtu_written = 0;
+    double                              t_written     = 0;
     std::vector<BoundaryReport<dim>>    reports;
     std::vector<dealii::Tensor<1, dim>> last_increments;
     unsigned int                        newton_iterations = 0;
