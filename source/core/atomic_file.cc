@@ -58,8 +58,7 @@ namespace moraine
   {
     const int reason = errno;
     throw InputError(path + ": cannot be written" +
-                           (reason != 0 ?
-                              std::string(": ") + std::strerror(reason) :
-                              std::string(" (is the disk full?)")));
+                     (reason != 0 ? std::string(": ") + std::strerror(reason) :
+                                    std::string(" (is the disk full?)")));
   }
 } // namespace moraine

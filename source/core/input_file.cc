@@ -383,6 +383,11 @@ namespace moraine
         for (auto part = star + 1; part != parts.end(); ++part)
           after += "/" + *part;
         const auto names = names_in(before);
+        if (setting.find("{{") != std::string::npos)
+          throw InputError(origin +
+                           ": found '*' and a choice, which would vary "
+                           "for each name on its own; allowed: one "
+                           "of them, or series in 'Study/Series'");
         if (names.empty())
           throw InputError(origin + ": section '" + before +
                            "': found no name that '*' could stand for");

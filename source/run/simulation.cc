@@ -153,10 +153,10 @@ namespace moraine
         time.next();
         system->set_target(time.trial_time());
         system->initial_guess(x);
-        if (system->coupling_changed())
+        if (!first_step && system->coupling_changed())
           {
             system->assemble(x, true);
-            system->check_that_it_is_held(first_step);
+            system->check_that_it_is_held(false);
           }
         const NewtonReport report = newton.solve(*system, *linear_solver, x);
         newton_iterations += report.iterations;

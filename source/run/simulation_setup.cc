@@ -7,6 +7,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+#include <moraine/core/nearest.h>
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/seeding.h>
 
@@ -14,6 +15,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <fstream>
 #include <iomanip>
 
 namespace moraine
@@ -278,6 +280,11 @@ namespace moraine
   Simulation<dim>::insert_point_file(const std::string &file,
                                      const unsigned int body)
   {
+    if (!std::ifstream(file))
+      throw InputError(place("Bodies/" + body_names[body], "Point file") +
+                       ": found '" + file +
+                       "', which cannot be read, allowed: the path of a CSV "
+                       "file");
     const auto                  content = PointFile<dim>::read(file);
     const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
     const unsigned int          first_id =
@@ -293,8 +300,8 @@ namespace moraine
         if (cell.state() != IteratorState::valid)
           {
             std::ostringstream message;
-            message << "file '" << file << "', line " << i + 2
-                    << ": found a point at (" << content.positions[i]
+            message << file << ':' << content.lines[i] << ": found a point at ("
+                    << content.positions[i]
                     << "), allowed: points inside the mesh";
             throw InputError(message.str());
           }
@@ -476,7 +483,8 @@ namespace moraine
                   std::find(body_names.begin(), body_names.end(), body);
                 if (found == body_names.end())
                   throw InputError(place(section, "Bodies") + ": found '" +
-                                   body + "', allowed: names of bodies");
+                                   body + "', allowed: names of bodies" +
+                                   suggest(body, body_names));
                 force.acts_on[found - body_names.begin()] = true;
               }
             loads.body_forces.push_back(force);
@@ -518,6 +526,14 @@ namespace moraine
         throw InputError("section 'Boundaries/" + boundaries[b].name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
+
+    TimeControl time(scene.time);
+    time.next();
+    LA::Vector x;
+    system->set_target(time.trial_time());
+    system->initial_guess(x);
+    system->assemble(x, true);
+    system->check_that_it_is_held(true);
   }
 
 

@@ -556,7 +556,7 @@ namespace moraine
         << "set xlabel 'wall time [s]'\n"
         << "set ylabel " << single_quoted(error + unit) << '\n'
         << "set logscale xy\nset format xy '%.0e'\nset grid\n"
-        << "set key outside right top\nset offsets graph 0.05,0.05,0.05,0.05\n"
+        << "set key outside right top\n"
         << "plot ";
     for (std::size_t c = 0; c < all.size(); ++c)
       out << (c > 0 ? ", \\\n     " : "") << "$curve" << c
