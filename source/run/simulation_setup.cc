@@ -15,8 +15,9 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <fstream>
-#include <iomanip>
+#include <sstream>
 
 namespace moraine
 {
@@ -151,8 +152,7 @@ namespace moraine
   Simulation<dim>::Simulation(Scene<dim>     &scene,
                               const MPI_Comm &communicator,
                               Console        &console)
-    : started(std::chrono::steady_clock::now())
-    , scene(scene)
+    : scene(scene)
     , communicator(communicator)
     , console(console)
     , timer(unused_timer_output, TimerOutput::never, TimerOutput::wall_times)
@@ -526,13 +526,8 @@ namespace moraine
         throw InputError("section 'Boundaries/" + boundaries[b].name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
-
-    TimeControl time(scene.time);
-    time.next();
-    LA::Vector x;
-    system->set_target(time.trial_time());
-    system->initial_guess(x);
-    system->assemble(x, true);
+    system->set_target(scene.time.start_time);
+    system->assemble(space->vector(), true);
     system->check_that_it_is_held(true);
   }
 

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <deal.II/base/timer.h>
+
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -313,6 +315,29 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Adds the wall time of its life to a sum. */
+    class AddTime
+    {
+    public:
+      explicit AddTime(double &sum)
+        : sum(sum)
+      {}
+
+      ~AddTime()
+      {
+        sum += timer.wall_time();
+      }
+
+    private:
+      Timer   timer;
+      double &sum;
+    };
+  } // namespace
+
+
+
   struct LinearSolver::Implementation
   {
     enum class Method
@@ -324,8 +349,10 @@ namespace moraine
 
     const LinearSolverParameters                       parameters;
     const unsigned int                                 dim;
-    unsigned int                                       n_set_ups = 0;
-    const LA::SparseMatrix                            *matrix    = nullptr;
+    unsigned int                                       n_set_ups      = 0;
+    double                                             set_up_seconds = 0;
+    double                                             solve_seconds  = 0;
+    const LA::SparseMatrix                            *matrix         = nullptr;
     Method                                             method = Method::direct;
     bool                                               is_finite = true;
     std::string                                        fall_back_reason;
@@ -420,7 +447,8 @@ namespace moraine
                        const bool                     symmetric,
                        const std::vector<LA::Vector> &near_null_space)
   {
-    auto &s = *implementation;
+    auto         &s = *implementation;
+    const AddTime timing(s.set_up_seconds);
     ++s.n_set_ups;
     s.matrix = &matrix;
     s.method = s.choose(symmetric);
@@ -445,7 +473,8 @@ namespace moraine
   LinearReport
   LinearSolver::solve(LA::Vector &x, const LA::Vector &b)
   {
-    auto &s = *implementation;
+    auto         &s = *implementation;
+    const AddTime timing(s.solve_seconds);
     Assert(s.matrix != nullptr, ExcMessage("set_up() comes before solve()."));
     if (!s.is_finite || !std::isfinite(b.l2_norm()))
       {
@@ -481,6 +510,22 @@ namespace moraine
   LinearSolver::n_set_ups() const
   {
     return implementation->n_set_ups;
+  }
+
+
+
+  double
+  LinearSolver::set_up_seconds() const
+  {
+    return implementation->set_up_seconds;
+  }
+
+
+
+  double
+  LinearSolver::solve_seconds() const
+  {
+    return implementation->solve_seconds;
   }
 
 

@@ -14,7 +14,6 @@
 
 #include <deal.II/base/timer.h>
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -86,7 +85,10 @@ namespace moraine
     void
     make_loads();
 
-    /** Find cells and pieces for the first step and check what they touch. */
+    /**
+     * Find cells and pieces for the first step; check that boundaries touch a
+     * body and that every body is held.
+     */
     void
     begin_first_step();
 
@@ -121,10 +123,10 @@ namespace moraine
     Summary
     make_summary(const TimeControl &time);
 
-    const std::chrono::steady_clock::time_point  started;
     Scene<dim>                                  &scene;
     const MPI_Comm                               communicator;
     Console                                     &console;
+    dealii::Timer                                wall_time;
     std::ostringstream                           unused_timer_output;
     dealii::TimerOutput                          timer;
     std::vector<std::shared_ptr<const Material>> materials;

@@ -110,6 +110,14 @@ namespace moraine
     unsigned int
     n_set_ups() const;
 
+    /** Wall time spent in set_up() so far. */
+    double
+    set_up_seconds() const;
+
+    /** Wall time spent in solve() so far. */
+    double
+    solve_seconds() const;
+
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation;

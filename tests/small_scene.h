@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_tests_small_scene_h
+#define moraine_tests_small_scene_h
+
+#include <moraine/basis/basis.h>
+#include <moraine/mesh/background_mesh.h>
+#include <moraine/mesh/grid_space.h>
+#include <moraine/points/point_set.h>
+#include <moraine/points/seeding.h>
+#include <moraine/points/straight_shapes.h>
+
+#include <memory>
+
+namespace moraine
+{
+  /**
+   * A mesh of 4^dim unit cells with a box body of n^dim points per full cell,
+   * from 0.3 to 3.4 in every direction, for tests.
+   */
+  template <int dim>
+  struct SmallScene
+  {
+    static MeshParameters<dim>
+    mesh_parameters()
+    {
+      MeshParameters<dim> parameters;
+      for (unsigned int d = 0; d < dim; ++d)
+        parameters.upper_corner[d] = 4;
+      parameters.cell_size = 1;
+      return parameters;
+    }
+
+    static PointFields
+    fields(const bool gimp)
+    {
+      PointFields layout;
+      if (gimp)
+        GimpBasis<dim>::request_fields(layout);
+      return layout;
+    }
+
+    explicit SmallScene(const bool gimp = false, const unsigned int n = 2)
+      : mesh(mesh_parameters(), MPI_COMM_WORLD)
+      , space(mesh, 1)
+      , points(mesh, fields(gimp))
+    {
+      dealii::Point<dim> lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = 0.3;
+          upper[d] = 3.4;
+        }
+      const auto                    shape = ConvexShape<dim>::box(lower, upper);
+      const CellSeeder<dim>         seeder(n, PointLayout::equal);
+      std::vector<SeededPoint<dim>> seeded;
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            seeded.clear();
+            seeder.seed(vertices_of<dim>(cell), shape, seeded);
+            for (unsigned int i = 0; i < seeded.size(); ++i)
+              points.insert(cell,
+                            seeded[i].position,
+                            mesh.mapping().transform_real_to_unit_cell(
+                              cell, seeded[i].position),
+                            100 * cell->active_cell_index() + i,
+                            0,
+                            seeded[i].volume);
+          }
+      points.finish_insertion();
+      if (gimp)
+        basis = std::make_unique<GimpBasis<dim>>(space, points, n);
+      else
+        basis = std::make_unique<CellBasis<dim, 1>>(space, points);
+      basis->initialise_points(points);
+    }
+
+    BackgroundMesh<dim>         mesh;
+    GridSpace<dim>              space;
+    PointSet<dim>               points;
+    std::unique_ptr<Basis<dim>> basis;
+  };
+} // namespace moraine
+
+#endif
