@@ -6,8 +6,8 @@
 #include <moraine/solver/newton.h>
 
 #include <algorithm>
-#include <limits>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace moraine

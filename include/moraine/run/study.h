@@ -55,7 +55,8 @@ namespace moraine
    * study.gp and study.png, error against wall time.
    *
    * A case that fails is a row whose status says so. Peak memory is that of
-   * the case where the system lets us reset it, and else of all so far.
+   * the case where the system lets us reset it, and else of all so far. A short
+   * first case is run twice, because the first run of a process takes longer.
    */
   class Study
   {
