@@ -172,21 +172,24 @@ namespace moraine
         seed_full_cell(cell, points);
         return;
       }
-    const double body_volume = box_volume(shape.bounding_box());
+    const double       body_volume = box_volume(shape.bounding_box());
+    const unsigned int n_before    = points.size();
+    bool               is_cut      = false;
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const ConvexPolytope<dim> whole(sub_cell(cell, q));
         const double              volume = whole.volume();
         const auto                part   = shape.clip(whole);
-        if (!(part.volume > 1e-12 * std::min(volume, body_volume)))
-          continue;
-        const bool is_clipped = part.volume < (1. - 1e-13) * volume;
-        const bool at_gauss   = !is_clipped && layout == PointLayout::gauss;
-        points.push_back(
-          {at_gauss ? image<dim>(cell, rule.point(q)) : part.centroid,
-           part.volume,
-           lengths[q],
-           is_clipped});
+        const bool is_clipped            = part.volume < (1. - 1e-13) * volume;
+        is_cut                           = is_cut || is_clipped;
+        if (part.volume > 1e-12 * std::min(volume, body_volume))
+          points.push_back(
+            {part.centroid, part.volume, lengths[q], is_clipped});
+      }
+    if (!is_cut)
+      {
+        points.erase(points.begin() + n_before, points.end());
+        seed_full_cell(cell, points);
       }
   }
 

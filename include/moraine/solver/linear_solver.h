@@ -78,7 +78,7 @@ namespace moraine
   {
   public:
     /**
-     * @param dim 2 or 3; only chooses the limit of auto.
+     * @p dim, 2 or 3, only chooses the limit of auto.
      */
     LinearSolver(const LinearSolverParameters &parameters,
                  const unsigned int            dim);
@@ -90,8 +90,8 @@ namespace moraine
      * until the next set_up() or clear(): what Amesos and ML build refers to
      * it, even while they are destroyed.
      *
-     * @param near_null_space Rigid-body modes for algebraic multigrid; may be
-     * empty.
+     * The rigid-body modes @p near_null_space are for algebraic multigrid; they
+     * may be empty.
      */
     void
     set_up(const LA::SparseMatrix        &matrix,
