@@ -8,13 +8,19 @@ import struct
 import zlib
 
 
-def column(folder, number, name):
-    """The values of a field of all points, from the binary arrays of a VTU."""
+def positions(folder, number):
+    """x of all points by their id, from the binary arrays of a VTU file."""
     data = (folder / "points" / f"{number:05d}.vtu").read_text()
-    array = re.search(rf'<DataArray type="Float32" {name}[^>]*format="binary">'
-                      r"\s*([A-Za-z0-9+/=]+?==)?([A-Za-z0-9+/=]+)\s*<", data)
-    values = zlib.decompress(base64.b64decode(array.group(2)))
-    return [v for (v,) in struct.iter_unpack("<f", values)]
+
+    def arrays(name, stride):
+        for text in re.findall(rf'<DataArray type="Float32" {name}'
+                               r'[^>]*format="binary">\s*([^<]*?)\s*<', data):
+            # a header of four numbers (16 bytes, 24 letters), then one block
+            values = zlib.decompress(base64.b64decode(text[24:]))
+            yield from struct.unpack(f"<{len(values) // 4}f", values)[::stride]
+
+    x = list(arrays('NumberOfComponents="3"', 3))
+    return dict(zip(arrays('Name="id"', 1), x))
 
 
 h = 4
@@ -28,10 +34,9 @@ for name in sorted(result.reactions):
     bound(f"deepest point behind {name} over h",
           max(step[f"penetration of {name}"] for step in history) / h, 1e-2)
 
-start = column(result.folder, 0, 'NumberOfComponents="3"')[0::3]
-end = column(result.folder, 6, 'NumberOfComponents="3"')[0::3]
+start, end = (positions(result.folder, step) for step in (0, 6))
 text("points in the files", (len(start), len(end)))
-last = [i for i, x in enumerate(start) if x > max(start) - 0.5]
+last = [i for i, x in start.items() if x > max(start.values()) - 0.5]
 text("points of the last column", len(last))
 spread = max(end[i] for i in last) - min(end[i] for i in last)
 bound("spread of x over the last column over h", spread / h, 1e-2)
