@@ -103,11 +103,15 @@ namespace moraine
       prescribed = find_prescribed_nodes(conditions, space, t_start);
     make_constraints();
 
+    // deal.II takes the size of an empty range of rows for a negative number.
+    const unsigned int entries_per_row =
+      space.locally_owned().n_elements() == 0 ? 0 :
+                                                Utilities::pow(3, dim) * dim;
     LA::SparsityPattern                  pattern(space.locally_owned(),
                                 space.locally_owned(),
                                 space.locally_relevant(),
                                 space.communicator(),
-                                Utilities::pow(3, dim) * dim);
+                                entries_per_row);
     std::vector<types::global_dof_index> dofs;
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
       dofs.clear();
