@@ -158,6 +158,8 @@ namespace moraine
   {
     const GridSpace<dim> &space       = state.grid();
     constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
+    // Assigning to the old vectors kept their old distribution over the ranks.
+    rigid_modes.clear();
     rigid_modes.assign(dim + n_rotations,
                        LA::Vector(space.locally_owned(), space.communicator()));
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
