@@ -78,6 +78,12 @@ namespace moraine
                       material,
                       "Name of its material; may be left out if there is one "
                       "only.");
+    prm.add_parameter("Point grid",
+                      point_grid,
+                      "Of a box: number of points in each of its directions, "
+                      "equally spaced in the body whatever the mesh. Left out: "
+                      "points are seeded cell by cell.",
+                      patterns::positive_integers(0, dim));
     shape.add_parameters(prm);
   }
 

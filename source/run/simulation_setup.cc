@@ -210,13 +210,22 @@ namespace moraine
           if (body.material == material_name || scene.materials.size() == 1)
             materials.push_back(
               make_material(parameters, "Materials/" + material_name));
-        in_order.push_back(body.shape.is_point_file() ? nullptr :
-                                                        shapes.at(name));
+        in_order.push_back(body.has_own_points() ? nullptr : shapes.at(name));
       }
     seed(in_order);
+    // Ids of seeded points count sub-cells; the others come behind them.
+    next_free_id = mesh->triangulation().n_active_cells() * body_names.size() *
+                   Utilities::pow(scene.method.points_per_direction, dim);
     for (unsigned int b = 0; b < body_names.size(); ++b)
       if (!in_order[b])
-        insert_point_file(shape_parameters.at(body_names[b]).point_file, b);
+        for (const auto &[name, body] : scene.bodies)
+          if (name == body_names[b])
+            {
+              if (body.shape.is_point_file())
+                insert_point_file(body.shape.point_file, b);
+              else
+                insert_point_grid(body, b);
+            }
     points->finish_insertion();
     check_bodies(in_order);
   }
@@ -298,35 +307,90 @@ namespace moraine
                        ": found '" + file +
                        "', which cannot be read, allowed: the path of a CSV "
                        "file");
-    const auto                  content = PointFile<dim>::read(file);
+    const auto content = PointFile<dim>::read(file);
+    insert_points(content.positions,
+                  content.volumes,
+                  body,
+                  [&](const unsigned int i) {
+                    return file + ":" + std::to_string(content.lines[i]);
+                  });
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::insert_point_grid(const BodyParameters<dim> &parameters,
+                                     const unsigned int         body)
+  {
+    const std::string section = "Bodies/" + body_names[body];
+    if (parameters.shape.shape != "box" || parameters.point_grid.size() != dim)
+      throw InputError(place(section, "Point grid") +
+                       ": allowed: " + std::to_string(dim) +
+                       " numbers of points, for a body of shape 'box'");
+    const Point<dim>     lower = to_point<dim>(parameters.shape.lower_corner,
+                                           place(section, "Lower corner"));
+    const Point<dim>     upper = to_point<dim>(parameters.shape.upper_corner,
+                                           place(section, "Upper corner"));
+    const Placement<dim> placement = make_placement(parameters.shape, section);
+
+    Tensor<1, dim> spacing;
+    double         volume = 1;
+    unsigned int   n      = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        spacing[d] = (upper[d] - lower[d]) / parameters.point_grid[d];
+        volume *= spacing[d];
+        n *= parameters.point_grid[d];
+      }
+    std::vector<Point<dim>> positions(n);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Point<dim> x = lower;
+        for (unsigned int d = 0, rest = i; d < dim; ++d)
+          {
+            x[d] += (rest % parameters.point_grid[d] + 0.5) * spacing[d];
+            rest /= parameters.point_grid[d];
+          }
+        positions[i] = placement.apply(x);
+      }
+    insert_points(positions,
+                  std::vector<double>(n, volume),
+                  body,
+                  [&](const unsigned int) {
+                    return place(section, "Point grid");
+                  });
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::insert_points(
+    const std::vector<Point<dim>>                        &positions,
+    const std::vector<double>                            &volumes,
+    const unsigned int                                    body,
+    const std::function<std::string(const unsigned int)> &origin)
+  {
     const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
-    const unsigned int          first_id =
-      mesh->triangulation().n_active_cells() * body_names.size() *
-      Utilities::pow(scene.method.points_per_direction, dim);
     typename Triangulation<dim>::active_cell_iterator hint;
-    for (unsigned int i = 0; i < content.positions.size(); ++i)
+    for (unsigned int i = 0; i < positions.size(); ++i)
       {
         const auto [cell, reference] =
-          GridTools::find_active_cell_around_point(cache,
-                                                   content.positions[i],
-                                                   hint);
+          GridTools::find_active_cell_around_point(cache, positions[i], hint);
         if (cell.state() != IteratorState::valid)
           {
             std::ostringstream message;
-            message << file << ':' << content.lines[i] << ": found a point at ("
-                    << content.positions[i]
+            message << origin(i) << ": found a point at (" << positions[i]
                     << "), allowed: points inside the mesh";
             throw InputError(message.str());
           }
         hint = cell;
         if (cell->is_locally_owned())
-          points->insert(cell,
-                         content.positions[i],
-                         reference,
-                         first_id + i,
-                         body,
-                         content.volumes[i]);
+          points->insert(
+            cell, positions[i], reference, next_free_id + i, body, volumes[i]);
       }
+    next_free_id += positions.size();
   }
 
 
@@ -382,7 +446,7 @@ namespace moraine
     for (const std::string &name : body_names)
       for (const auto &[body_name, body] : scene.bodies)
         if (body_name == name)
-          is_seeded.push_back(!body.shape.is_point_file());
+          is_seeded.push_back(!body.has_own_points());
     if (scene.method.method == "GIMP")
       basis = std::make_unique<GimpBasis<dim>>(
         *space, *points, scene.method.points_per_direction, is_seeded);

@@ -60,8 +60,16 @@ namespace moraine
   template <int dim>
   struct BodyParameters
   {
-    std::string          material;
-    ShapeParameters<dim> shape;
+    std::string               material;
+    std::vector<unsigned int> point_grid;
+    ShapeParameters<dim>      shape;
+
+    /** Whether its points are not seeded cell by cell. */
+    bool
+    has_own_points() const
+    {
+      return shape.is_point_file() || !point_grid.empty();
+    }
 
     void
     add_parameters(dealii::ParameterHandler &prm);

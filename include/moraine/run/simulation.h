@@ -14,6 +14,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -67,6 +68,18 @@ namespace moraine
 
     void
     insert_point_file(const std::string &file, const unsigned int body);
+
+    void
+    insert_point_grid(const BodyParameters<dim> &parameters,
+                      const unsigned int         body);
+
+    /** @p origin says for messages where a point comes from. */
+    void
+    insert_points(const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<double>             &volumes,
+                  const unsigned int                     body,
+                  const std::function<std::string(const unsigned int)> &origin);
+
 
     /** That each body has points, and lies in the mesh as a whole. */
     void
@@ -131,6 +144,7 @@ namespace moraine
     dealii::TimerOutput                          timer;
     std::vector<std::shared_ptr<const Material>> materials;
     std::vector<std::string>                     body_names;
+    unsigned int                                 next_free_id = 0;
     std::vector<double>                          body_volumes;
     std::unique_ptr<BackgroundMesh<dim>>         mesh;
     std::unique_ptr<GridSpace<dim>>              space;
