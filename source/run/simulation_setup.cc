@@ -210,22 +210,16 @@ namespace moraine
           if (body.material == material_name || scene.materials.size() == 1)
             materials.push_back(
               make_material(parameters, "Materials/" + material_name));
-        in_order.push_back(body.has_own_points() ? nullptr : shapes.at(name));
+        in_order.push_back(body.is_seeded_by_cells() ? shapes.at(name) :
+                                                       nullptr);
       }
     seed(in_order);
-    // Ids of seeded points count sub-cells; the others come behind them.
-    next_free_id = mesh->triangulation().n_active_cells() * body_names.size() *
-                   Utilities::pow(scene.method.points_per_direction, dim);
-    for (unsigned int b = 0; b < body_names.size(); ++b)
-      if (!in_order[b])
-        for (const auto &[name, body] : scene.bodies)
-          if (name == body_names[b])
-            {
-              if (body.shape.is_point_file())
-                insert_point_file(body.shape.point_file, b);
-              else
-                insert_point_grid(body, b);
-            }
+    for (const auto &[name, body] : scene.bodies)
+      for (unsigned int b = 0; b < body_names.size(); ++b)
+        if (name == body_names[b] && body.shape.is_point_file())
+          insert_point_file(body.shape.point_file, b);
+        else if (name == body_names[b] && !body.is_seeded_by_cells())
+          insert_point_grid(body, b);
     points->finish_insertion();
     check_bodies(in_order);
   }
@@ -244,7 +238,9 @@ namespace moraine
                                  fe || scene.method.point_layout == "Gauss" ?
                                    PointLayout::gauss :
                                    PointLayout::equal);
-    const unsigned int    n_sub = Utilities::pow(n_per_direction, dim);
+    const unsigned int    n_ids = seeder.max_points();
+    first_free_id =
+      mesh->triangulation().n_active_cells() * shapes.size() * n_ids;
 
     std::string                   overlap;
     std::vector<SeededPoint<dim>> seeded;
@@ -283,7 +279,7 @@ namespace moraine
                                mesh->mapping().transform_real_to_unit_cell(
                                  cell, seeded[i].position),
                                (cell->active_cell_index() * shapes.size() + b) *
-                                   n_sub +
+                                   n_ids +
                                  i,
                                b,
                                seeded[i].volume);
@@ -312,7 +308,7 @@ namespace moraine
                   content.volumes,
                   body,
                   [&](const unsigned int i) {
-                    return file + ":" + std::to_string(content.lines[i]);
+                    return file + ':' + std::to_string(content.lines[i]);
                   });
   }
 
@@ -323,42 +319,36 @@ namespace moraine
   Simulation<dim>::insert_point_grid(const BodyParameters<dim> &parameters,
                                      const unsigned int         body)
   {
-    const std::string section = "Bodies/" + body_names[body];
-    if (parameters.shape.shape != "box" || parameters.point_grid.size() != dim)
-      throw InputError(place(section, "Point grid") +
-                       ": allowed: " + std::to_string(dim) +
-                       " numbers of points, for a body of shape 'box'");
-    const Point<dim>     lower = to_point<dim>(parameters.shape.lower_corner,
-                                           place(section, "Lower corner"));
-    const Point<dim>     upper = to_point<dim>(parameters.shape.upper_corner,
-                                           place(section, "Upper corner"));
+    const std::string    section   = "Bodies/" + body_names[body];
     const Placement<dim> placement = make_placement(parameters.shape, section);
-
-    Tensor<1, dim> spacing;
-    double         volume = 1;
-    unsigned int   n      = 1;
+    const Point<dim>     lower  = to_point<dim>(parameters.shape.lower_corner,
+                                           place(section, "Lower corner"));
+    Tensor<1, dim>       length = to_point<dim>(parameters.shape.upper_corner,
+                                          place(section, "Upper corner")) -
+                            lower;
+    const auto  &n        = parameters.point_grid;
+    double       volume   = 1;
+    unsigned int n_points = 1;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        spacing[d] = (upper[d] - lower[d]) / parameters.point_grid[d];
-        volume *= spacing[d];
-        n *= parameters.point_grid[d];
+        length[d] /= n[d];
+        volume *= length[d];
+        n_points *= n[d];
       }
-    std::vector<Point<dim>> positions(n);
-    for (unsigned int i = 0; i < n; ++i)
+    std::vector<Point<dim>> positions;
+    for (unsigned int i = 0; i < n_points; ++i)
       {
-        Point<dim> x = lower;
-        for (unsigned int d = 0, rest = i; d < dim; ++d)
-          {
-            x[d] += (rest % parameters.point_grid[d] + 0.5) * spacing[d];
-            rest /= parameters.point_grid[d];
-          }
-        positions[i] = placement.apply(x);
+        Point<dim>   x    = lower;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; rest /= n[d], ++d)
+          x[d] += (rest % n[d] + 0.5) * length[d];
+        positions.push_back(placement.apply(x));
       }
     insert_points(positions,
-                  std::vector<double>(n, volume),
+                  std::vector<double>(n_points, volume),
                   body,
                   [&](const unsigned int) {
-                    return place(section, "Point grid");
+                    return "section '" + section + "', key 'Point grid'";
                   });
   }
 
@@ -370,7 +360,7 @@ namespace moraine
     const std::vector<Point<dim>>                        &positions,
     const std::vector<double>                            &volumes,
     const unsigned int                                    body,
-    const std::function<std::string(const unsigned int)> &origin)
+    const std::function<std::string(const unsigned int)> &where)
   {
     const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
     typename Triangulation<dim>::active_cell_iterator hint;
@@ -381,16 +371,16 @@ namespace moraine
         if (cell.state() != IteratorState::valid)
           {
             std::ostringstream message;
-            message << origin(i) << ": found a point at (" << positions[i]
+            message << where(i) << ": found a point at (" << positions[i]
                     << "), allowed: points inside the mesh";
             throw InputError(message.str());
           }
         hint = cell;
         if (cell->is_locally_owned())
           points->insert(
-            cell, positions[i], reference, next_free_id + i, body, volumes[i]);
+            cell, positions[i], reference, first_free_id + i, body, volumes[i]);
       }
-    next_free_id += positions.size();
+    first_free_id += positions.size();
   }
 
 
@@ -446,7 +436,7 @@ namespace moraine
     for (const std::string &name : body_names)
       for (const auto &[body_name, body] : scene.bodies)
         if (body_name == name)
-          is_seeded.push_back(!body.has_own_points());
+          is_seeded.push_back(body.is_seeded_by_cells());
     if (scene.method.method == "GIMP")
       basis = std::make_unique<GimpBasis<dim>>(
         *space, *points, scene.method.points_per_direction, is_seeded);

@@ -61,14 +61,14 @@ namespace moraine
   struct BodyParameters
   {
     std::string               material;
-    std::vector<unsigned int> point_grid;
     ShapeParameters<dim>      shape;
+    std::vector<unsigned int> point_grid;
 
-    /** Whether its points are not seeded cell by cell. */
+    /** Whether the cells of the mesh give the body its points. */
     bool
-    has_own_points() const
+    is_seeded_by_cells() const
     {
-      return shape.is_point_file() || !point_grid.empty();
+      return point_grid.empty() && !shape.is_point_file();
     }
 
     void
