@@ -147,7 +147,6 @@ namespace moraine
     dealii::TimerOutput                          timer;
     std::vector<std::shared_ptr<const Material>> materials;
     std::vector<std::string>                     body_names;
-    unsigned int                                 next_free_id = 0;
     std::vector<double>                          body_volumes;
     std::unique_ptr<BackgroundMesh<dim>>         mesh;
     std::unique_ptr<GridSpace<dim>>              space;
