@@ -21,13 +21,15 @@ namespace moraine
     const std::vector<GridCondition<dim>> &conditions,
     Loads<dim>                            &loads,
     const std::vector<std::string>        &body_names,
-    TimerOutput                           &timer)
+    TimerOutput                           &timer,
+    const double                           empty_stiffness)
     : state(state)
     , boundaries(boundaries)
     , conditions(conditions)
     , loads(loads)
     , body_names(body_names)
     , timer(timer)
+    , empty_stiffness(empty_stiffness)
   {
     point_terms.push_back(std::make_unique<InternalForce<dim>>());
     if (!loads.carried.empty())
@@ -79,6 +81,7 @@ namespace moraine
         load.find_cells(state.grid(), *cell_cache, reach);
     if (changed)
       set_up_unknowns();
+    find_empty_parts();
   }
 
 
@@ -263,6 +266,7 @@ namespace moraine
     local_scale = 0;
     assemble_points(tangent, force);
     assemble_boundaries(tangent, force);
+    assemble_empty_parts(tangent, force);
     if (tangent)
       matrix.compress(VectorOperation::add);
     force.compress(VectorOperation::add);

@@ -44,12 +44,19 @@ namespace moraine
   class MechanicsSystem : public NonlinearSystem
   {
   public:
+    /**
+     * @param empty_stiffness Stiffness of the empty part of active cells over
+     * that of the material in them. It resists the increment of each step and
+     * then is forgotten (a finite cell method, Parvizian et al. 2007), so that
+     * nodes touched by too few points are held. 0: none.
+     */
     MechanicsSystem(State<dim>                            &state,
                     std::vector<ImplicitBoundary<dim>>    &boundaries,
                     const std::vector<GridCondition<dim>> &conditions,
                     Loads<dim>                            &loads,
                     const std::vector<std::string>        &body_names,
-                    dealii::TimerOutput                   &timer);
+                    dealii::TimerOutput                   &timer,
+                    const double empty_stiffness = 0.);
 
     /**
      * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
@@ -151,6 +158,12 @@ namespace moraine
     assemble_boundaries(const bool tangent, LA::Vector &force);
 
     void
+    find_empty_parts();
+
+    void
+    assemble_empty_parts(const bool tangent, LA::Vector &force);
+
+    void
     add_to_system(const LocalSystem<dim> &local,
                   const bool              tangent,
                   LA::Vector             &force);
@@ -168,21 +181,25 @@ namespace moraine
                    std::vector<dealii::Tensor<1, dim>> &violations) const;
 
     [[noreturn]] void
-    report_free_part(const std::vector<unsigned int> &part,
-                     const unsigned int               k,
-                     const dealii::Vector<double>    &motion,
-                     const bool                       first_step) const;
+    report_free_part(const std::vector<unsigned int>           &part,
+                     const unsigned int                         k,
+                     const std::vector<dealii::Vector<double>> &free_motions,
+                     const bool first_step) const;
 
     /** Typical size of the largest point. */
     double
     point_size() const;
 
-    State<dim>                                    &state;
-    std::vector<ImplicitBoundary<dim>>            &boundaries;
-    const std::vector<GridCondition<dim>>         &conditions;
-    Loads<dim>                                    &loads;
-    const std::vector<std::string>                 body_names;
-    dealii::TimerOutput                           &timer;
+    State<dim>                            &state;
+    std::vector<ImplicitBoundary<dim>>    &boundaries;
+    const std::vector<GridCondition<dim>> &conditions;
+    Loads<dim>                            &loads;
+    const std::vector<std::string>         body_names;
+    dealii::TimerOutput                   &timer;
+    const double                           empty_stiffness;
+    /** Cells of this rank that points do not fill, and what is left of them. */
+    std::vector<std::pair<typename GridSpace<dim>::CellIterator, double>>
+                                                   empty_volume;
     std::unique_ptr<dealii::GridTools::Cache<dim>> cell_cache;
     std::vector<std::unique_ptr<PointTerm<dim>>>   point_terms;
     std::vector<unsigned int>                      body_of_cell;

@@ -124,10 +124,9 @@ namespace moraine
     }
 
     /**
-     * @param points_per_direction divisions of a cell at seeding, which give
-     * the boxes their shape.
-     * @param is_seeded which bodies were seeded that way; the others, all if
-     * left out, have points of their own (a file).
+     * The divisions of a cell at seeding, @p points_per_direction, give the
+     * boxes their shape. @p is_seeded says which bodies were seeded that way;
+     * the others, all if left out, have points of their own (a file).
      * @throws InputError if the mesh is not a box of equal cells.
      */
     GimpBasis(const GridSpace<dim>    &space,
