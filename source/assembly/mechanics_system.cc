@@ -154,6 +154,8 @@ namespace moraine
   {
     const GridSpace<dim> &space       = state.grid();
     constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
+    // Assigned to, a Trilinos vector of the same size keeps the layout it has.
+    rigid_modes.clear();
     rigid_modes.assign(dim + n_rotations,
                        LA::Vector(space.locally_owned(), space.communicator()));
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
