@@ -379,6 +379,29 @@ namespace moraine
       else
         section = join(section, part);
 
+    const auto star = std::find(parts.begin(), parts.end(), "*");
+    if (star != parts.end())
+      {
+        std::string before, after;
+        for (auto part = parts.begin(); part != star; ++part)
+          before = join(before, *part);
+        for (auto part = star + 1; part != parts.end(); ++part)
+          after += "/" + *part;
+        const auto names = names_in(before);
+        if (setting.find("{{") != std::string::npos)
+          throw InputError(origin +
+                           ": found '*' and a choice, which would vary "
+                           "for each name on its own; allowed: one "
+                           "of them, or series in 'Study/Series'");
+        if (names.empty())
+          throw InputError(origin + ": section '" + before +
+                           "': found no name that '*' could stand for");
+        for (const std::string &name : names)
+          apply_override(join(before, name) + after + "/" + key + " =" +
+                         setting.substr(equals + 1));
+        return;
+      }
+
     const std::string line =
       "set " + key + " = " + Utilities::trim(setting.substr(equals + 1));
     for (std::size_t i = 0; i < found_entries.size(); ++i)

@@ -216,6 +216,18 @@ namespace moraine
 
 
 
+  unsigned int
+  dimension_of(const InputFile &input)
+  {
+    const std::string text = input.get("", "Dimension", "2");
+    if (text != "2" && text != "3")
+      throw InputError(place("", "Dimension") + ": found '" + text +
+                       "', allowed: 2, 3");
+    return text == "3" ? 3 : 2;
+  }
+
+
+
   namespace
   {
     template <class Parameters>
@@ -263,6 +275,7 @@ namespace moraine
         probes.emplace_back();
         probes.back().name = name;
       }
+    take_names(input, "Study/Series", series);
     declare();
     input.parse(prm);
     // Files are named as seen from the folder of the scene.
@@ -273,6 +286,23 @@ namespace moraine
            body.shape.point_file)
             .string();
     check(input);
+  }
+
+
+
+  template <int dim>
+  Scene<dim>::Scene()
+  {
+    const std::string name = "<name>";
+    materials.emplace_back(name, MaterialParameters());
+    bodies.emplace_back(name, BodyParameters<dim>());
+    boundaries.emplace_back(name, BoundaryParameters<dim>());
+    grid_conditions.emplace_back(name, GridConditionParameters());
+    loads.emplace_back(name, LoadParameters<dim>());
+    probes.emplace_back();
+    probes.back().name = name;
+    series.emplace_back(name, std::string());
+    declare();
   }
 
 
@@ -316,20 +346,14 @@ namespace moraine
     prm.leave_subsection();
     section("Exact solution", exact);
     prm.enter_subsection("Study");
-    prm.declare_entry("Error",
-                      "",
-                      Patterns::Anything(),
-                      "Of 'moraine study': the error to plot against time, a "
-                      "name from 'errors' in summary.json.");
-    prm.declare_entry(
-      "Group by",
-      "",
-      Patterns::Anything(),
-      "Of 'moraine study': the key whose values become curves.");
-    prm.declare_entry("Title",
-                      "",
-                      Patterns::Anything(),
-                      "Of 'moraine study': title of the plot.");
+    study.add_parameters(prm);
+    in_subsections(prm, "Series", series, [this](std::string &settings) {
+      prm.add_parameter(
+        "Settings",
+        settings,
+        "Of 'moraine study': 'Section/Key = value' separated by ';', with "
+        "choices {{a|b}} if wanted. A '*' stands for every name.");
+    });
     prm.leave_subsection();
   }
 
@@ -341,6 +365,10 @@ namespace moraine
   {
     for (const char *key : {"Lower corner", "Upper corner"})
       input.require("Mesh", key);
+    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
+      throw InputError(place("Mesh", "Cell size") + ": found '" +
+                       input.get("Mesh", "Cell size", "") +
+                       "', allowed: a number > 0");
     mesh.n_cells();
     time.check();
     const auto reject = [](const std::string &section,

@@ -7,6 +7,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+#include <moraine/core/nearest.h>
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/seeding.h>
 
@@ -15,6 +16,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace moraine
@@ -77,6 +79,36 @@ namespace moraine
 
 
     template <int dim>
+    double
+    common_volume(const std::shared_ptr<const Shape<dim>>          &a,
+                  const std::shared_ptr<const Shape<dim>>          &b,
+                  const typename ConvexPolytope<dim>::CellVertices &vertices)
+    {
+      return CombinedShape<dim>(CombinedShape<dim>::Operation::intersect, a, b)
+        .clip(ConvexPolytope<dim>(vertices))
+        .volume;
+    }
+
+
+
+    /** Whether @p box lies in @p outer but for round-off. */
+    template <int dim>
+    bool
+    fits_into(const BoundingBox<dim> &box, const BoundingBox<dim> &outer)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double margin = 1e-9 * outer.side_length(d);
+          if (box.lower_bound(d) < outer.lower_bound(d) - margin ||
+              box.upper_bound(d) > outer.upper_bound(d) + margin)
+            return false;
+        }
+      return true;
+    }
+
+
+
+    template <int dim>
     RigidMotion<dim>
     make_motion(const BoundaryParameters<dim> &parameters,
                 const std::string             &section)
@@ -123,10 +155,7 @@ namespace moraine
     : scene(scene)
     , communicator(communicator)
     , console(console)
-    , timer(communicator,
-            unused_timer_output,
-            TimerOutput::never,
-            TimerOutput::wall_times)
+    , timer(unused_timer_output, TimerOutput::never, TimerOutput::wall_times)
   {
     TimerOutput::Scope scope(timer, "set up");
     mesh  = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
@@ -189,7 +218,7 @@ namespace moraine
       if (!in_order[b])
         insert_point_file(shape_parameters.at(body_names[b]).point_file, b);
     points->finish_insertion();
-    check_bodies();
+    check_bodies(in_order);
   }
 
 
@@ -208,37 +237,35 @@ namespace moraine
                                    PointLayout::equal);
     const unsigned int    n_sub = Utilities::pow(n_per_direction, dim);
 
+    std::string                   overlap;
     std::vector<SeededPoint<dim>> seeded;
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const auto vertices = vertices_of<dim>(cell);
-          int        previous = -1;
+          const auto                vertices = vertices_of<dim>(cell);
+          std::vector<unsigned int> earlier;
           for (unsigned int b = 0; b < shapes.size(); ++b)
             {
               if (!shapes[b])
                 continue;
               seeded.clear();
               seeder.seed(vertices, *shapes[b], seeded);
-              if (!seeded.empty() && previous >= 0)
-                {
-                  const CombinedShape<dim> common(
-                    CombinedShape<dim>::Operation::intersect,
-                    shapes[previous],
-                    shapes[b]);
-                  if (common.clip(ConvexPolytope<dim>(vertices)).volume >
-                      1e-10 * cell->measure())
-                    {
-                      std::ostringstream message;
-                      message << "section 'Bodies': '" << body_names[previous]
-                              << "' and '" << body_names[b]
-                              << "' overlap near (" << cell->center()
-                              << "), allowed: bodies that share no volume";
-                      throw InputError(message.str());
-                    }
-                }
               if (!seeded.empty())
-                previous = b;
+                {
+                  for (const unsigned int other : earlier)
+                    if (overlap.empty() &&
+                        common_volume<dim>(shapes[other], shapes[b], vertices) >
+                          1e-10 * cell->measure())
+                      {
+                        std::ostringstream message;
+                        message << "section 'Bodies': '" << body_names[other]
+                                << "' and '" << body_names[b]
+                                << "' overlap near (" << cell->center()
+                                << "), allowed: bodies that share no volume";
+                        overlap = message.str();
+                      }
+                  earlier.push_back(b);
+                }
               // The id counts sub-cells of cells, so it does not depend on
               // the number of ranks.
               for (unsigned int i = 0; i < seeded.size(); ++i)
@@ -253,6 +280,10 @@ namespace moraine
                                seeded[i].volume);
             }
         }
+    for (const std::string &message :
+         Utilities::MPI::all_gather(communicator, overlap))
+      if (!message.empty())
+        throw InputError(message);
   }
 
 
@@ -262,6 +293,11 @@ namespace moraine
   Simulation<dim>::insert_point_file(const std::string &file,
                                      const unsigned int body)
   {
+    if (!std::ifstream(file))
+      throw InputError(place("Bodies/" + body_names[body], "Point file") +
+                       ": found '" + file +
+                       "', which cannot be read, allowed: the path of a CSV "
+                       "file");
     const auto                  content = PointFile<dim>::read(file);
     const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
     const unsigned int          first_id =
@@ -277,8 +313,8 @@ namespace moraine
         if (cell.state() != IteratorState::valid)
           {
             std::ostringstream message;
-            message << "file '" << file << "', line " << i + 2
-                    << ": found a point at (" << content.positions[i]
+            message << file << ':' << content.lines[i] << ": found a point at ("
+                    << content.positions[i]
                     << "), allowed: points inside the mesh";
             throw InputError(message.str());
           }
@@ -297,18 +333,43 @@ namespace moraine
 
   template <int dim>
   void
-  Simulation<dim>::check_bodies() const
+  Simulation<dim>::check_bodies(
+    const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const
   {
     std::vector<double> volumes(body_names.size(), 0.);
     for (unsigned int p = 0; p < points->n_local(); ++p)
       volumes[points->body(p)] += points->volume(p);
     Utilities::MPI::sum(volumes, communicator, volumes);
+    const BoundingBox<dim> box =
+      GridTools::compute_bounding_box(mesh->triangulation());
     for (unsigned int b = 0; b < volumes.size(); ++b)
-      if (volumes[b] == 0)
-        throw InputError("section 'Bodies/" + body_names[b] +
-                         "': found no part of the body inside the mesh, "
-                         "allowed: a body that is not empty and lies in the "
-                         "mesh");
+      {
+        const std::string where = "section 'Bodies/" + body_names[b] + "': ";
+        if (volumes[b] == 0)
+          throw InputError(where +
+                           "found no part of the body inside the mesh, "
+                           "allowed: a body that is not empty and lies in the "
+                           "mesh");
+        if (!shapes[b] || !is_finite(shapes[b]->bounding_box()))
+          continue;
+        const auto whole = ConvexPolytope<dim>(
+          shapes[b]->bounding_box().get_boundary_points().first,
+          shapes[b]->bounding_box().get_boundary_points().second);
+        if (fits_into(shapes[b]->bounding_box(), box))
+          continue;
+        const double volume = shapes[b]->clip(whole).volume;
+        if (volumes[b] >
+            (1 - (shapes[b]->is_straight() ? 1e-9 : 1e-3)) * volume)
+          continue;
+        std::ostringstream message;
+        message << where << "found " << 100 * (1 - volumes[b] / volume)
+                << " % of its volume outside the mesh, which is ("
+                << box.get_boundary_points().first << ") to ("
+                << box.get_boundary_points().second
+                << "), allowed: a body in the mesh; only half-spaces and "
+                   "expressions are cut by it";
+        throw InputError(message.str());
+      }
   }
 
 
@@ -438,7 +499,8 @@ namespace moraine
                   std::find(body_names.begin(), body_names.end(), body);
                 if (found == body_names.end())
                   throw InputError(place(section, "Bodies") + ": found '" +
-                                   body + "', allowed: names of bodies");
+                                   body + "', allowed: names of bodies" +
+                                   suggest(body, body_names));
                 force.acts_on[found - body_names.begin()] = true;
               }
             loads.body_forces.push_back(force);

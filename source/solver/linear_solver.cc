@@ -552,9 +552,9 @@ namespace moraine
                       relative_tolerance,
                       "of iterative solvers: residual over right hand side",
                       Patterns::Double(1e-16, 1e-2));
-    prm.add_parameter("Maximum iterations",
+    prm.add_parameter("Maximum linear iterations",
                       maximum_iterations,
-                      "of iterative solvers",
+                      "of iterative linear solvers",
                       Patterns::Integer(1));
     prm.add_parameter("Direct limit 2D",
                       direct_limit_2d,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -32,12 +33,6 @@ namespace moraine
      * Residuals below this say more about round-off than about order.
      */
     constexpr double round_off = 1e-13;
-
-    /**
-     * What round-off leaves of the forces at the start of a step, which cancel
-     * altogether where a step ends without stress.
-     */
-    constexpr double cancelled = 1e-14;
 
 
 
@@ -82,7 +77,7 @@ namespace moraine
       LA::Vector             &x;
       NewtonReport            report;
       double                  norm                  = 0.;
-      double                  scale_at_start        = 0.;
+      double                  tangent_norm          = 0.;
       unsigned int            iterations_since_pass = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
@@ -139,6 +134,7 @@ namespace moraine
                            system.symmetric(),
                            system.near_null_space());
       tangent_is_factorised = true;
+      tangent_norm          = system.tangent().linfty_norm();
     }
 
 
@@ -146,9 +142,13 @@ namespace moraine
     bool
     Iteration::small() const
     {
+      // A rigid motion is in equilibrium without forces: what is left is the
+      // round-off of K x.
+      const double round_off = 10. * std::numeric_limits<double>::epsilon() *
+                               tangent_norm * x.l2_norm();
       return norm <= std::max({parameters.tolerance * system.force_scale(),
                                parameters.absolute_tolerance,
-                               cancelled * scale_at_start});
+                               round_off});
     }
 
 
@@ -292,7 +292,6 @@ namespace moraine
       system.initial_guess(x);
       evaluate(true);
       record();
-      scale_at_start = system.force_scale();
       if (!std::isfinite(norm))
         {
           stop(NewtonStatus::not_a_number,

@@ -182,10 +182,10 @@ namespace moraine
                    std::vector<dealii::Tensor<1, dim>> &violations) const;
 
     [[noreturn]] void
-    report_free_part(const std::vector<unsigned int> &part,
-                     const unsigned int               k,
-                     const dealii::Vector<double>    &motion,
-                     const bool                       first_step) const;
+    report_free_part(const std::vector<unsigned int>           &part,
+                     const unsigned int                         k,
+                     const std::vector<dealii::Vector<double>> &free_motions,
+                     const bool first_step) const;
 
     /** Typical size of the largest point. */
     double

@@ -52,7 +52,8 @@ namespace moraine
 
     /**
      * Apply `--set "Section/Sub/Key = value"`: replaces the value where the key
-     * is set, else adds it. Whether the key exists is judged by parse().
+     * is set, else adds it. A section "*" stands for every name there is in its
+     * place. Whether the key exists is judged by parse().
      */
     void
     apply_override(const std::string &setting);

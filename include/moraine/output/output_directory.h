@@ -46,7 +46,7 @@ namespace moraine
      * Write original.prm, the file as given, and parameters.prm, every
      * parameter with its value and text. Collective.
      *
-     * @throws ComputationError naming the file if it cannot be written.
+     * @throws InputError naming the file if it cannot be written.
      */
     void
     write_parameter_files(const std::string              &original_text,

@@ -26,7 +26,7 @@ namespace moraine
      * Add a step and write the file. Collective. The VTU @p file is named
      * relative to the folder of the .pvd file.
      *
-     * @throws ComputationError naming the .pvd file if it cannot be written.
+     * @throws InputError naming the .pvd file if it cannot be written.
      */
     void
     add(const double time, const std::string &file);

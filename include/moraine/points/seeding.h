@@ -113,6 +113,7 @@ namespace moraine
 
     std::vector<dealii::Point<dim>> positions;
     std::vector<double>             volumes;
+    std::vector<unsigned int>       lines; ///< of the file, from 1
 
     std::vector<std::string> column_names;
 

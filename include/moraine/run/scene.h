@@ -12,6 +12,7 @@
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/shape_library.h>
+#include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -25,6 +26,13 @@
 
 namespace moraine
 {
+  /**
+   * The dimension a scene asks for, known before anything else is read.
+   * @throw InputError unless 2 or 3.
+   */
+  unsigned int
+  dimension_of(const InputFile &input);
+
   /** Section `Method`: the three choices in which methods differ. */
   struct MethodParameters
   {
@@ -134,6 +142,12 @@ namespace moraine
     /** @throws InputError for anything wrong that can be seen in the text. */
     explicit Scene(const InputFile &input);
 
+    /**
+     * No scene, but all parameters with their defaults; everything that the
+     * user names is there once, named "<name>".
+     */
+    Scene();
+
     Scene(const Scene &) = delete;
 
     /** All parameters with their values. */
@@ -157,6 +171,8 @@ namespace moraine
     OutputParameters                  output;
     std::vector<ProbeParameters<dim>> probes;
     ExactSolutionParameters<dim>      exact;
+    StudyParameters                   study;
+    Named<std::string>                series;
 
   private:
     void

@@ -68,8 +68,10 @@ namespace moraine
     void
     insert_point_file(const std::string &file, const unsigned int body);
 
+    /** That each body has points, and lies in the mesh as a whole. */
     void
-    check_bodies() const;
+    check_bodies(
+      const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const;
 
     void
     make_basis();
@@ -100,6 +102,17 @@ namespace moraine
 
     void
     write_vtu(const double t);
+
+    /**
+     * The points alone, which a run that ends early leaves behind: the mesh may
+     * be that of the next step already.
+     */
+    void
+    write_points(const double t);
+
+    /** @throw ComputationError naming the point that the step pushes out. */
+    void
+    check_that_points_stay(const TimeControl &time, const LA::Vector &x);
 
     void
     print_step(const TimeControl &time, const NewtonReport &report);
@@ -137,6 +150,7 @@ namespace moraine
     std::optional<PvdHistory>           points_pvd;
     std::optional<PvdHistory>           mesh_pvd;
     unsigned int                        n_vtu_written = 0;
+    double                              t_written     = 0;
     std::vector<BoundaryReport<dim>>    reports;
     std::vector<dealii::Tensor<1, dim>> last_increments;
     unsigned int                        newton_iterations = 0;
