@@ -45,10 +45,11 @@ namespace moraine
   {
   public:
     /**
-     * @param empty_stiffness Stiffness of the empty part of active cells over
-     * that of the material in them. It resists the increment of each step and
-     * then is forgotten (a finite cell method, Parvizian et al. 2007), so that
-     * nodes touched by too few points are held. 0: none.
+     * The equations of @p state. @p empty_stiffness is the stiffness of the
+     * empty part of active cells over that of the material in them. It resists
+     * the increment of each step and then is forgotten (a finite cell method,
+     * Parvizian et al. 2007), so that nodes touched by too few points are held.
+     * 0: none.
      */
     MechanicsSystem(State<dim>                            &state,
                     std::vector<ImplicitBoundary<dim>>    &boundaries,
