@@ -53,6 +53,16 @@ for row in block.rows:
     if row["Series"] in ("skew Nitsche 10", "symmetric Nitsche 20"):
         bound(f"r_u of {row['Series']}", float(row["error"]), 1e-10)
 
+ring = study("prm/studies/enforcement-ring.prm", {"Mesh/Cell size": "0.115"})
+cantilever = study("prm/studies/enforcement-cantilever.prm",
+                   {"Mesh/Cell size": "4"})
+for name, result in (("ring", ring), ("cantilever", cantilever)):
+    error = {row["Series"]: float(row["error"]) for row in result.rows}
+    text(f"{name}, rows", len(result.rows))
+    number(f"{name}, skew Nitsche", error["skew Nitsche 10"], 3)
+    at_least(f"{name}, weighted 1e-6 over skew Nitsche",
+             error["weighted 1e-6"] / error["skew Nitsche 10"], 3)
+
 solvers = study("prm/studies/solvers.prm", {"Mesh/Cell size": "5"})
 show(solvers, "Series", "status", "unknowns")
 number("linear iterations are counted: 1 or more", float(
