@@ -73,8 +73,10 @@ namespace moraine
                             state.mesh_after_step() != MeshAfterStep::keep,
                             cells_moved);
     }
-    for (auto &load : loads.carried)
-      load.find_cells(state.grid(), *cell_cache, reach);
+    // On a mesh that does not reset, places stay in their cells.
+    if (changed || state.mesh_after_step() == MeshAfterStep::reset)
+      for (auto &load : loads.carried)
+        load.find_cells(state.grid(), *cell_cache, reach);
     if (changed)
       set_up_unknowns();
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/boundary/dirichlet_weight.h>
 #include <moraine/boundary/enforcement.h>
+
+#include <moraine/boundary/dirichlet_weight.h>
 
 namespace moraine
 {
@@ -43,8 +46,15 @@ namespace moraine
   EnforcementParameters::enforcement_of() const
   {
     if (enforcement == "weighted")
-      return {
-        0.5, 1., 1., 4. / (3. * band_width), carry_reaction, carry_reaction};
+      {
+        const DirichletWeight weight(band_width);
+        return {weight.integral_value_derivative(),
+                weight.integral_derivative(),
+                1.,
+                weight.integral_derivative_squared(),
+                carry_reaction,
+                carry_reaction};
+      }
     if (enforcement == "symmetric Nitsche")
       return {1., 1., 1., nitsche_factor, true, false};
     if (enforcement == "skew Nitsche")

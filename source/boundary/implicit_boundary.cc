@@ -112,13 +112,16 @@ namespace moraine
                                     const bool            moves_points,
                                     const bool            cells_changed)
   {
-    t_start = t;
-    lands   = moves_points && at_start.curved() &&
+    t_start           = t;
+    moves_with_points = moves_points;
+    lands             = moves_points && at_start.curved() &&
             constraint.kind == Constraint<dim>::roller;
-    if (placed && !cells_changed && !motion.moves())
+    const bool moves = moves_points && motion.moves();
+    if (placed && !cells_changed && !moves)
       return;
     const Pose<dim> previous_pose = at_start.pose();
-    at_start.set_pose(motion.pose(t));
+    if (!placed || moves)
+      at_start.set_pose(motion.pose(t));
     std::vector<BoundaryPoint<dim>> previous;
     std::swap(previous, boundary_points);
     find_pieces(space, reach);
@@ -256,12 +259,12 @@ namespace moraine
   void
   ImplicitBoundary<dim>::set_target(const double t_end)
   {
-    const Pose<dim> &start = at_start.pose();
-    const Pose<dim>  end   = motion.pose(t_end);
-    at_end.set_pose(end);
+    const Pose<dim> start = motion.pose(t_start), end = motion.pose(t_end);
+    at_end.set_pose(moves_with_points ? end : at_start.pose());
     for (auto &point : boundary_points)
       {
-        point.prescribed = (end.map(start.inverse(point.x)) - point.x) +
+        const Point<dim> X = at_start.pose().inverse(point.x);
+        point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
         point.reaction =

@@ -98,7 +98,9 @@ namespace moraine
                      const double                        penetration_limit);
 
     /**
-     * Place the surface at time @p t and find its pieces.
+     * Place the surface at time @p t and find its pieces. If the points do not
+     * move (small displacement), the surface stays where it was at first and
+     * its motion is prescribed there.
      *
      * @param reach distance over which pieces outside active cells count.
      * @param moves_points whether the material moves through the mesh.
@@ -206,10 +208,11 @@ namespace moraine
     const Constraint<dim>               constraint;
     const Enforcement                   how;
     const double                        limit;
-    double                              t_start = 0;
-    bool                                placed  = false;
-    bool                                lands   = false;
-    unsigned int                        n_nodes = 0;
+    double                              t_start           = 0;
+    bool                                placed            = false;
+    bool                                moves_with_points = true;
+    bool                                lands             = false;
+    unsigned int                        n_nodes           = 0;
     std::vector<BoundaryPoint<dim>>     boundary_points;
     std::vector<double>                 values;
     std::vector<dealii::Tensor<1, dim>> gradients;
