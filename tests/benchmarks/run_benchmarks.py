@@ -130,7 +130,6 @@ class Bench:
     # Two ranks against one.
     def case_ranks(self):
         n = 20 if self.smoke else 400
-        # wall seconds of both: "--wall 1"
         one, two = [], []
         for _ in range(1 if self.smoke else 3):
             one.append(self.run("points", cells=n, repeats=self.repeats,
@@ -177,12 +176,14 @@ def main():
         arguments.repeats = 1
 
     bench = Bench(arguments)
-    for case in arguments.cases or CASES:
-        getattr(bench, "case_" + case)()
-    with open(arguments.csv, "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(bench.rows)
+    try:
+        for case in arguments.cases or CASES:
+            getattr(bench, "case_" + case)()
+    finally:
+        with open(arguments.csv, "w", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            writer.writerows(bench.rows)
     missed = [row for row in bench.rows if row["holds"] == "NO"]
     for row in missed:
         print(f"missed: {row['case']}: {row['quantity']} is {row['value']}, "
