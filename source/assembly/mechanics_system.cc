@@ -128,8 +128,9 @@ namespace moraine
       }
     pattern.compress();
     matrix.reinit(pattern);
-    residual_vector.reinit(space.locally_owned(), space.communicator());
-    external.reinit(space.locally_owned(), space.communicator());
+    for (LA::Vector *vector :
+         {&residual_vector, &external, &unbalanced, &assembled_at})
+      vector->reinit(space.locally_owned(), space.communicator());
     make_rigid_modes();
   }
 
@@ -187,6 +188,7 @@ namespace moraine
   MechanicsSystem<dim>::set_target(const double t_end)
   {
     t_target       = t_end;
+    assembled      = false;
     last_violation = std::numeric_limits<double>::max();
     for (auto &boundary : boundaries)
       boundary.set_target(t_end);
@@ -243,15 +245,17 @@ namespace moraine
   template <int dim>
   void
   MechanicsSystem<dim>::add_to_system(const LocalSystem<dim> &local,
-                                      const bool              tangent,
-                                      LA::Vector             &force)
+                                      const bool              tangent)
   {
-    local_scale += local.force.norm_sqr();
+    for (unsigned int a = 0; a < local.nodal_increments.size(); ++a)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double f = local.force[dim * a + c];
+          local_scale += f * f;
+          node_forces[local.nodes[a]][c] += f;
+        }
     if (tangent)
-      constraints.distribute_local_to_global(
-        local.matrix, local.force, local.dofs, matrix, force);
-    else
-      constraints.distribute_local_to_global(local.force, local.dofs, force);
+      constraints.distribute_local_to_global(local.matrix, local.dofs, matrix);
   }
 
 
@@ -262,18 +266,20 @@ namespace moraine
   {
     TimerOutput::Scope scope(timer, tangent ? "assembly" : "residual");
     state.set_trial(x);
-    LA::Vector force = state.grid().writable_vector();
+    assembled_at = x;
+    assembled    = true;
     if (tangent)
       matrix = 0;
     local_scale = 0;
-    assemble_points(tangent, force);
-    assemble_boundaries(tangent, force);
-    assemble_empty_parts(tangent, force);
+    node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    assemble_points(tangent);
+    assemble_boundaries(tangent);
+    assemble_empty_parts(tangent);
     if (tangent)
       matrix.compress(VectorOperation::add);
-    force.compress(VectorOperation::add);
-    residual_vector = force;
-    residual_vector += external;
+    state.grid().sum_node_values(node_forces, unbalanced);
+    unbalanced += external;
+    residual_vector = unbalanced;
     constraints.set_zero(residual_vector);
     scale =
       std::sqrt(Utilities::MPI::sum(local_scale, state.grid().communicator()) +
@@ -284,7 +290,7 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_points(const bool tangent, LA::Vector &force)
+  MechanicsSystem<dim>::assemble_points(const bool tangent)
   {
     StencilBlock<dim> block;
     LocalSystem<dim>  local;
@@ -295,7 +301,7 @@ namespace moraine
         local.reinit(state, block.nodes, block.n_nodes, tangent);
         for (const auto &term : point_terms)
           term->add(state, block, tangent, local);
-        add_to_system(local, tangent, force);
+        add_to_system(local, tangent);
       }
   }
 
@@ -328,8 +334,7 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_boundaries(const bool  tangent,
-                                            LA::Vector &force)
+  MechanicsSystem<dim>::assemble_boundaries(const bool tangent)
   {
     LocalSystem<dim>      local;
     const GridSpace<dim> &space = state.grid();
@@ -362,7 +367,7 @@ namespace moraine
                   tangent,
                   local);
               }
-            add_to_system(local, tangent, force);
+            add_to_system(local, tangent);
           }
       }
   }
@@ -468,6 +473,33 @@ namespace moraine
 
   template <int dim>
   double
+  MechanicsSystem<dim>::deepest_point(
+    const ImplicitBoundary<dim>       &boundary,
+    const std::vector<Tensor<1, dim>> &moves) const
+  {
+    const PointSet<dim> &points = state.material_points();
+    const double         range  = 2 * state.grid().mesh().cell_size();
+    const auto           place  = [&](const unsigned int p) {
+      return moves.empty() ? points.position(p) : points.position(p) + moves[p];
+    };
+    double deepest = 0;
+    for (const auto &in_cell : points.cells())
+      {
+        const Point<dim> centre = place(in_cell.first);
+        double           radius = range;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          radius = std::max(radius, range + centre.distance(place(p)));
+        if (!boundary.is_far(centre, radius))
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            deepest = std::max(deepest, boundary.penetration(place(p), range));
+      }
+    return deepest;
+  }
+
+
+
+  template <int dim>
+  double
   MechanicsSystem<dim>::worst_penetration_over_limit(const LA::Vector &x)
   {
     double worst = 0;
@@ -478,15 +510,11 @@ namespace moraine
     state.set_trial(x);
     const double h          = state.grid().mesh().cell_size();
     const auto   increments = state.point_increments();
-    for (unsigned int p = 0; p < increments.size(); ++p)
-      for (const auto &boundary : boundaries)
-        if (boundary.penetration_limit() > 0)
-          worst =
-            std::max(worst,
-                     boundary.penetration(state.material_points().position(p) +
-                                            increments[p],
-                                          2 * h) /
-                       (boundary.penetration_limit() * h));
+    for (const auto &boundary : boundaries)
+      if (boundary.penetration_limit() > 0)
+        worst = std::max(worst,
+                         deepest_point(boundary, increments) /
+                           (boundary.penetration_limit() * h));
     return Utilities::MPI::max(worst, state.grid().communicator());
   }
 
@@ -498,7 +526,7 @@ namespace moraine
   {
     state.set_trial(x);
     auto reports = report_boundaries();
-    for (const auto &report : report_grid_conditions())
+    for (const auto &report : report_grid_conditions(x))
       reports.push_back(report);
     for (auto &load : loads.carried)
       if (state.mesh_after_step() != MeshAfterStep::keep)
@@ -508,17 +536,9 @@ namespace moraine
       state.accept();
     }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
-      {
-        const double range = 2 * state.grid().mesh().cell_size();
-        for (unsigned int p = 0; p < state.material_points().n_local(); ++p)
-          reports[b].penetration =
-            std::max(reports[b].penetration,
-                     boundaries[b].penetration(
-                       state.material_points().position(p), range));
-        reports[b].penetration =
-          Utilities::MPI::max(reports[b].penetration,
-                              state.grid().communicator());
-      }
+      reports[b].penetration =
+        Utilities::MPI::max(deepest_point(boundaries[b], {}),
+                            state.grid().communicator());
     return reports;
   }
 

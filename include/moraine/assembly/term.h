@@ -24,11 +24,11 @@ namespace moraine
     dealii::FullMatrix<double>                   matrix;
     dealii::Vector<double>                       force;
     std::vector<dealii::types::global_dof_index> dofs;
+    const unsigned int                          *nodes = nullptr;
     std::vector<dealii::Tensor<1, dim>>          nodal_increments;
-    /** Moments of gradients, upper triangle used. */
-    std::vector<double>                        moments;
-    std::vector<dealii::SymmetricTensor<2, 3>> strains;
-    std::vector<dealii::SymmetricTensor<2, 3>> stresses;
+    /** Moments of gradients. */
+    std::vector<double> moments;
+    TrialStresses<dim>  trial_stresses;
     /** Boundary fluxes of unit displacements of the unknowns. */
     std::vector<dealii::Tensor<1, dim>> fluxes;
 
