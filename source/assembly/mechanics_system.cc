@@ -103,11 +103,15 @@ namespace moraine
       prescribed = find_prescribed_nodes(conditions, space, t_start);
     make_constraints();
 
+    // deal.II 9.4 takes a rank without rows for one with too many of them,
+    // unless their length is zero (trilinos_sparsity_pattern.cc).
+    const unsigned int row_length =
+      space.locally_owned().n_elements() > 0 ? Utilities::pow(3, dim) * dim : 0;
     LA::SparsityPattern                  pattern(space.locally_owned(),
                                 space.locally_owned(),
                                 space.locally_relevant(),
                                 space.communicator(),
-                                Utilities::pow(3, dim) * dim);
+                                row_length);
     std::vector<types::global_dof_index> dofs;
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
       dofs.clear();

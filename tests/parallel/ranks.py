@@ -21,7 +21,8 @@ SCENES = {
 
 
 def worst_difference(one, many):
-    """Over errors, probes and reactions, each group relative to its largest."""
+    """Over errors, probes and reactions, relative to each number, or to a
+    thousandth of the largest of its kind."""
     groups = []
     for a, b in ((one.errors, many.errors), (one.probes, many.probes)):
         assert a.keys() == b.keys()
@@ -34,7 +35,8 @@ def worst_difference(one, many):
     for group in groups:
         largest = max((abs(a) for a, b in group), default=0)
         if largest > 1e-9:  # below, both are round-off
-            worst = max(worst, max(abs(a - b) for a, b in group) / largest)
+            worst = max(worst, max(abs(a - b) / max(abs(a), 1e-3 * largest)
+                                   for a, b in group))
     return worst
 
 

@@ -19,7 +19,7 @@ def exact(title, result):
     bound(f"{title}: r_u", result.errors["r_u"], 1e-13)
     bound(f"{title}: l2_sigma", result.errors["l2_sigma"], 1e-12)
     force = max(map(abs, result.reactions["sides"]))
-    bound(f"{title}: sum of reactions over E times strain times side",
+    bound(f"{title}: sum of reactions over E times strain times area",
           force / 1000, 1e-12)
 
 
