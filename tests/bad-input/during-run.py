@@ -52,7 +52,7 @@ out = folder / "interrupted"
 words = [str(program), "run", str(root / scene), "--output", str(out),
          "--set", "Time/Steps = 100000", "--set", "Output/Every = 1000000"]
 if ranks > 1:
-    words = ["mpirun", "-n", str(ranks)] + words
+    words = ["mpirun", "-q", "-n", str(ranks)] + words
 process = subprocess.Popen(words, stdout=subprocess.PIPE,
                            stderr=subprocess.STDOUT, text=True, cwd=folder)
 history = out / "history.csv"
