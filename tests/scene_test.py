@@ -64,7 +64,7 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     n = on_ranks or ranks
     if n > 1:
         words = ["mpirun", "-n", str(n)] + words
-    if command == "run":
+    if command in ("run", "study"):
         words += ["--output", str(folder)]
     for key, value in (settings or {}).items():
         words += ["--set", f"{key} = {value}"]

@@ -3,8 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """Draw a VTU file of a run as a PNG picture.
 
-Points are drawn as squares (cubes in 3D) of the size of their volume, meshes
-as cells with their edges. Needs the Debian packages python3-vtk9 and xvfb
+Points are drawn as discs (balls in 3D) of the size of their volume, meshes as
+cells with their edges; walls can be added as lines. Needs the Debian packages python3-vtk9 and xvfb
 (without a display the program starts itself under xvfb-run).
 
     render.py results/points/00020.vtu --field stress --component xy \\
@@ -12,6 +12,7 @@ as cells with their edges. Needs the Debian packages python3-vtk9 and xvfb
 """
 
 import argparse
+import math
 import os
 import shutil
 import sys
@@ -74,20 +75,30 @@ def is_flat(data):
     return bounds[5] - bounds[4] == 0.0
 
 
-def as_boxes(data):
-    """A square or cube of its volume for every point."""
+def as_glyphs(data, scale):
+    """A disc (3D: ball) of its volume for every point."""
     fields = data.GetPointData()
     volume = fields.GetArray("volume")
-    edge = vtk.vtkDoubleArray()
-    edge.SetName("edge")
-    edge.SetNumberOfTuples(data.GetNumberOfPoints())
-    exponent = 1.0 / 2.0 if is_flat(data) else 1.0 / 3.0
+    size = vtk.vtkDoubleArray()
+    size.SetName("size")
+    size.SetNumberOfTuples(data.GetNumberOfPoints())
+    flat = is_flat(data)
     for i in range(data.GetNumberOfPoints()):
-        edge.SetValue(i, volume.GetValue(i) ** exponent)
-    fields.AddArray(edge)
-    fields.SetActiveScalars("edge")
+        v = volume.GetValue(i)
+        size.SetValue(i, (v / math.pi) ** 0.5 if flat else
+                      (0.75 * v / math.pi) ** (1.0 / 3.0))
+    fields.AddArray(size)
+    fields.SetActiveScalars("size")
 
-    shape = vtk.vtkPlaneSource() if is_flat(data) else vtk.vtkCubeSource()
+    if flat:
+        shape = vtk.vtkRegularPolygonSource()
+        shape.SetNumberOfSides(20)
+        shape.GeneratePolylineOff()
+    else:
+        shape = vtk.vtkSphereSource()
+        shape.SetThetaResolution(12)
+        shape.SetPhiResolution(12)
+    shape.SetRadius(scale)
     glyphs = vtk.vtkGlyph3D()
     glyphs.SetInputData(data)
     glyphs.SetSourceConnection(shape.GetOutputPort())
@@ -98,12 +109,22 @@ def as_boxes(data):
     return glyphs.GetOutput()
 
 
-def colours():
-    """Blue over white to red, even steps for the eye."""
+VIRIDIS = [(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142),
+           (33, 144, 141), (39, 173, 129), (92, 200, 99), (170, 220, 50),
+           (253, 231, 37)]
+
+
+def colours(diverging):
+    """Dark blue over green to yellow, or blue over white to red."""
     function = vtk.vtkColorTransferFunction()
-    function.SetColorSpaceToDiverging()
-    function.AddRGBPoint(0.0, 0.230, 0.299, 0.754)
-    function.AddRGBPoint(1.0, 0.706, 0.016, 0.150)
+    if diverging:
+        function.SetColorSpaceToDiverging()
+        function.AddRGBPoint(0.0, 0.230, 0.299, 0.754)
+        function.AddRGBPoint(1.0, 0.706, 0.016, 0.150)
+    else:
+        for i, rgb in enumerate(VIRIDIS):
+            function.AddRGBPoint(i / (len(VIRIDIS) - 1),
+                                 *(c / 255.0 for c in rgb))
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(256)
     for i in range(256):
@@ -121,34 +142,90 @@ def text_style(text, size):
     text.ShadowOff()
 
 
-def colour_bar(table, size):
+def colour_bar(table, size, width):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%.4g")
+    bar.SetLabelFormat("%.3g")
     bar.UnconstrainedFontSizeOn()
     text_style(bar.GetLabelTextProperty(), size)
-    bar.SetPosition(0.84, 0.12)
-    bar.SetWidth(0.12)
-    bar.SetHeight(0.72)
+    bar.SetPosition(1 - 7.5 * size / width, 0.14)
+    bar.SetWidth(6.0 * size / width)
+    bar.SetHeight(0.65)
     bar.SetBarRatio(0.25)
     return bar
 
 
-def title_above_bar(title, size):
-    """A text of its own: the bar would cut off what is wider than itself."""
+def text_at(words, size, x, y, justification):
+    """A text of its own; the bar would cut off what is wider than itself."""
     text = vtk.vtkTextActor()
-    text.SetInput(title)
+    text.SetInput(words)
     text_style(text.GetTextProperty(), size)
-    text.GetTextProperty().SetJustificationToRight()
+    getattr(text.GetTextProperty(), f"SetJustificationTo{justification}")()
     text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    text.SetPosition(0.97, 0.9)
+    text.SetPosition(x, y)
     return text
 
 
-def axes(data, renderer, unit, size):
+def edge_lines(data):
+    """The edges of a mesh as thin grey lines behind everything else."""
+    edges = vtk.vtkExtractEdges()
+    edges.SetInputData(data)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(edges.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.75, 0.75, 0.78)
+    actor.GetProperty().LightingOff()
+    if is_flat(data):
+        actor.SetPosition(0, 0, -0.1)
+    return actor
+
+
+def grid(x0, y0, x1, y1, h):
+    """A flat mesh of squares, for results that have no mesh file."""
+    data = vtk.vtkRectilinearGrid()
+    n = [round((x1 - x0) / h) + 1, round((y1 - y0) / h) + 1]
+    data.SetDimensions(n[0], n[1], 1)
+    for name, start, count in (("X", x0, n[0]), ("Y", y0, n[1])):
+        places = vtk.vtkDoubleArray()
+        for i in range(count):
+            places.InsertNextValue(start + i * h)
+        getattr(data, f"Set{name}Coordinates")(places)
+    return data
+
+
+def wall_line(coordinates):
+    """A thick line through x, y, x, y, ... in front of everything else."""
+    points = vtk.vtkPoints()
+    line = vtk.vtkPolyLine()
+    line.GetPointIds().SetNumberOfIds(len(coordinates) // 2)
+    for i in range(len(coordinates) // 2):
+        points.InsertNextPoint(coordinates[2 * i], coordinates[2 * i + 1], 0.1)
+        line.GetPointIds().SetId(i, i)
+    cells = vtk.vtkCellArray()
+    cells.InsertNextCell(line)
+    data = vtk.vtkPolyData()
+    data.SetPoints(points)
+    data.SetLines(cells)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.1, 0.1, 0.1)
+    actor.GetProperty().SetLineWidth(4)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def union(boxes):
+    return [(min, max)[i % 2](box[i] for box in boxes) for i in range(6)]
+
+
+def axes(bounds, flat, renderer, unit, size):
     actor = vtk.vtkCubeAxesActor()
-    actor.SetBounds(data.GetBounds())
+    actor.SetBounds(bounds)
     actor.SetCamera(renderer.GetActiveCamera())
     for name, direction in zip("XYZ", range(3)):
         getattr(actor, f"Set{name}Title")(name.lower())
@@ -158,22 +235,36 @@ def axes(data, renderer, unit, size):
         getattr(actor, f"Get{name}AxesLinesProperty")().SetColor(0, 0, 0)
     actor.SetFlyModeToOuterEdges()
     actor.SetScreenSize(size)
-    if is_flat(data):
+    actor.XAxisMinorTickVisibilityOff()
+    actor.YAxisMinorTickVisibilityOff()
+    actor.ZAxisMinorTickVisibilityOff()
+    actor.SetTickLocationToOutside()
+    if flat:
         actor.SetUse2DMode(1)
         actor.ZAxisVisibilityOff()
     return actor
 
 
-def look_at(renderer, data, aspect):
+def size_for(bounds, height, size):
+    """Width and height in pixels that a flat picture needs."""
+    plot_height = height - 9 * size
+    scale = plot_height / (bounds[3] - bounds[2])
+    width = min((bounds[1] - bounds[0]) * scale, 2.4 * height)
+    scale = width / (bounds[1] - bounds[0])
+    return [int(width + 20 * size),
+            int((bounds[3] - bounds[2]) * scale + 9 * size)], scale
+
+
+def look_at(renderer, bounds, flat, window, scale, font):
     """Whole picture with room for the axes and, at the right, the bar."""
     camera = renderer.GetActiveCamera()
-    bounds = data.GetBounds()
     centre = [(bounds[2 * d] + bounds[2 * d + 1]) / 2 for d in range(3)]
     size = [bounds[2 * d + 1] - bounds[2 * d] for d in range(3)]
     camera.ParallelProjectionOn()
-    if is_flat(data):
-        height = max(size[1] * 1.3, size[0] / aspect * 1.6)
-        centre[0] += 0.1 * height * aspect
+    if flat:
+        height = window[1] / scale
+        centre[0] = bounds[0] + (window[0] / 2 - 6 * font) / scale
+        centre[1] = bounds[2] + (window[1] / 2 - 5 * font) / scale
         camera.SetPosition(centre[0], centre[1], 1)
         camera.SetViewUp(0, 1, 0)
     else:
@@ -194,6 +285,17 @@ def arguments():
         description="Draw a VTU file of a run as a PNG picture.")
     parser.add_argument("file", help="VTU file of points or of a mesh")
     parser.add_argument("--mesh", help="VTU file whose cell edges are drawn too")
+    parser.add_argument("--grid", nargs=5, type=float,
+                        metavar=("X0", "Y0", "X1", "Y1", "H"),
+                        help="instead of --mesh: squares of size H")
+    parser.add_argument("--point-scale", type=float, default=1.0,
+                        help="size of points over that of their volume")
+    parser.add_argument("--wall", nargs="+", type=float, action="append",
+                        default=[], metavar="X Y",
+                        help="a line through these points, in 2D")
+    parser.add_argument("--heading", default="", help="above the picture")
+    parser.add_argument("--diverging", action="store_true",
+                        help="colours from blue over white to red")
     parser.add_argument("--field", default="displacement")
     parser.add_argument("--component", default="",
                         help="x, y, z; xx, xy, ...; magnitude")
@@ -202,7 +304,8 @@ def arguments():
     parser.add_argument("--title", help="title of the colour bar")
     parser.add_argument("--unit", default="", help="unit in that title")
     parser.add_argument("--length-unit", default="", help="unit of the axes")
-    parser.add_argument("--size", nargs=2, type=int, default=[1000, 700])
+    parser.add_argument("--size", nargs=2, type=int, default=[1000, 700],
+                        help="pixels; in 2D the width follows from the height")
     parser.add_argument("-o", "--output", required=True, help="PNG file")
     return parser.parse_args()
 
@@ -211,20 +314,20 @@ def main():
     args = arguments()
     data = read(args.file)
     found_range = add_value(data, args.field, args.component)
-    value_range = args.range or found_range
+    flat = is_flat(data)
     is_points = data.GetPointData().HasArray("volume")
-    shapes = as_boxes(data) if is_points else data
+    shapes = as_glyphs(data, args.point_scale) if is_points else data
 
-    table = colours()
+    table = colours(args.diverging)
     mapper = vtk.vtkDataSetMapper()
     mapper.SetInputData(shapes)
     mapper.SetScalarModeToUsePointFieldData()
     mapper.SelectColorArray("value")
     mapper.SetLookupTable(table)
-    mapper.SetScalarRange(*value_range)
+    mapper.SetScalarRange(*(args.range or found_range))
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    if is_flat(data):
+    if flat:
         actor.GetProperty().LightingOff()
     else:
         actor.GetProperty().SetAmbient(0.6)
@@ -235,29 +338,33 @@ def main():
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
-    if args.mesh:
-        edges = vtk.vtkDataSetMapper()
-        edges.SetInputData(read(args.mesh))
-        edges.ScalarVisibilityOff()
-        wires = vtk.vtkActor()
-        wires.SetMapper(edges)
-        wires.GetProperty().SetRepresentationToWireframe()
-        wires.GetProperty().SetColor(0.4, 0.4, 0.4)
-        renderer.AddActor(wires)
+    boxes = [shapes.GetBounds()]
+    if args.mesh or args.grid:
+        mesh = read(args.mesh) if args.mesh else grid(*args.grid)
+        boxes.append(mesh.GetBounds())
+        renderer.AddActor(edge_lines(mesh))
+    for wall in args.wall:
+        renderer.AddActor(wall_line(wall))
+        xs, ys = wall[0::2], wall[1::2]
+        boxes.append([min(xs), max(xs), min(ys), max(ys), 0, 0])
+    bounds = union(boxes)
 
-    font = max(12, args.size[1] // 35)
+    font = max(16, args.size[1] // 35)
+    size, scale = size_for(bounds, args.size[1], font) if flat else \
+        (args.size, 1)
     title = args.title or " ".join([args.field, args.component]).strip()
     if args.unit:
         title += f" [{args.unit}]"
-    renderer.AddActor2D(colour_bar(table, font))
-    renderer.AddActor2D(title_above_bar(title, font))
-    look_at(renderer, shapes, args.size[0] / args.size[1])
-    renderer.AddActor(axes(shapes, renderer, args.length_unit, font))
+    renderer.AddActor2D(colour_bar(table, font, size[0]))
+    renderer.AddActor2D(text_at(title, font, 0.98, 0.84, "Right"))
+    renderer.AddActor2D(text_at(args.heading, font + 4, 0.04, 0.93, "Left"))
+    look_at(renderer, bounds, flat, size, scale, font)
+    renderer.AddActor(axes(bounds, flat, renderer, args.length_unit, font))
 
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
-    window.SetSize(*args.size)
+    window.SetSize(*size)
     window.AddRenderer(renderer)
     window.Render()
     image = vtk.vtkWindowToImageFilter()

@@ -21,13 +21,15 @@ namespace moraine
     const std::vector<GridCondition<dim>> &conditions,
     Loads<dim>                            &loads,
     const std::vector<std::string>        &body_names,
-    TimerOutput                           &timer)
+    TimerOutput                           &timer,
+    const double                           empty_stiffness)
     : state(state)
     , boundaries(boundaries)
     , conditions(conditions)
     , loads(loads)
     , body_names(body_names)
     , timer(timer)
+    , empty_stiffness(empty_stiffness)
   {
     point_terms.push_back(std::make_unique<InternalForce<dim>>());
     if (!loads.carried.empty())
@@ -79,6 +81,7 @@ namespace moraine
         load.find_cells(state.grid(), *cell_cache, reach);
     if (changed)
       set_up_unknowns();
+    find_empty_parts();
   }
 
 
@@ -152,6 +155,8 @@ namespace moraine
   {
     const GridSpace<dim> &space       = state.grid();
     constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
+    // Assigned to, a Trilinos vector of the same size keeps the layout it has.
+    rigid_modes.clear();
     rigid_modes.assign(dim + n_rotations,
                        LA::Vector(space.locally_owned(), space.communicator()));
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
@@ -269,6 +274,7 @@ namespace moraine
     node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
     assemble_points(tangent);
     assemble_boundaries(tangent);
+    assemble_empty_parts(tangent);
     if (tangent)
       matrix.compress(VectorOperation::add);
     state.grid().sum_node_values(node_forces, unbalanced);

@@ -115,13 +115,12 @@ namespace moraine
             }
         std::vector<Vector<double>> vectors(n_modes, Vector<double>(n_modes));
         K.compute_generalized_eigenvalues_symmetric(M, vectors, 1);
-        unsigned int softest = 0;
-        for (unsigned int m = 1; m < n_modes; ++m)
-          if (K.eigenvalue(m).real() < K.eigenvalue(softest).real())
-            softest = m;
-        if (K.eigenvalue(softest).real() > 1e-13 * stiffness)
-          continue;
-        report_free_part(part, k, vectors[softest], first_step);
+        std::vector<Vector<double>> free;
+        for (unsigned int m = 0; m < n_modes; ++m)
+          if (K.eigenvalue(m).real() <= 1e-13 * stiffness)
+            free.push_back(vectors[m]);
+        if (!free.empty())
+          report_free_part(part, k, free, first_step);
       }
   }
 
@@ -129,10 +128,11 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::report_free_part(const std::vector<unsigned int> &part,
-                                         const unsigned int               k,
-                                         const Vector<double> &motion,
-                                         const bool            first_step) const
+  MechanicsSystem<dim>::report_free_part(
+    const std::vector<unsigned int>   &part,
+    const unsigned int                 k,
+    const std::vector<Vector<double>> &free_motions,
+    const bool                         first_step) const
   {
     Point<dim>   centre;
     unsigned int n_cells = 0;
@@ -150,23 +150,30 @@ namespace moraine
     body = Utilities::MPI::max(body, state.grid().communicator());
 
     // A rotation with the translation that belongs to it, or a translation.
-    double rotation = 0, translation = 0;
+    const Vector<double> &motion   = free_motions[0];
+    double                rotation = 0, translation = 0;
     for (unsigned int m = 0; m < motion.size(); ++m)
       if (m < dim)
-        translation = std::max(translation, std::abs(motion[m]));
+        translation =
+          std::abs(motion[m]) > std::abs(translation) ? motion[m] : translation;
       else
         rotation = std::max(rotation, std::abs(motion[m]));
     const bool turns =
-      rotation * state.grid().mesh().cell_size() > 1e-6 * translation;
+      rotation * state.grid().mesh().cell_size() > 1e-6 * std::abs(translation);
 
     std::ostringstream message;
     message << "the scene is not held: body '" << body_names.at(body)
-            << "' around (" << centre << ") is free to ";
-    if (turns)
-      message << "rotate";
+            << "' around (" << centre << ") is ";
+    if (free_motions.size() == rigid_modes.size())
+      message << "free to move and rotate";
+    else if (free_motions.size() > 1)
+      message << "free to move in " << free_motions.size()
+              << " independent ways";
+    else if (turns)
+      message << "free to rotate";
     else
       {
-        message << "move along (";
+        message << "free to move along (";
         for (unsigned int d = 0; d < dim; ++d)
           message << (d > 0 ? ", " : "")
                   << std::round(1e3 * motion[d] / translation) / 1e3 + 0.;
@@ -185,13 +192,13 @@ namespace moraine
   template void
   MechanicsSystem<2>::report_free_part(const std::vector<unsigned int> &,
                                        const unsigned int,
-                                       const Vector<double> &,
+                                       const std::vector<Vector<double>> &,
                                        const bool) const;
   template void
   MechanicsSystem<3>::check_that_it_is_held(const bool) const;
   template void
   MechanicsSystem<3>::report_free_part(const std::vector<unsigned int> &,
                                        const unsigned int,
-                                       const Vector<double> &,
+                                       const std::vector<Vector<double>> &,
                                        const bool) const;
 } // namespace moraine

@@ -29,12 +29,14 @@ namespace moraine
 
 
   template <int dim>
-  GimpBasis<dim>::GimpBasis(const GridSpace<dim> &space,
-                            const PointSet<dim>  &points,
-                            const unsigned int    points_per_direction)
+  GimpBasis<dim>::GimpBasis(const GridSpace<dim>    &space,
+                            const PointSet<dim>     &points,
+                            const unsigned int       points_per_direction,
+                            const std::vector<bool> &is_seeded)
     : Basis<dim>(space, points)
     , grid(box_grid_or_throw(space))
     , points_per_direction(points_per_direction)
+    , is_seeded(is_seeded)
     , half_length_offset(
         PointFields(points.fields()).request("half_length", dim, ""))
   {
@@ -74,12 +76,22 @@ namespace moraine
       sub_cell_volume *= grid.cell_size[d] / points_per_direction;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
+        double      *half_length = points.values(p) + half_length_offset;
         const double scale =
           std::pow(points.volume(p) / sub_cell_volume, 1. / dim);
+        const unsigned int body = points.body(p);
         for (unsigned int d = 0; d < dim; ++d)
-          points.values(p)[half_length_offset + d] =
-            0.5 * grid.cell_size[d] *
-            std::min(1., scale / points_per_direction);
+          if (body < is_seeded.size() && is_seeded[body])
+            {
+              const double length = grid.cell_size[d] / points_per_direction;
+              const double place =
+                (points.position(p)[d] - grid.lower_corner[d]) / length;
+              const double from_face = place - std::floor(place);
+              half_length[d] = length * std::min(from_face, 1. - from_face);
+            }
+          else
+            half_length[d] = 0.5 * grid.cell_size[d] *
+                             std::min(1., scale / points_per_direction);
       }
   }
 
@@ -230,6 +242,17 @@ namespace moraine
       const double length = upper - lower;
       std::fill(S, S + n_cells + 1, 0.);
       std::fill(dS, dS + n_cells + 1, 0.);
+      if (length < 1e-8 * h)
+        {
+          // A box as thin as that is a point; its average would be round-off.
+          const double       xi = (x - first_node) / h;
+          const unsigned int c  = std::clamp(std::floor(xi), 0., n_cells - 1.);
+          S[c]                  = 1 - (xi - c);
+          S[c + 1]              = xi - c;
+          dS[c]                 = -1 / h;
+          dS[c + 1]             = 1 / h;
+          return;
+        }
       for (unsigned int c = 0; c < n_cells; ++c)
         {
           const double a     = std::clamp((lower - first_node) / h - c, 0., 1.);

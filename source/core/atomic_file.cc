@@ -57,9 +57,8 @@ namespace moraine
   AtomicFile::fail() const
   {
     const int reason = errno;
-    throw ComputationError(path + ": cannot be written" +
-                           (reason != 0 ?
-                              std::string(": ") + std::strerror(reason) :
-                              std::string(" (is the disk full?)")));
+    throw InputError(path + ": cannot be written" +
+                     (reason != 0 ? std::string(": ") + std::strerror(reason) :
+                                    std::string(" (is the disk full?)")));
   }
 } // namespace moraine

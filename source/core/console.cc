@@ -117,8 +117,7 @@ namespace moraine
     errno    = 0;
     tee->log.open(path);
     if (!tee->log)
-      throw ComputationError(path +
-                             ": cannot be written: " + std::strerror(errno));
+      throw InputError(path + ": cannot be written: " + std::strerror(errno));
     tee->log << tee->before_log << std::flush;
     tee->before_log.clear();
     tee->keep = false;
@@ -133,8 +132,7 @@ namespace moraine
       return;
     tee->log.close();
     if (!tee->log)
-      throw ComputationError(log_path +
-                             ": cannot be written (is the disk full?)");
+      throw InputError(log_path + ": cannot be written (is the disk full?)");
   }
 
 

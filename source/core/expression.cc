@@ -64,12 +64,17 @@ namespace moraine
       const auto        begin  = what.find(marker);
       if (begin == std::string::npos)
         return what;
-      const auto  end = what.find('\n', begin);
-      std::string said =
-        what.substr(begin + marker.size(),
-                    end == std::string::npos ? end :
-                                               end - begin - marker.size());
-      return Utilities::trim(said);
+      // deal.II breaks long lines; a blank or ruled line ends the text.
+      std::istringstream lines(what.substr(begin + marker.size()));
+      std::string        said, line;
+      while (std::getline(lines, line))
+        {
+          line = Utilities::trim(line);
+          if (line.empty() || line[0] == '-' || line[0] == '*')
+            break;
+          said += (said.empty() ? "" : " ") + line;
+        }
+      return said;
     }
 
 

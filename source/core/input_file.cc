@@ -27,6 +27,11 @@ namespace moraine
 
   namespace
   {
+    /** The section whose keys are names for values. */
+    const std::string constants_section = "Constants";
+
+
+
     using Tree = boost::property_tree::ptree;
 
     const std::string statements =
@@ -295,10 +300,10 @@ namespace moraine
                  begins_with(statement, "SUBSECTION"))
           {
             const std::string name = Utilities::trim(statement.substr(10));
-            if (name.empty() || name.find('/') != std::string::npos)
+            if (name.empty() || name.find_first_of("/.") != std::string::npos)
               throw InputError(lines[i].origin + ": " + in_section(before) +
                                "found '" + statement +
-                               "'; a subsection needs a name without '/'");
+                               "'; a subsection needs a name without '/' and '.'");
             open_sections.push_back({join(before, name), lines[i].origin});
             if (std::none_of(sections.begin(),
                              sections.end(),
@@ -373,6 +378,29 @@ namespace moraine
                                   "\"Section/Key = value\"");
       else
         section = join(section, part);
+
+    const auto star = std::find(parts.begin(), parts.end(), "*");
+    if (star != parts.end())
+      {
+        std::string before, after;
+        for (auto part = parts.begin(); part != star; ++part)
+          before = join(before, *part);
+        for (auto part = star + 1; part != parts.end(); ++part)
+          after += "/" + *part;
+        const auto names = names_in(before);
+        if (setting.find("{{") != std::string::npos)
+          throw InputError(origin +
+                           ": found '*' and a choice, which would vary "
+                           "for each name on its own; allowed: one "
+                           "of them, or series in 'Study/Series'");
+        if (names.empty())
+          throw InputError(origin + ": section '" + before +
+                           "': found no name that '*' could stand for");
+        for (const std::string &name : names)
+          apply_override(join(before, name) + after + "/" + key + " =" +
+                         setting.substr(equals + 1));
+        return;
+      }
 
     const std::string line =
       "set " + key + " = " + Utilities::trim(setting.substr(equals + 1));
@@ -488,13 +516,59 @@ namespace moraine
 
 
 
+  std::string
+  InputFile::with_constants(const Entry &entry) const
+  {
+    const auto is_name = [](const char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
+    std::string value = entry.value;
+    for (std::size_t at = value.find('$'); at != std::string::npos;
+         at             = value.find('$', at))
+      {
+                    std::size_t end = at + 1;
+                    while (end < value.size() && is_name(value[end]))
+          ++end;
+        const std::string        name     = value.substr(at + 1, end - at - 1);
+                    const Entry             *constant = nullptr;
+                    std::vector<std::string> known;
+                    for (const Entry &other : found_entries)
+          {
+                        // A constant sees those before it only, so none needs itself.
+            if (&other == &entry)
+              break;
+            if (other.section == constants_section)
+              {
+                            known.push_back("$" + other.key);
+                            if (other.key == name)
+                  constant = &other;
+              }
+          }
+        if (constant == nullptr)
+          throw InputError(entry.origin + ": " +
+                           place(entry.section, entry.key) + ": found '$" +
+                           name + "'" + suggest("$" + name, known));
+        const std::string text = with_constants(*constant);
+                    value.replace(at, end - at, text);
+                    at += text.size();
+      }
+    return value;
+  }
+
+
+
   void
   InputFile::parse(ParameterHandler &prm) const
   {
     const Tree tree = declared_tree(prm);
     for (const Line &section : sections)
-      check_section(prm, tree, section.text, section.origin);
-    for (const Entry &entry : found_entries)
-      set_value(prm, entry, check_key(tree, entry));
+      if (section.text != constants_section)
+        check_section(prm, tree, section.text, section.origin);
+    for (Entry entry : found_entries)
+      if (entry.section != constants_section)
+        {
+          entry.value = with_constants(entry);
+          set_value(prm, entry, check_key(tree, entry));
+        }
   }
 } // namespace moraine

@@ -8,6 +8,8 @@
 
 #include <fstream>
 
+#include <malloc.h>
+
 namespace moraine
 {
   using namespace dealii;
@@ -26,6 +28,8 @@ namespace moraine
   bool
   reset_peak_memory()
   {
+    // What was freed but kept would count as resident.
+    malloc_trim(0);
     std::ofstream file("/proc/self/clear_refs");
     file << "5" << std::flush;
 

@@ -72,7 +72,7 @@ namespace moraine
       file << (i > 0 ? "," : "") << row[i].value;
     file << '\n' << std::flush;
     if (!file)
-      throw ComputationError("cannot write the file " + path +
+      throw InputError("cannot write the file " + path +
                              ": is the folder there, is the disk full?");
   }
 } // namespace moraine

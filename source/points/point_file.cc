@@ -122,6 +122,7 @@ namespace moraine
                    "'. Allowed: a number > 0");
         Point<dim> position;
         std::copy_n(row.begin(), dim, position.begin_raw());
+        points.lines.push_back(line);
         points.positions.push_back(position);
         points.volumes.push_back(row[dim]);
         points.columns.emplace_back(row.begin() + dim + 1, row.end());

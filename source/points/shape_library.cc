@@ -461,11 +461,13 @@ namespace moraine
     prm.add_parameter("Operands",
                       operands,
                       "Names of the bodies that a union, intersection or "
-                      "difference is made from, as they are placed");
+                      "difference is made from, as they are placed. These "
+                      "bodies are not simulated themselves");
     prm.add_parameter("Point file",
                       point_file,
                       "CSV file with columns x, y (, z), volume and, if "
-                      "wanted, more");
+                      "wanted, more; its path is seen from the folder of the "
+                      "scene");
     prm.add_parameter("Rotation angle",
                       rotation_angle,
                       "Turns the body counter-clockwise [degrees]",

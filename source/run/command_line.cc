@@ -8,12 +8,16 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/nearest.h>
 #include <moraine/core/version.h>
+#include <moraine/run/parameter_reference.h>
 #include <moraine/run/simulation.h>
+#include <moraine/run/study.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <thread>
 
 namespace moraine
 {
@@ -26,8 +30,11 @@ namespace moraine
       "[--overwrite]\n"
       "moraine check FILE.prm       read, cross-check, say what will be "
       "simulated; compute nothing\n"
-      "moraine study FILE.prm       every combination of the {{a|b|c}} entries\n"
-      "moraine parameters           every parameter with default, allowed "
+      "moraine study FILE.prm [--set ...] [--output DIR] [--overwrite]\n"
+      "                             every combination of the {{a|b|c}} entries: "
+      "error against time\n"
+      "moraine parameters [--dimension 2|3]\n"
+      "                             every parameter with default, allowed "
       "values and text\n"
       "moraine --version | --help\n";
 
@@ -39,6 +46,7 @@ namespace moraine
       std::string              file;
       std::vector<std::string> settings;
       RunOptions               options;
+      unsigned int             dimension = 2;
     };
 
 
@@ -61,10 +69,19 @@ namespace moraine
             arguments.options.output_directory = value();
           else if (words[i] == "--overwrite")
             arguments.options.overwrite = true;
+          else if (words[i] == "--dimension")
+            {
+              const std::string text = value();
+              if (text != "2" && text != "3")
+                throw InputError("option '--dimension': found '" + text +
+                                 "', allowed: 2, 3");
+              arguments.dimension = text == "3" ? 3 : 2;
+            }
           else if (words[i].rfind("-", 0) == 0 && !arguments.command.empty())
             throw InputError(
               "unknown option '" + words[i] + "'" +
-              suggest(words[i], {"--set", "--output", "--overwrite"}));
+              suggest(words[i],
+                      {"--set", "--output", "--overwrite", "--dimension"}));
           else if (arguments.command.empty())
             arguments.command = words[i];
           else if (arguments.file.empty())
@@ -92,14 +109,31 @@ namespace moraine
 
 
 
-    unsigned int
-    dimension_of(const InputFile &input)
+    std::string
+    output_directory(const Arguments &arguments, const std::string &of_scene)
     {
-      const std::string text = input.get("", "Dimension", "2");
-      if (text != "2" && text != "3")
-        throw InputError(place("", "Dimension") + ": found '" + text +
-                         "', allowed: 2, 3");
-      return text == "3" ? 3 : 2;
+      if (!arguments.options.output_directory.empty())
+        return arguments.options.output_directory;
+      if (!of_scene.empty())
+        return of_scene;
+      return "output/" + std::filesystem::path(arguments.file).stem().string();
+    }
+
+
+
+    int
+    run_study(const Arguments &arguments, const InputFile &input)
+    {
+      Console console(MPI_COMM_WORLD);
+      Study   study(input,
+                  output_directory(arguments,
+                                   input.get("Output", "Directory", "")),
+                  arguments.options.overwrite,
+                  MPI_COMM_WORLD,
+                  console);
+      install_interrupt_handler(
+        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+      return study.run();
     }
 
 
@@ -111,11 +145,8 @@ namespace moraine
       Console    console(MPI_COMM_WORLD);
       Scene<dim> scene(input);
       RunOptions options = arguments.options;
-      if (options.output_directory.empty())
-        options.output_directory = scene.output.directory;
-      if (options.output_directory.empty())
-        options.output_directory =
-          "output/" + std::filesystem::path(arguments.file).stem().string();
+      options.output_directory =
+        output_directory(arguments, scene.output.directory);
       Simulation<dim> simulation(scene, MPI_COMM_WORLD, console);
       if (arguments.command == "check")
         {
@@ -154,9 +185,38 @@ namespace moraine
           return dimension_of(input) == 2 ? run_scene<2>(arguments, input) :
                                             run_scene<3>(arguments, input);
         }
+      if (arguments.command == "study")
+        return run_study(arguments, read_input(arguments));
+      if (arguments.command == "parameters")
+        {
+          if (root)
+            print_parameter_reference(arguments.dimension, std::cout);
+          return done;
+        }
       throw InputError(
         "unknown command '" + arguments.command + "'" +
         suggest(arguments.command, {"run", "check", "study", "parameters"}));
+    }
+
+
+
+    /**
+     * Whether every rank comes here within some seconds. A rank that failed
+     * alone must not wait for the others, which wait for it elsewhere.
+     */
+    bool
+    all_ranks_arrive(const MPI_Comm &communicator)
+    {
+      MPI_Request request;
+      MPI_Ibarrier(communicator, &request);
+      int arrived = 0;
+      for (unsigned int i = 0; i < 300 && arrived == 0; ++i)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+      return arrived != 0;
     }
   } // namespace
 
@@ -165,10 +225,16 @@ namespace moraine
   int
   main_program(const std::vector<std::string> &arguments)
   {
-    const bool root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const auto say  = [root](const std::string &what) {
-      if (root)
+    const bool     root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const MPI_Comm for_failures =
+      Utilities::MPI::duplicate_communicator(MPI_COMM_WORLD);
+    const auto fail = [&](const ExitCode code, const std::string &what) {
+      const bool together = all_ranks_arrive(for_failures);
+      if (root || !together)
         std::cerr << "moraine: " << what << std::endl;
+      if (!together)
+        MPI_Abort(MPI_COMM_WORLD, code);
+      return code;
     };
     try
       {
@@ -176,18 +242,17 @@ namespace moraine
       }
     catch (const InputError &error)
       {
-        say(error.what());
-        return wrong_input;
+        return fail(wrong_input, error.what());
       }
     catch (const ComputationError &error)
       {
-        say(error.what());
-        return not_converged;
+        return fail(not_converged, error.what());
       }
     catch (const std::exception &error)
       {
-        say(std::string("internal error, please report it: ") + error.what());
-        return internal_error;
+        return fail(internal_error,
+                    std::string("internal error, please report it: ") +
+                      error.what());
       }
   }
 } // namespace moraine

@@ -8,6 +8,7 @@
 #include <moraine/core/patterns.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace moraine
 {
@@ -45,6 +46,13 @@ namespace moraine
       "the material. keep: nothing moves (small displacement). default: follow "
       "material with finite elements, reset otherwise.",
       patterns::selection({"default", "reset", "follow material", "keep"}));
+    prm.add_parameter(
+      "Empty stiffness",
+      empty_stiffness,
+      "Stiffness of the part of cells that points leave empty, as a fraction "
+      "of the material's. It acts on the increment of a step and holds nodes "
+      "that too few points touch; 0: none, 1e-4: enough for most.",
+      patterns::non_negative());
   }
 
 
@@ -70,6 +78,13 @@ namespace moraine
                       material,
                       "Name of its material; may be left out if there is one "
                       "only.");
+    prm.add_parameter("Point grid",
+                      point_grid,
+                      "Of a box: its points are the middles of this many equal "
+                      "parts in each direction of the box, turned and moved "
+                      "with it, whatever the cells of the mesh are. If left "
+                      "out, each cell is divided (section 'Method').",
+                      patterns::positive_integers(0, dim));
     shape.add_parameters(prm);
   }
 
@@ -208,6 +223,18 @@ namespace moraine
 
 
 
+  unsigned int
+  dimension_of(const InputFile &input)
+  {
+    const std::string text = input.get("", "Dimension", "2");
+    if (text != "2" && text != "3")
+      throw InputError(place("", "Dimension") + ": found '" + text +
+                       "', allowed: 2, 3");
+    return text == "3" ? 3 : 2;
+  }
+
+
+
   namespace
   {
     template <class Parameters>
@@ -255,9 +282,34 @@ namespace moraine
         probes.emplace_back();
         probes.back().name = name;
       }
+    take_names(input, "Study/Series", series);
     declare();
     input.parse(prm);
+    // Files are named as seen from the folder of the scene.
+    for (auto &[name, body] : bodies)
+      if (body.shape.is_point_file())
+        body.shape.point_file =
+          (std::filesystem::path(input.name()).parent_path() /
+           body.shape.point_file)
+            .string();
     check(input);
+  }
+
+
+
+  template <int dim>
+  Scene<dim>::Scene()
+  {
+    const std::string name = "<name>";
+    materials.emplace_back(name, MaterialParameters());
+    bodies.emplace_back(name, BodyParameters<dim>());
+    boundaries.emplace_back(name, BoundaryParameters<dim>());
+    grid_conditions.emplace_back(name, GridConditionParameters());
+    loads.emplace_back(name, LoadParameters<dim>());
+    probes.emplace_back();
+    probes.back().name = name;
+    series.emplace_back(name, std::string());
+    declare();
   }
 
 
@@ -301,20 +353,14 @@ namespace moraine
     prm.leave_subsection();
     section("Exact solution", exact);
     prm.enter_subsection("Study");
-    prm.declare_entry("Error",
-                      "",
-                      Patterns::Anything(),
-                      "Of 'moraine study': the error to plot against time, a "
-                      "name from 'errors' in summary.json.");
-    prm.declare_entry(
-      "Group by",
-      "",
-      Patterns::Anything(),
-      "Of 'moraine study': the key whose values become curves.");
-    prm.declare_entry("Title",
-                      "",
-                      Patterns::Anything(),
-                      "Of 'moraine study': title of the plot.");
+    study.add_parameters(prm);
+    in_subsections(prm, "Series", series, [this](std::string &settings) {
+      prm.add_parameter(
+        "Settings",
+        settings,
+        "Of 'moraine study': 'Section/Key = value' separated by ';', with "
+        "choices {{a|b}} if wanted. A '*' stands for every name.");
+    });
     prm.leave_subsection();
   }
 
@@ -326,6 +372,10 @@ namespace moraine
   {
     for (const char *key : {"Lower corner", "Upper corner"})
       input.require("Mesh", key);
+    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
+      throw InputError(place("Mesh", "Cell size") + ": found '" +
+                       input.get("Mesh", "Cell size", "") +
+                       "', allowed: a number > 0");
     mesh.n_cells();
     time.check();
     const auto reject = [](const std::string &section,
@@ -349,6 +399,13 @@ namespace moraine
           input.require("Materials/" + material.first, key);
         make_material(material.second, "Materials/" + material.first);
       }
+    for (const auto &[name, body] : bodies)
+      if (!body.point_grid.empty() &&
+          (body.shape.shape != "box" || body.point_grid.size() != dim))
+        reject("Bodies/" + name,
+               "Point grid",
+               input.get("Bodies/" + name, "Point grid", ""),
+               std::to_string(dim) + " numbers, of a box");
     for (const auto &[name, body] : bodies)
       if (body.material.empty() ?
             materials.size() > 1 :

@@ -11,9 +11,12 @@
 #include <moraine/core/version.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/output/mesh_vtu.h>
+#include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
 
 #include <iomanip>
 
@@ -56,6 +59,13 @@ namespace moraine
               << std::setprecision(8) << volumes[b] << '\n';
     const auto n_points = system->n_boundary_points();
     effects.push_back("internal force");
+    if (scene.method.empty_stiffness > 0)
+      {
+        console << "  empty parts of cells have "
+                << scene.method.empty_stiffness
+                << " of the material's stiffness\n";
+        effects.push_back("stiffness of empty parts");
+      }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       {
         const std::string &how =
@@ -91,7 +101,8 @@ namespace moraine
                           options.overwrite,
                           communicator);
         directory->write_parameter_files(input.text(), scene.parameters());
-        console.open_log(directory->file("log.txt"));
+        on_root(communicator,
+                [&]() { console.open_log(directory->file("log.txt")); });
         history.emplace(directory->file("history.csv"), communicator);
         points_pvd.emplace(directory->file("points.pvd"), communicator);
         mesh_pvd.emplace(directory->file("mesh.pvd"), communicator);
@@ -122,12 +133,15 @@ namespace moraine
         message = error.what();
       }
 
+    if (directory && t_written < time.time())
+      write_points(time.time());
     Summary summary = make_summary(time);
     summary.status  = status;
     summary.message = message;
     if (directory)
       summary.write(directory->file("summary.json"), communicator);
     print_closing(summary);
+    on_root(communicator, [&]() { console.close_log(); });
     return summary;
   }
 
@@ -164,6 +178,7 @@ namespace moraine
           }
         if (good)
           {
+            check_that_points_stay(time, x);
             time.accept(report.iterations);
             print_step(time, report);
             break;
@@ -179,6 +194,39 @@ namespace moraine
     last_increments = state->nodal_increments();
     reports         = system->accept(x);
     write_results(time, scene.output.times.due(time));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::check_that_points_stay(const TimeControl &time,
+                                          const LA::Vector  &x)
+  {
+    if (state->mesh_after_step() != MeshAfterStep::reset)
+      return;
+    state->set_trial(x);
+    const auto  increments = state->point_increments();
+    const auto  box = GridTools::compute_bounding_box(mesh->triangulation());
+    std::string message;
+    for (unsigned int p = 0; p < points->n_local() && message.empty(); ++p)
+      {
+        const Point<dim> x_new = points->position(p) + increments[p];
+        if (box.point_inside(x_new))
+          continue;
+        std::ostringstream text;
+        text << "point " << points->id(p) << " of body '"
+             << body_names[points->body(p)] << "' leaves the mesh at ("
+             << std::setprecision(10) << x_new << ") in step "
+             << time.n_accepted() + 1 << ", t = " << time.trial_time()
+             << "; the results end with the last accepted step, t = "
+             << time.time();
+        message = text.str();
+      }
+    for (const std::string &text :
+         Utilities::MPI::all_gather(communicator, message))
+      if (!text.empty())
+        throw ComputationError(text);
   }
 
 
@@ -219,13 +267,7 @@ namespace moraine
   void
   Simulation<dim>::write_vtu(const double t)
   {
-    if (scene.output.points)
-      {
-        const std::string name =
-          OutputDirectory::vtu_name("points", n_vtu_written);
-        write_point_vtu(*points, directory->file(name), t, n_vtu_written);
-        points_pvd->add(t, name);
-      }
+    write_points(t);
     if (scene.output.mesh)
       {
         const std::string name =
@@ -238,6 +280,20 @@ namespace moraine
         mesh_pvd->add(t, name);
       }
     ++n_vtu_written;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_points(const double t)
+  {
+    t_written = t;
+    if (!scene.output.points)
+      return;
+    const std::string name = OutputDirectory::vtu_name("points", n_vtu_written);
+    write_point_vtu(*points, directory->file(name), t, n_vtu_written);
+    points_pvd->add(t, name);
   }
 
 

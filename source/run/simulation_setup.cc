@@ -7,6 +7,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+#include <moraine/core/nearest.h>
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/seeding.h>
 
@@ -15,6 +16,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace moraine
@@ -77,6 +79,36 @@ namespace moraine
 
 
     template <int dim>
+    double
+    common_volume(const std::shared_ptr<const Shape<dim>>          &a,
+                  const std::shared_ptr<const Shape<dim>>          &b,
+                  const typename ConvexPolytope<dim>::CellVertices &vertices)
+    {
+      return CombinedShape<dim>(CombinedShape<dim>::Operation::intersect, a, b)
+        .clip(ConvexPolytope<dim>(vertices))
+        .volume;
+    }
+
+
+
+    /** Whether @p box lies in @p outer but for round-off. */
+    template <int dim>
+    bool
+    fits_into(const BoundingBox<dim> &box, const BoundingBox<dim> &outer)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double margin = 1e-9 * outer.side_length(d);
+          if (box.lower_bound(d) < outer.lower_bound(d) - margin ||
+              box.upper_bound(d) > outer.upper_bound(d) + margin)
+            return false;
+        }
+      return true;
+    }
+
+
+
+    template <int dim>
     RigidMotion<dim>
     make_motion(const BoundaryParameters<dim> &parameters,
                 const std::string             &section)
@@ -123,10 +155,7 @@ namespace moraine
     : scene(scene)
     , communicator(communicator)
     , console(console)
-    , timer(communicator,
-            unused_timer_output,
-            TimerOutput::never,
-            TimerOutput::wall_times)
+    , timer(unused_timer_output, TimerOutput::never, TimerOutput::wall_times)
   {
     TimerOutput::Scope scope(timer, "set up");
     mesh  = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
@@ -142,8 +171,14 @@ namespace moraine
     make_boundaries();
     make_grid_conditions();
     make_loads();
-    system = std::make_unique<MechanicsSystem<dim>>(
-      *state, boundaries, grid_conditions, loads, body_names, timer);
+    system =
+      std::make_unique<MechanicsSystem<dim>>(*state,
+                                             boundaries,
+                                             grid_conditions,
+                                             loads,
+                                             body_names,
+                                             timer,
+                                             scene.method.empty_stiffness);
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
     probes        = std::make_unique<Probes<dim>>(
       scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
@@ -160,23 +195,33 @@ namespace moraine
       shape_parameters[name] = body.shape;
     const NamedShapes<dim> shapes = make_shapes(shape_parameters, "Bodies");
 
+    // What another body is made from is a tool without material of its own.
+    std::set<std::string> operands;
+    for (const auto &[name, body] : scene.bodies)
+      operands.insert(body.shape.operands.begin(), body.shape.operands.end());
+
     std::vector<std::shared_ptr<const Shape<dim>>> in_order;
     for (const auto &[name, body] : scene.bodies)
       {
+        if (operands.count(name) > 0)
+          continue;
         body_names.push_back(name);
         for (const auto &[material_name, parameters] : scene.materials)
           if (body.material == material_name || scene.materials.size() == 1)
             materials.push_back(
               make_material(parameters, "Materials/" + material_name));
-        in_order.push_back(body.shape.is_point_file() ? nullptr :
-                                                        shapes.at(name));
+        in_order.push_back(body.is_seeded_by_cells() ? shapes.at(name) :
+                                                       nullptr);
       }
     seed(in_order);
-    for (unsigned int b = 0; b < body_names.size(); ++b)
-      if (!in_order[b])
-        insert_point_file(scene.bodies[b].second.shape.point_file, b);
+    for (const auto &[name, body] : scene.bodies)
+      for (unsigned int b = 0; b < body_names.size(); ++b)
+        if (name == body_names[b] && body.shape.is_point_file())
+          insert_point_file(body.shape.point_file, b);
+        else if (name == body_names[b] && !body.is_seeded_by_cells())
+          insert_point_grid(body, b);
     points->finish_insertion();
-    check_bodies();
+    check_bodies(in_order);
   }
 
 
@@ -193,39 +238,39 @@ namespace moraine
                                  fe || scene.method.point_layout == "Gauss" ?
                                    PointLayout::gauss :
                                    PointLayout::equal);
-    const unsigned int    n_sub = Utilities::pow(n_per_direction, dim);
+    const unsigned int    n_ids = seeder.max_points();
+    first_free_id =
+      mesh->triangulation().n_active_cells() * shapes.size() * n_ids;
 
+    std::string                   overlap;
     std::vector<SeededPoint<dim>> seeded;
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const auto vertices = vertices_of<dim>(cell);
-          int        previous = -1;
+          const auto                vertices = vertices_of<dim>(cell);
+          std::vector<unsigned int> earlier;
           for (unsigned int b = 0; b < shapes.size(); ++b)
             {
               if (!shapes[b])
                 continue;
               seeded.clear();
               seeder.seed(vertices, *shapes[b], seeded);
-              if (!seeded.empty() && previous >= 0)
-                {
-                  const CombinedShape<dim> common(
-                    CombinedShape<dim>::Operation::intersect,
-                    shapes[previous],
-                    shapes[b]);
-                  if (common.clip(ConvexPolytope<dim>(vertices)).volume >
-                      1e-10 * cell->measure())
-                    {
-                      std::ostringstream message;
-                      message << "section 'Bodies': '" << body_names[previous]
-                              << "' and '" << body_names[b]
-                              << "' overlap near (" << cell->center()
-                              << "), allowed: bodies that share no volume";
-                      throw InputError(message.str());
-                    }
-                }
               if (!seeded.empty())
-                previous = b;
+                {
+                  for (const unsigned int other : earlier)
+                    if (overlap.empty() &&
+                        common_volume<dim>(shapes[other], shapes[b], vertices) >
+                          1e-10 * cell->measure())
+                      {
+                        std::ostringstream message;
+                        message << "section 'Bodies': '" << body_names[other]
+                                << "' and '" << body_names[b]
+                                << "' overlap near (" << cell->center()
+                                << "), allowed: bodies that share no volume";
+                        overlap = message.str();
+                      }
+                  earlier.push_back(b);
+                }
               // The id counts sub-cells of cells, so it does not depend on
               // the number of ranks.
               for (unsigned int i = 0; i < seeded.size(); ++i)
@@ -234,12 +279,16 @@ namespace moraine
                                mesh->mapping().transform_real_to_unit_cell(
                                  cell, seeded[i].position),
                                (cell->active_cell_index() * shapes.size() + b) *
-                                   n_sub +
+                                   n_ids +
                                  i,
                                b,
                                seeded[i].volume);
             }
         }
+    for (const std::string &message :
+         Utilities::MPI::all_gather(communicator, overlap))
+      if (!message.empty())
+        throw InputError(message);
   }
 
 
@@ -249,53 +298,132 @@ namespace moraine
   Simulation<dim>::insert_point_file(const std::string &file,
                                      const unsigned int body)
   {
-    const auto                  content = PointFile<dim>::read(file);
-    const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
-    const unsigned int          first_id =
-      mesh->triangulation().n_active_cells() * body_names.size() *
-      Utilities::pow(scene.method.points_per_direction, dim);
-    typename Triangulation<dim>::active_cell_iterator hint;
-    for (unsigned int i = 0; i < content.positions.size(); ++i)
-      {
-        const auto [cell, reference] =
-          GridTools::find_active_cell_around_point(cache,
-                                                   content.positions[i],
-                                                   hint);
-        if (cell.state() != IteratorState::valid)
-          {
-            std::ostringstream message;
-            message << "file '" << file << "', line " << i + 2
-                    << ": found a point at (" << content.positions[i]
-                    << "), allowed: points inside the mesh";
-            throw InputError(message.str());
-          }
-        hint = cell;
-        if (cell->is_locally_owned())
-          points->insert(cell,
-                         content.positions[i],
-                         reference,
-                         first_id + i,
-                         body,
-                         content.volumes[i]);
-      }
+    if (!std::ifstream(file))
+      throw InputError(place("Bodies/" + body_names[body], "Point file") +
+                       ": found '" + file +
+                       "', which cannot be read, allowed: the path of a CSV "
+                       "file");
+    const auto content = PointFile<dim>::read(file);
+    insert_points(content.positions,
+                  content.volumes,
+                  body,
+                  [&](const unsigned int i) {
+                    return file + ':' + std::to_string(content.lines[i]);
+                  });
   }
 
 
 
   template <int dim>
   void
-  Simulation<dim>::check_bodies() const
+  Simulation<dim>::insert_point_grid(const BodyParameters<dim> &parameters,
+                                     const unsigned int         body)
+  {
+    const std::string    section   = "Bodies/" + body_names[body];
+    const Placement<dim> placement = make_placement(parameters.shape, section);
+    const Point<dim>     lower  = to_point<dim>(parameters.shape.lower_corner,
+                                           place(section, "Lower corner"));
+    Tensor<1, dim>       length = to_point<dim>(parameters.shape.upper_corner,
+                                          place(section, "Upper corner")) -
+                            lower;
+    const auto  &n        = parameters.point_grid;
+    double       volume   = 1;
+    unsigned int n_points = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        length[d] /= n[d];
+        volume *= length[d];
+        n_points *= n[d];
+      }
+    std::vector<Point<dim>> positions;
+    for (unsigned int i = 0; i < n_points; ++i)
+      {
+        Point<dim>   x    = lower;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; rest /= n[d], ++d)
+          x[d] += (rest % n[d] + 0.5) * length[d];
+        positions.push_back(placement.apply(x));
+      }
+    insert_points(positions,
+                  std::vector<double>(n_points, volume),
+                  body,
+                  [&](const unsigned int) {
+                    return "section '" + section + "', key 'Point grid'";
+                  });
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::insert_points(
+    const std::vector<Point<dim>>                        &positions,
+    const std::vector<double>                            &volumes,
+    const unsigned int                                    body,
+    const std::function<std::string(const unsigned int)> &where)
+  {
+    const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
+    typename Triangulation<dim>::active_cell_iterator hint;
+    for (unsigned int i = 0; i < positions.size(); ++i)
+      {
+        const auto [cell, reference] =
+          GridTools::find_active_cell_around_point(cache, positions[i], hint);
+        if (cell.state() != IteratorState::valid)
+          {
+            std::ostringstream message;
+            message << where(i) << ": found a point at (" << positions[i]
+                    << "), allowed: points inside the mesh";
+            throw InputError(message.str());
+          }
+        hint = cell;
+        if (cell->is_locally_owned())
+          points->insert(
+            cell, positions[i], reference, first_free_id + i, body, volumes[i]);
+      }
+    first_free_id += positions.size();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::check_bodies(
+    const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const
   {
     std::vector<double> volumes(body_names.size(), 0.);
     for (unsigned int p = 0; p < points->n_local(); ++p)
       volumes[points->body(p)] += points->volume(p);
     Utilities::MPI::sum(volumes, communicator, volumes);
+    const BoundingBox<dim> box =
+      GridTools::compute_bounding_box(mesh->triangulation());
     for (unsigned int b = 0; b < volumes.size(); ++b)
-      if (volumes[b] == 0)
-        throw InputError("section 'Bodies/" + body_names[b] +
-                         "': found no part of the body inside the mesh, "
-                         "allowed: a body that is not empty and lies in the "
-                         "mesh");
+      {
+        const std::string where = "section 'Bodies/" + body_names[b] + "': ";
+        if (volumes[b] == 0)
+          throw InputError(where +
+                           "found no part of the body inside the mesh, "
+                           "allowed: a body that is not empty and lies in the "
+                           "mesh");
+        if (!shapes[b] || !is_finite(shapes[b]->bounding_box()))
+          continue;
+        const auto whole = ConvexPolytope<dim>(
+          shapes[b]->bounding_box().get_boundary_points().first,
+          shapes[b]->bounding_box().get_boundary_points().second);
+        if (fits_into(shapes[b]->bounding_box(), box))
+          continue;
+        const double volume = shapes[b]->clip(whole).volume;
+        if (volumes[b] >
+            (1 - (shapes[b]->is_straight() ? 1e-9 : 1e-3)) * volume)
+          continue;
+        std::ostringstream message;
+        message << where << "found " << 100 * (1 - volumes[b] / volume)
+                << " % of its volume outside the mesh, which is ("
+                << box.get_boundary_points().first << ") to ("
+                << box.get_boundary_points().second
+                << "), allowed: a body in the mesh; only half-spaces and "
+                   "expressions are cut by it";
+        throw InputError(message.str());
+      }
   }
 
 
@@ -304,11 +432,14 @@ namespace moraine
   void
   Simulation<dim>::make_basis()
   {
+    std::vector<bool> is_seeded;
+    for (const std::string &name : body_names)
+      for (const auto &[body_name, body] : scene.bodies)
+        if (body_name == name)
+          is_seeded.push_back(body.is_seeded_by_cells());
     if (scene.method.method == "GIMP")
-      basis =
-        std::make_unique<GimpBasis<dim>>(*space,
-                                         *points,
-                                         scene.method.points_per_direction);
+      basis = std::make_unique<GimpBasis<dim>>(
+        *space, *points, scene.method.points_per_direction, is_seeded);
     else if (scene.method.degree == 1)
       basis = std::make_unique<CellBasis<dim, 1>>(*space, *points);
     else
@@ -422,7 +553,8 @@ namespace moraine
                   std::find(body_names.begin(), body_names.end(), body);
                 if (found == body_names.end())
                   throw InputError(place(section, "Bodies") + ": found '" +
-                                   body + "', allowed: names of bodies");
+                                   body + "', allowed: names of bodies" +
+                                   suggest(body, body_names));
                 force.acts_on[found - body_names.begin()] = true;
               }
             loads.body_forces.push_back(force);

@@ -450,10 +450,9 @@ namespace moraine
     auto         &s = *implementation;
     const AddTime timing(s.set_up_seconds);
     ++s.n_set_ups;
+    clear();
     s.matrix = &matrix;
     s.method = s.choose(symmetric);
-    s.direct.reset();
-    s.multigrid.reset();
     s.fall_back_reason.clear();
     s.is_finite = std::isfinite(matrix.frobenius_norm());
     if (!s.is_finite)
@@ -506,6 +505,16 @@ namespace moraine
 
 
 
+  void
+  LinearSolver::clear()
+  {
+    implementation->direct.reset();
+    implementation->multigrid.reset();
+    implementation->matrix = nullptr;
+  }
+
+
+
   unsigned int
   LinearSolver::n_set_ups() const
   {
@@ -543,9 +552,9 @@ namespace moraine
                       relative_tolerance,
                       "of iterative solvers: residual over right hand side",
                       Patterns::Double(1e-16, 1e-2));
-    prm.add_parameter("Maximum iterations",
+    prm.add_parameter("Maximum linear iterations",
                       maximum_iterations,
-                      "of iterative solvers",
+                      "of iterative linear solvers",
                       Patterns::Integer(1));
     prm.add_parameter("Direct limit 2D",
                       direct_limit_2d,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -76,6 +77,7 @@ namespace moraine
       LA::Vector             &x;
       NewtonReport            report;
       double                  norm                  = 0.;
+      double                  tangent_norm          = 0.;
       unsigned int            iterations_since_pass = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
@@ -132,6 +134,7 @@ namespace moraine
                            system.symmetric(),
                            system.near_null_space());
       tangent_is_factorised = true;
+      tangent_norm          = system.tangent().linfty_norm();
     }
 
 
@@ -139,8 +142,13 @@ namespace moraine
     bool
     Iteration::small() const
     {
-      return norm <= std::max(parameters.tolerance * system.force_scale(),
-                              parameters.absolute_tolerance);
+      // A rigid motion is in equilibrium without forces: what is left is the
+      // round-off of K x.
+      const double round_off = 10. * std::numeric_limits<double>::epsilon() *
+                               tangent_norm * x.l2_norm();
+      return norm <= std::max({parameters.tolerance * system.force_scale(),
+                               parameters.absolute_tolerance,
+                               round_off});
     }
 
 
@@ -333,7 +341,11 @@ namespace moraine
                 LinearSolver    &linear_solver,
                 LA::Vector      &x)
   {
-    return Iteration(parameters, system, linear_solver, x).run();
+    const NewtonReport report =
+      Iteration(parameters, system, linear_solver, x).run();
+    // The system may build its matrix anew before the next step.
+    linear_solver.clear();
+    return report;
   }
 
 

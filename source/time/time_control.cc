@@ -232,17 +232,17 @@ namespace moraine
   {
     if (!(end_time > start_time) || !std::isfinite(end_time) ||
         !std::isfinite(start_time))
-      throw InputError("Section " + section + ", key End time: found " +
+      throw InputError("section '" + section + "', key 'End time': found " +
                        in_words(end_time) + "; it must be later than Start " +
                        "time, " + in_words(start_time) + ".");
     if (n_steps == 0)
-      throw InputError("Section " + section +
-                       ", key Steps: found 0; at least 1 is allowed.");
+      throw InputError("section '" + section +
+                       "', key 'Steps': found 0; at least 1 is allowed.");
     if (!(smallest_step <= largest_step))
-      throw InputError("Section " + section + ", key Smallest step: found " +
-                       in_words(smallest_step) +
-                       "; it must not exceed Largest step, " +
-                       in_words(largest_step) + ".");
+      throw InputError(
+        "section '" + section + "', key 'Smallest step': found " +
+        in_words(smallest_step) + "; it must not exceed Largest step, " +
+        in_words(largest_step) + ".");
   }
 
 

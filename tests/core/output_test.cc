@@ -139,14 +139,14 @@ TEST(AtomicFile, AppearsCompleteOrNotAtAll)
 
 TEST(AtomicFile, NamesTheFileThatCannotBeWritten)
 {
-  EXPECT_EQ(message_of<ComputationError>([] { AtomicFile("/no/dir/a.csv"); }),
+  EXPECT_EQ(message_of<InputError>([] { AtomicFile("/no/dir/a.csv"); }),
             "/no/dir/a.csv: cannot be written: No such file or directory");
 
   // /dev/full refuses every write, as a full disk does.
   const Directory   directory;
   const std::string path = directory / "a.csv";
   std::filesystem::create_symlink("/dev/full", path + ".part");
-  EXPECT_EQ(message_of<ComputationError>([&] {
+  EXPECT_EQ(message_of<InputError>([&] {
               AtomicFile file(path);
               file.stream() << "x";
               file.commit();
@@ -178,7 +178,7 @@ TEST(Console, ReportsALogThatCannotBeWritten)
 {
   std::ostringstream screen;
   Console            console(MPI_COMM_WORLD, screen);
-  const auto         message = message_of<ComputationError>([&] {
+  const auto         message = message_of<InputError>([&] {
     console.open_log("/dev/full");
     console << "x" << std::endl;
     console.close_log();

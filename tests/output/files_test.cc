@@ -66,7 +66,7 @@ namespace moraine
         history.add_row({{"t", "-", 0.}});
         FAIL() << "nothing thrown";
       }
-    catch (const ComputationError &error)
+    catch (const InputError &error)
       {
         EXPECT_NE(std::string(error.what()).find("/dev/full"),
                   std::string::npos);
@@ -186,6 +186,6 @@ namespace moraine
 )");
     EXPECT_THROW(summary.write(folder.file("none/summary.json"),
                                MPI_COMM_WORLD),
-                 ComputationError);
+                 InputError);
   }
 } // namespace moraine

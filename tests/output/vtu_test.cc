@@ -210,7 +210,7 @@ namespace moraine
         write_point_vtu(points, path, 0., 0);
         FAIL() << "nothing thrown";
       }
-    catch (const ComputationError &error)
+    catch (const InputError &error)
       {
         EXPECT_NE(std::string(error.what()).find(path), std::string::npos)
           << error.what();

@@ -185,8 +185,9 @@ TEST(Seeding, ClippedPointsAreCentroids)
   EXPECT_NEAR(points[0].position[0], 0.375, 1e-15);
   EXPECT_NEAR(points[0].position[1], 0.25, 1e-15);
   EXPECT_NEAR(points[0].volume, 0.125, 1e-15);
+  // in a cut cell full sub-cells too
   EXPECT_FALSE(points[1].is_clipped);
-  EXPECT_NEAR(points[1].position[0], 0.5 + 0.5 / std::sqrt(3.), 1e-15);
+  EXPECT_NEAR(points[1].position[0], 0.75, 1e-15);
   EXPECT_NEAR(points[1].unit_lengths[0], 0.5, 1e-15);
 }
 

@@ -44,12 +44,20 @@ namespace moraine
   class MechanicsSystem : public NonlinearSystem
   {
   public:
+    /**
+     * The equations of @p state. @p empty_stiffness is the stiffness of the
+     * empty part of active cells over that of the material in them. It resists
+     * the increment of each step and then is forgotten (a finite cell method,
+     * Parvizian et al. 2007), so that nodes touched by too few points are held.
+     * 0: none.
+     */
     MechanicsSystem(State<dim>                            &state,
                     std::vector<ImplicitBoundary<dim>>    &boundaries,
                     const std::vector<GridCondition<dim>> &conditions,
                     Loads<dim>                            &loads,
                     const std::vector<std::string>        &body_names,
-                    dealii::TimerOutput                   &timer);
+                    dealii::TimerOutput                   &timer,
+                    const double empty_stiffness = 0.);
 
     /**
      * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
@@ -150,6 +158,12 @@ namespace moraine
     void
     assemble_boundaries(const bool tangent);
 
+    void
+    find_empty_parts();
+
+    void
+    assemble_empty_parts(const bool tangent);
+
     /** Add to node_forces and, if asked, to the matrix. */
     void
     add_to_system(const LocalSystem<dim> &local, const bool tangent);
@@ -167,10 +181,10 @@ namespace moraine
                    std::vector<dealii::Tensor<1, dim>> &violations) const;
 
     [[noreturn]] void
-    report_free_part(const std::vector<unsigned int> &part,
-                     const unsigned int               k,
-                     const dealii::Vector<double>    &motion,
-                     const bool                       first_step) const;
+    report_free_part(const std::vector<unsigned int>           &part,
+                     const unsigned int                         k,
+                     const std::vector<dealii::Vector<double>> &free_motions,
+                     const bool first_step) const;
 
     /**
      * The largest depth of a point of this rank behind a boundary; with
@@ -184,12 +198,16 @@ namespace moraine
     double
     point_size() const;
 
-    State<dim>                                    &state;
-    std::vector<ImplicitBoundary<dim>>            &boundaries;
-    const std::vector<GridCondition<dim>>         &conditions;
-    Loads<dim>                                    &loads;
-    const std::vector<std::string>                 body_names;
-    dealii::TimerOutput                           &timer;
+    State<dim>                            &state;
+    std::vector<ImplicitBoundary<dim>>    &boundaries;
+    const std::vector<GridCondition<dim>> &conditions;
+    Loads<dim>                            &loads;
+    const std::vector<std::string>         body_names;
+    dealii::TimerOutput                   &timer;
+    const double                           empty_stiffness;
+    /** Cells of this rank that points do not fill, and what is left of them. */
+    std::vector<std::pair<typename GridSpace<dim>::CellIterator, double>>
+                                                   empty_volume;
     std::unique_ptr<dealii::GridTools::Cache<dim>> cell_cache;
     std::vector<std::unique_ptr<PointTerm<dim>>>   point_terms;
     std::vector<unsigned int>                      body_of_cell;

@@ -81,11 +81,9 @@ namespace moraine
   };
 
   /**
-   * The force of a point of an implicit boundary and its derivative; see
-   * Enforcement for the weak form.
-   *
-   * @param du, grad_du trial increment and its gradient at the point.
-   * @return the traction on the body, t plus what the trial state adds.
+   * The traction on the body at a point of an implicit boundary, t plus what
+   * the trial state adds; @p grad_du is the gradient of its increment there.
+   * See Enforcement for the weak form.
    */
   template <int dim>
   dealii::Tensor<1, dim>
@@ -95,6 +93,7 @@ namespace moraine
                     const LameConstants          &stiffness,
                     const dealii::Tensor<2, dim> &grad_du);
 
+  /** Adds the force of such a point and, if asked, its derivative. */
   template <int dim>
   void
   add_boundary_point(const BoundaryPoint<dim>     &point,

@@ -124,17 +124,22 @@ namespace moraine
     }
 
     /**
-     * @param points_per_direction divisions of a cell at seeding, which give
-     * the boxes their shape.
+     * The divisions of a cell at seeding, @p points_per_direction, give the
+     * boxes their shape. @p is_seeded says which bodies were seeded that way;
+     * the others, all if left out, have points of their own (a file).
      * @throws InputError if the mesh is not a box of equal cells.
      */
-    GimpBasis(const GridSpace<dim> &space,
-              const PointSet<dim>  &points,
-              const unsigned int    points_per_direction);
+    GimpBasis(const GridSpace<dim>    &space,
+              const PointSet<dim>     &points,
+              const unsigned int       points_per_direction,
+              const std::vector<bool> &is_seeded = {});
 
     /**
-     * Half lengths in the proportions of the sub-cell the point was seeded in,
-     * scaled so that the box has the point's volume. At most half a cell.
+     * Half lengths. Of a seeded point: its distance to the nearer face of its
+     * sub-cell, so that the box never leaves the sub-cell and boxes tile a body
+     * whose faces follow the mesh; averages over a box within one cell are the
+     * values at its centre, so at the start GIMP integrates what points do. Of
+     * other points: a box of the point's volume, at most half a cell.
      */
     void
     initialise_points(PointSet<dim> &points) const override;
@@ -173,6 +178,7 @@ namespace moraine
 
     const BoxGrid<dim>        grid;
     const unsigned int        points_per_direction;
+    const std::vector<bool>   is_seeded;
     const unsigned int        half_length_offset;
     std::vector<unsigned int> active_index_of_box_cell;
     std::vector<Window>       windows;

@@ -99,12 +99,11 @@ namespace moraine
                      const double                        penetration_limit);
 
     /**
-     * Place the surface at time @p t and find its pieces. If the points do not
-     * move (small displacement), the surface stays where it was at first and
-     * its motion is prescribed there.
-     *
-     * @param reach distance over which pieces outside active cells count.
-     * @param moves_points whether the material moves through the mesh.
+     * Place the surface at time @p t and find its pieces. Those outside active
+     * cells count up to a distance @p reach. If the points do not move (@p
+     * moves_points is false, small displacement), the surface stays where it
+     * was at first and its motion is prescribed there. @p cells_changed says
+     * that pieces must be found again even if the surface stands still.
      */
     void
     begin_step(const GridSpace<dim> &space,

@@ -17,7 +17,7 @@ namespace moraine
   class AtomicFile
   {
   public:
-    /** @throw ComputationError if the file cannot be opened. */
+    /** @throw InputError if the file cannot be opened. */
     explicit AtomicFile(const std::string &path);
 
     /** Removes the temporary file if commit() was not reached. */
@@ -31,7 +31,7 @@ namespace moraine
 
     /**
      * Flush, close and rename.
-     * @throw ComputationError naming the file if any write failed (disk full).
+     * @throw InputError naming the file if any write failed (disk full).
      */
     void
     commit();

@@ -32,14 +32,14 @@ namespace moraine
 
     /**
      * Write everything into @p path too, from the beginning on.
-     * @throw ComputationError on rank 0 if the file cannot be opened.
+     * @throw InputError on rank 0 if the file cannot be opened.
      */
     void
     open_log(const std::string &path);
 
     /**
      * Close the log.
-     * @throw ComputationError on rank 0 if a write to it failed (disk full).
+     * @throw InputError on rank 0 if a write to it failed (disk full).
      */
     void
     close_log();

@@ -52,7 +52,8 @@ namespace moraine
 
     /**
      * Apply `--set "Section/Sub/Key = value"`: replaces the value where the key
-     * is set, else adds it. Whether the key exists is judged by parse().
+     * is set, else adds it. A section "*" stands for every name there is in its
+     * place. Whether the key exists is judged by parse().
      */
     void
     apply_override(const std::string &setting);
@@ -112,6 +113,16 @@ namespace moraine
       std::string text;
       std::string origin;
     };
+
+    /**
+     * The value of an entry with every `$name` replaced by the value of key
+     * `name` in section `Constants`, so that a scene (or a study) says a value
+     * once.
+     *
+     * @throw InputError for a name that section does not have.
+     */
+    std::string
+    with_constants(const Entry &entry) const;
 
     void
     scan();

@@ -70,7 +70,7 @@ namespace moraine
 
     /**
      * Write to a file that appears complete or not at all.
-     * @throw ComputationError naming the file if that fails.
+     * @throw InputError naming the file if that fails.
      */
     void
     save(const std::string &path) const;

@@ -26,9 +26,9 @@ namespace moraine
       (dim == 2 ? 1 : degree + 1) * (degree + 1) * (degree + 1);
 
     /**
-     * Evaluate at the unit cell's place @p xi of a cell with nodes @p X.
-     * @param N values @f$N_a@f$, n_nodes of them.
-     * @param grad_N gradients @f$\nabla N_a@f$ in real space [1/length].
+     * Evaluate at the unit cell's place @p xi of a cell with nodes @p X: the
+     * n_nodes values @p N, @f$N_a@f$, and gradients in real space @p grad_N,
+     * @f$\nabla N_a@f$ [1/length].
      */
     static void
     evaluate(const dealii::Point<dim> &xi,

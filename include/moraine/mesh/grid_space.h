@@ -38,7 +38,7 @@ namespace moraine
     static constexpr unsigned int no_cell =
       std::numeric_limits<unsigned int>::max();
 
-    /** @param degree 1 or 2. */
+    /** Functions of @p degree 1 or 2. */
     GridSpace(const BackgroundMesh<dim> &mesh, const unsigned int degree);
 
     /**

@@ -27,7 +27,7 @@ namespace moraine
     /**
      * Write a row. Rank 0 writes, all ranks give the same columns. Collective.
      *
-     * @throws ComputationError naming the file if it cannot be written.
+     * @throws InputError naming the file if it cannot be written.
      */
     void
     add_row(const std::vector<NamedValue> &row);

@@ -29,7 +29,7 @@ namespace moraine
    * drawn as 2^dim smaller ones. The file appears at @p path only when it is
    * complete.
    *
-   * @throws ComputationError naming the file if it cannot be written.
+   * @throws InputError naming the file if it cannot be written.
    */
   template <int dim>
   void

@@ -24,8 +24,9 @@ namespace moraine
     /**
      * Make the folder, or check the one that is there. Collective.
      *
-     * @param overwrite remove the files of an earlier run. Only files with the
-     * names above are removed.
+     * With @p overwrite the files of an earlier run are removed; only files
+     * with the names above are.
+     *
      * @throws InputError on every rank if the folder holds files of an earlier
      * run and @p overwrite is not set, or if it cannot be made or written.
      */
@@ -45,7 +46,7 @@ namespace moraine
      * Write original.prm, the file as given, and parameters.prm, every
      * parameter with its value and text. Collective.
      *
-     * @throws ComputationError naming the file if it cannot be written.
+     * @throws InputError naming the file if it cannot be written.
      */
     void
     write_parameter_files(const std::string              &original_text,

@@ -28,7 +28,7 @@ namespace moraine
    * Points are ordered by id within the part of each rank. Numbers are stored
    * in single precision; ids above 16 777 216 are rounded.
    *
-   * @throws ComputationError naming the file if it cannot be written.
+   * @throws InputError naming the file if it cannot be written.
    */
   template <int dim>
   void

@@ -55,7 +55,7 @@ namespace moraine
     /**
      * Chooses the points. Collective.
      *
-     * @param moves_through_mesh whether material moves through the mesh (the
+     * @p moves_through_mesh says whether material moves through the mesh (the
      * mesh is reset after a step). Otherwise a place keeps its position in its
      * cell, and step increments are always evaluated at its location at the
      * start.

@@ -23,10 +23,10 @@ namespace moraine
     PvdHistory(const std::string &path, const MPI_Comm &communicator);
 
     /**
-     * Add a step and write the file. Collective.
+     * Add a step and write the file. Collective. The VTU @p file is named
+     * relative to the folder of the .pvd file.
      *
-     * @param file The VTU file, relative to the folder of the .pvd file.
-     * @throws ComputationError naming the .pvd file if it cannot be written.
+     * @throws InputError naming the .pvd file if it cannot be written.
      */
     void
     add(const double time, const std::string &file);

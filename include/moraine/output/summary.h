@@ -56,7 +56,7 @@ namespace moraine
     /**
      * Write json() from rank 0, replacing the file as a whole. Collective.
      *
-     * @throws ComputationError naming @p path if it cannot be written.
+     * @throws InputError naming @p path if it cannot be written.
      */
     void
     write(const std::string &path, const MPI_Comm &communicator) const;

@@ -49,7 +49,7 @@ namespace moraine
     /**
      * Write one file for all ranks and agree on the result. Collective.
      *
-     * @throws ComputationError naming @p path.
+     * @throws InputError naming @p path.
      */
     void
     write(const std::string &path,

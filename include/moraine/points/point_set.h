@@ -47,7 +47,7 @@ namespace moraine
     };
 
     /**
-     * @param fields The layout; the fields of the table above are added to it.
+     * To the layout @p fields those of the table above are added.
      */
     PointSet(const BackgroundMesh<dim> &mesh, PointFields fields);
 

@@ -48,10 +48,17 @@ namespace moraine
    * lengths. Each gives one point with volume and centroid of its part in the
    * body, so that the volumes of all points sum up to the body's.
    *
-   * With the Gauss layout a full sub-cell's point is the Gauss point, and in a
-   * full cell its volume is weight times detJ there: the points are the Gauss
-   * rule. (This sum is the cell's volume in 2D, and in 3D for parallelepipeds
-   * or n >= 2.)
+   * With the Gauss layout the points of a full cell are the Gauss rule, their
+   * volumes weight times detJ. (This sum is the cell's volume in 2D, and in 3D
+   * for parallelepipeds or n >= 2.) A cell the body cuts has no Gauss rule;
+   * there every sub-cell, full or not, has its point at its centroid, because
+   * centroids and volumes integrate linear functions exactly.
+   *
+   * In 3D the gradients of trilinear shape functions hold products of two
+   * coordinates as well. A sub-cell that a straight-sided body cuts askew has
+   * three points of equal volume there, with its centroid as their mean, that
+   * integrate these too; where no such triangle lies in the body (next to
+   * re-entrant edges) it has one.
    *
    * Parts below 1e-12 of the smaller of sub-cell and body's bounding box get
    * no point.
@@ -72,6 +79,10 @@ namespace moraine
     seed(const CellVertices            &cell,
          const Shape<dim>              &shape,
          std::vector<SeededPoint<dim>> &points) const;
+
+    /** The most points that seed() gives a cell. */
+    unsigned int
+    max_points() const;
 
   private:
     void
@@ -112,6 +123,7 @@ namespace moraine
 
     std::vector<dealii::Point<dim>> positions;
     std::vector<double>             volumes;
+    std::vector<unsigned int>       lines; ///< of the file, from 1
 
     std::vector<std::string> column_names;
 

@@ -12,6 +12,7 @@
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/shape_library.h>
+#include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -25,6 +26,13 @@
 
 namespace moraine
 {
+  /**
+   * The dimension a scene asks for, known before anything else is read.
+   * @throw InputError unless 2 or 3.
+   */
+  unsigned int
+  dimension_of(const InputFile &input);
+
   /** Section `Method`: the three choices in which methods differ. */
   struct MethodParameters
   {
@@ -33,6 +41,7 @@ namespace moraine
     unsigned int points_per_direction = 2;
     std::string  point_layout         = "equally spaced";
     std::string  mesh_after_step      = "default";
+    double       empty_stiffness      = 0.;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -51,8 +60,16 @@ namespace moraine
   template <int dim>
   struct BodyParameters
   {
-    std::string          material;
-    ShapeParameters<dim> shape;
+    std::string               material;
+    ShapeParameters<dim>      shape;
+    std::vector<unsigned int> point_grid;
+
+    /** Whether the cells of the mesh give the body its points. */
+    bool
+    is_seeded_by_cells() const
+    {
+      return point_grid.empty() && !shape.is_point_file();
+    }
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -133,6 +150,12 @@ namespace moraine
     /** @throws InputError for anything wrong that can be seen in the text. */
     explicit Scene(const InputFile &input);
 
+    /**
+     * No scene, but all parameters with their defaults; everything that the
+     * user names is there once, named "<name>".
+     */
+    Scene();
+
     Scene(const Scene &) = delete;
 
     /** All parameters with their values. */
@@ -156,6 +179,8 @@ namespace moraine
     OutputParameters                  output;
     std::vector<ProbeParameters<dim>> probes;
     ExactSolutionParameters<dim>      exact;
+    StudyParameters                   study;
+    Named<std::string>                series;
 
   private:
     void

@@ -14,6 +14,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -68,8 +69,25 @@ namespace moraine
     void
     insert_point_file(const std::string &file, const unsigned int body);
 
+    /** The points of a box with key 'Point grid'. */
     void
-    check_bodies() const;
+    insert_point_grid(const BodyParameters<dim> &parameters,
+                      const unsigned int         body);
+
+    /**
+     * Points that are not those of cells.
+     * @param where says of a point what it is for the user.
+     */
+    void
+    insert_points(const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<double>             &volumes,
+                  const unsigned int                     body,
+                  const std::function<std::string(const unsigned int)> &where);
+
+    /** That each body has points, and lies in the mesh as a whole. */
+    void
+    check_bodies(
+      const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const;
 
     void
     make_basis();
@@ -100,6 +118,17 @@ namespace moraine
 
     void
     write_vtu(const double t);
+
+    /**
+     * The points alone, which a run that ends early leaves behind: the mesh may
+     * be that of the next step already.
+     */
+    void
+    write_points(const double t);
+
+    /** @throw ComputationError naming the point that the step pushes out. */
+    void
+    check_that_points_stay(const TimeControl &time, const LA::Vector &x);
 
     void
     print_step(const TimeControl &time, const NewtonReport &report);
@@ -132,11 +161,15 @@ namespace moraine
     std::unique_ptr<Probes<dim>>                 probes;
     std::vector<std::string>                     effects;
 
+    /** Of points: those of cells come first, then those of files and grids. */
+    unsigned int first_free_id = 0;
+
     std::optional<OutputDirectory>      directory;
     std::optional<History>              history;
     std::optional<PvdHistory>           points_pvd;
     std::optional<PvdHistory>           mesh_pvd;
     unsigned int                        n_vtu_written = 0;
+    double                              t_written     = 0;
     std::vector<BoundaryReport<dim>>    reports;
     std::vector<dealii::Tensor<1, dim>> last_increments;
     unsigned int                        newton_iterations = 0;

@@ -67,8 +67,8 @@ namespace moraine
 
   /**
    * Solves K dx = r by a factorisation or by a preconditioned Krylov method.
-   * What set_up() builds is kept until the next set_up(), so that many right
-   * hand sides can be solved with it.
+   * What set_up() builds is kept until the next set_up() or clear(), so that
+   * many right hand sides can be solved with it.
    *
    * Failures (a singular matrix, no convergence) are reported, not thrown: the
    * residual is always recomputed from the solution, and an answer that is not
@@ -78,7 +78,7 @@ namespace moraine
   {
   public:
     /**
-     * @param dim 2 or 3; only chooses the limit of auto.
+     * @p dim, 2 or 3, only chooses the limit of auto.
      */
     LinearSolver(const LinearSolverParameters &parameters,
                  const unsigned int            dim);
@@ -87,10 +87,11 @@ namespace moraine
 
     /**
      * Factorise @p matrix or build its preconditioner. The matrix must live
-     * until the next set_up().
+     * until the next set_up() or clear(): what Amesos and ML build refers to
+     * it, even while they are destroyed.
      *
-     * @param near_null_space Rigid-body modes for algebraic multigrid; may be
-     * empty.
+     * The rigid-body modes @p near_null_space are for algebraic multigrid; they
+     * may be empty.
      */
     void
     set_up(const LA::SparseMatrix        &matrix,
@@ -103,6 +104,10 @@ namespace moraine
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
+
+    /** Forget what set_up() built; the matrix may go or change its pattern. */
+    void
+    clear();
 
     /**
      * How many times set_up() was called.

@@ -17,7 +17,11 @@ namespace moraine
    */
   struct NewtonParameters
   {
-    /** Norm of the residual over NonlinearSystem::force_scale(). */
+    /**
+     * Norm of the residual over NonlinearSystem::force_scale(). A residual
+     * within round-off of the forces at the start of the step is always good
+     * enough: a rigid motion ends without any force to compare with.
+     */
     double tolerance = 1e-9;
 
     /** A residual norm (force) below this is zero whatever the scale. */

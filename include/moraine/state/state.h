@@ -91,7 +91,7 @@ namespace moraine
   class State
   {
   public:
-    /** @param materials the material of each body. */
+    /** @p materials holds the material of each body. */
     State(GridSpace<dim>                              &space,
           PointSet<dim>                               &points,
           Basis<dim>                                  &basis,

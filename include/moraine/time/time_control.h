@@ -75,8 +75,8 @@ namespace moraine
   {
   public:
     /**
-     * @param stops Times within the interval that are to be hit exactly, in
-     * any order; others are ignored.
+     * Times in @p stops that lie within the interval are hit exactly, in any
+     * order; others are ignored.
      */
     explicit TimeControl(const TimeParameters      &parameters,
                          const std::vector<double> &stops = {});

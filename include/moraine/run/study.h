@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_study_h
+#define moraine_run_study_h
+
+#include <moraine/core/console.h>
+#include <moraine/core/input_file.h>
+#include <moraine/output/summary.h>
+#include <moraine/run/study_expansion.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <mpi.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** Section `Study`; a run does not look at it. */
+  struct StudyParameters
+  {
+    std::string error;
+    std::string reference_value;
+    std::string group_by;
+    std::string title;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /**
+   * The cases of a study: every combination of the choices in the scene, for
+   * every series of section `Study/Series` if there are any. The choice of the
+   * series comes first, with the path "Series".
+   *
+   * @throw InputError for mistakes in the choices or in a series.
+   */
+  std::vector<StudyCase>
+  study_cases(const InputFile &input);
+
+  /** One row of a study. */
+  struct StudyResult
+  {
+    StudyCase             study_case;
+    Summary               summary;
+    std::optional<double> error; ///< the one that is plotted
+  };
+
+  /**
+   * Runs the cases of a study one after the other in this process and keeps,
+   * in the output folder, study.csv (rewritten after each case), and at the end
+   * study.gp and study.png, error against wall time.
+   *
+   * A case that fails is a row whose status says so. Peak memory is that of
+   * the case where the system lets us reset it, and else of all so far. A short
+   * first case is run twice, because the first run of a process takes longer.
+   */
+  class Study
+  {
+  public:
+    /**
+     * Read all cases.
+     * @throw InputError for a mistake in the text of any of them, or if the
+     * folder holds a study and @p overwrite is not set.
+     */
+    Study(const InputFile   &input,
+          const std::string &folder,
+          const bool         overwrite,
+          const MPI_Comm    &communicator,
+          Console           &console);
+
+    /** @return an exit code: that of the case that went worst. */
+    int
+    run();
+
+  private:
+    void
+    run_case(const StudyCase &study_case);
+
+    std::optional<double>
+    error_of(const Summary &summary) const;
+
+    void
+    write_csv() const;
+
+    void
+    print_table() const;
+
+    void
+    plot() const;
+
+    /** Curves of the plot: name, and rows sorted by time. */
+    std::vector<std::pair<std::string, std::vector<const StudyResult *>>>
+    curves() const;
+
+    std::string              folder;
+    MPI_Comm                 communicator;
+    Console                 &console;
+    StudyParameters          parameters;
+    std::vector<StudyCase>   cases;
+    std::vector<StudyResult> results;
+  };
+} // namespace moraine
+
+#endif

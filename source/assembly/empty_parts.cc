@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// The part of MechanicsSystem that stiffens what points leave empty.
+
+#include <moraine/assembly/mechanics_system.h>
+
+#include <moraine/mesh/active_search.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::find_empty_parts()
+  {
+    empty_volume.clear();
+    if (empty_stiffness == 0)
+      return;
+    const auto         &tria = state.grid().mesh().triangulation();
+    std::vector<double> filled(tria.n_active_cells(), 0.);
+    for (const auto &in_cell : state.material_points().cells())
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        filled[in_cell.cell->active_cell_index()] +=
+          state.material_points().volume(p);
+    for (const auto &cell : tria.active_cell_iterators())
+      if (cell->is_locally_owned() && state.grid().is_active(cell))
+        {
+          const double volume = cell->measure();
+          const double empty  = volume - filled[cell->active_cell_index()];
+          // Round-off in a full cell is not a part of it.
+          if (empty > 1e-12 * volume)
+            empty_volume.emplace_back(cell, empty);
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_empty_parts(const bool tangent)
+  {
+    const GridSpace<dim>       &space   = state.grid();
+    const unsigned int          n_nodes = space.nodes_per_cell();
+    const QGauss<dim>           quadrature(space.degree() + 1);
+    std::vector<double>         N(n_nodes);
+    std::vector<Tensor<1, dim>> grad_N(n_nodes);
+    LocalSystem<dim>            local;
+    for (const auto &[cell, empty] : empty_volume)
+      {
+        const unsigned int  index = cell->active_cell_index();
+        const LameConstants C =
+          state.material(body_of_cell[index]).elastic_stiffness();
+        local.reinit(state, space.cell_nodes(cell), n_nodes, true);
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            const Point<dim> x =
+              space.mesh().mapping().transform_unit_to_real_cell(
+                cell, quadrature.point(q));
+            evaluate_shapes(space, index, x, N.data(), grad_N.data());
+            const double v = empty_stiffness * empty * quadrature.weight(q);
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              for (unsigned int b = 0; b < n_nodes; ++b)
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    local.matrix(dim * a + i, dim * b + j) +=
+                      v * (C.lambda * grad_N[a][i] * grad_N[b][j] +
+                           C.mu * grad_N[a][j] * grad_N[b][i] +
+                           (i == j ? C.mu * (grad_N[a] * grad_N[b]) : 0.));
+          }
+        for (unsigned int r = 0; r < dim * n_nodes; ++r)
+          for (unsigned int b = 0; b < n_nodes; ++b)
+            for (unsigned int j = 0; j < dim; ++j)
+              local.force[r] -=
+                local.matrix(r, dim * b + j) * local.nodal_increments[b][j];
+        add_to_system(local, tangent);
+      }
+  }
+
+
+
+  template void
+  MechanicsSystem<2>::find_empty_parts();
+  template void
+  MechanicsSystem<3>::find_empty_parts();
+  template void
+  MechanicsSystem<2>::assemble_empty_parts(const bool);
+  template void
+  MechanicsSystem<3>::assemble_empty_parts(const bool);
+} // namespace moraine

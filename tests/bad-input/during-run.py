@@ -1,0 +1,81 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Faults that show only while a scene runs, and Ctrl-C."""
+
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+
+scene = "tests/bad-input/base.prm"
+
+
+def message(output):
+    lines = [line.strip() for line in output.splitlines()
+             if line.startswith("moraine: ") or "ended early" in line]
+    # Which of several places comes first depends on the ranks.
+    return re.sub(r"is -?nan, (.*) at \([^()]*\)", r"is nan, \1 at (...)",
+                  " | ".join(lines).replace(str(folder) + "/", ""))
+
+
+def show(name, result):
+    text(name, message(result.output))
+    text("  status", result.summary.get("status"))
+    rows = len((result.folder / "history.csv").read_text().splitlines()) - 1
+    text("  rows in history.csv", rows)
+    text("  steps in summary.json", result.summary.get("steps"))
+    points = sorted(p.name for p in result.folder.glob("points/*"))
+    text("  last file of points", points[-1])
+    pvd = (result.folder / "points.pvd").read_text()
+    text("  points.pvd", "names all" if all(p in pvd for p in points) else "NO")
+
+
+show("motion that is no number at t = 0.5",
+     run(scene, {"Boundaries/left/Translation": "0.001/(t-0.5); 0"}, expect=2))
+show("displacement that is no number at a place", run(
+    scene, {"Boundaries/left/Displacement": "0; 0.001*t*log(3-t*y)"}, expect=2))
+show("load that is no number", run(
+    scene, {"Loads/weight/Value": "0; sqrt(0.6-t)"}, expect=2))
+show("point that leaves the mesh", run(
+    scene, {"Boundaries/left/Translation": "0; -0.8*t",
+            "Loads/weight/Value": "0; 0"}, expect=1))
+show("the same, written at the end only", run(
+    scene, {"Boundaries/left/Translation": "0; -0.8*t",
+            "Loads/weight/Value": "0; 0", "Output/Write": "end"}, expect=1))
+
+# Ctrl-C: every rank gets it on a terminal; here one rank does.
+out = folder / "interrupted"
+words = [str(program), "run", str(root / scene), "--output", str(out),
+         "--set", "Time/Steps = 100000", "--set", "Output/Every = 1000000"]
+if ranks > 1:
+    words = ["mpirun", "-n", str(ranks)] + words
+process = subprocess.Popen(words, stdout=subprocess.PIPE,
+                           stderr=subprocess.STDOUT, text=True, cwd=folder)
+history = out / "history.csv"
+for _ in range(600):
+    if history.exists() and history.read_text().count("\n") > 3:
+        break
+    time.sleep(0.1)
+victim = process.pid
+if ranks > 1:
+    children = f"/proc/{victim}/task/{victim}/children"
+    victim = int(open(children).read().split()[-1])
+os.kill(victim, signal.SIGINT)
+output = process.communicate(timeout=120)[0]
+text("Ctrl-C: exit code", process.returncode)
+text("  message", message(output))
+summary = json.loads((out / "summary.json").read_text())
+text("  status", summary["status"])
+with open(history) as file:
+    rows = list(csv.DictReader(file))
+whole = all(None not in row.values() for row in rows)
+text("  history.csv", "one whole row for each step"
+     if whole and len(rows) == summary["steps"] else "NO")
+points = sorted(p.name for p in out.glob("points/*"))
+text("  files of points", ", ".join(points))
+text("  log.txt", "ends as the terminal" if "ended early" in
+     (out / "log.txt").read_text() else "NO")

@@ -1,0 +1,84 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Keys and values that are wrong in the text: each has its message."""
+
+base = (root / "tests/bad-input/base.prm").read_text()
+
+
+def refused(name, scene=base, settings=None):
+    """Exit code 2, one message on stderr, no folder made."""
+    file = folder / "scene.prm"
+    file.write_text(scene)
+    result = run(file, settings, expect=2)
+    lines = [line for line in result.output.splitlines() if line.strip()]
+    text(name, " | ".join(lines).replace(str(folder) + "/", ""))
+    if result.folder.exists():
+        text(name, "NO, a folder was made")
+
+
+def with_line(line, section="Mesh"):
+    return base.replace(f"subsection {section}\n", f"subsection {section}\n  {line}\n", 1)
+
+
+def without(key):
+    return "".join(line for line in base.splitlines(True) if f"set {key} " not in line)
+
+
+refused("unknown key", with_line("set Colour = red"))
+refused("misspelt key", base.replace("Poisson ratio", "Poison ratio"))
+refused("misspelt section", base.replace("subsection Method", "subsection Metod"))
+refused("unknown section", base + "subsection Weather\n  set Rain = 1\nend\n")
+refused("key of another section", with_line("set Steps = 3"))
+refused("key set twice", with_line("set Cell size = 2"))
+refused("missing key", without("Young modulus"))
+refused("missing corner", without("Upper corner"))
+refused("missing end", base[:base.rindex("end")])
+refused("not a statement", base + "Steps = 3\n")
+refused("unknown override", settings={"Mesh/Cel size": 2})
+
+refused("text for a number", settings={"Mesh/Cell size": "small"})
+refused("nan", settings={"Materials/soil/Young modulus": "nan"})
+refused("infinity", settings={"Materials/soil/Young modulus": "inf"})
+refused("nan in a list", settings={"Bodies/block/Lower corner": "0.5, nan"})
+refused("nan in a surface", settings={"Boundaries/left/Points": "0.5 4.5; nan 0.5"})
+refused("zero cell size", settings={"Mesh/Cell size": 0})
+refused("negative cell size", settings={"Mesh/Cell size": -1})
+refused("cell size that does not fit", settings={"Mesh/Cell size": 3})
+refused("corners swapped", settings={"Mesh/Upper corner": "-8, 8"})
+refused("box of no size", settings={"Bodies/block/Upper corner": "0.5, 4.5"})
+refused("negative radius", settings={
+    "Bodies/disc/Shape": "disc", "Bodies/disc/Centre": "6, 6",
+    "Bodies/disc/Radius": -1})
+refused("zero points per direction", settings={"Method/Points per direction": 0})
+refused("negative points per direction", settings={"Method/Points per direction": -2})
+refused("half a point", settings={"Method/Points per direction": 2.5})
+refused("zero modulus", settings={"Materials/soil/Young modulus": 0})
+refused("negative modulus", settings={"Materials/soil/Young modulus": -5})
+refused("Poisson ratio 0.5", settings={"Materials/soil/Poisson ratio": 0.5})
+refused("Poisson ratio 0.7", settings={"Materials/soil/Poisson ratio": 0.7})
+refused("zero steps", settings={"Time/Steps": 0})
+refused("end before start", settings={"Time/End time": -1})
+refused("zero Nitsche factor", settings={"Boundaries/left/Nitsche factor": 0})
+refused("dimension 4", settings={"Dimension": 4})
+
+refused("unknown material", settings={"Bodies/block/Material": "sol"})
+refused("unknown method", settings={"Method/Method": "finite elment"})
+refused("unknown model", settings={"Materials/soil/Model": "plastic"})
+refused("unknown shape", settings={"Bodies/block/Shape": "bx"})
+refused("unknown surface", settings={"Boundaries/left/Surface": "line"})
+refused("unknown constraint", settings={"Boundaries/left/Constraint": "rollr"})
+refused("unknown enforcement", settings={"Boundaries/left/Enforcement": "glue"})
+refused("unknown side", settings={"Grid conditions/a/Side": "lef"})
+refused("unknown body of a load", settings={"Loads/weight/Bodies": "blok"})
+refused("unknown load", settings={"Loads/weight/Type": "wind"})
+refused("unknown solver", settings={"Solver/Solver": "magic"})
+refused("not an expression", settings={"Loads/weight/Value": "0; -1*"})
+refused("unknown variable", settings={"Loads/weight/Value": "0; -g"})
+refused("too few components", settings={"Loads/weight/Value": "-1"})
+refused("GIMP of degree 2",
+        settings={"Method/Method": "GIMP", "Method/Degree": 2})
+refused("GIMP on a mesh that moves",
+        settings={"Method/Method": "GIMP",
+                  "Method/Mesh after step": "follow material"})
+refused("a choice in a run", settings={"Mesh/Cell size": "{{1|2}}"})

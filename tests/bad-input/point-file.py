@@ -1,0 +1,34 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Rows of a point file that are wrong are named by their line."""
+
+good = "x,y,volume\n1.25,1.25,0.25\n1.75,1.25,0.25\n"
+
+
+def refused(name, content):
+    file = folder / "points.csv"
+    if content is None:
+        file.unlink(missing_ok=True)
+    else:
+        file.write_text(content)
+    result = run("tests/bad-input/base.prm", {
+        "Bodies/block/Shape": "points-from-file",
+        "Bodies/block/Lower corner": "", "Bodies/block/Upper corner": "",
+        "Bodies/block/Point file": file}, expect=2)
+    lines = [line for line in result.output.splitlines() if line.strip()]
+    text(name, " | ".join(lines).replace(str(folder) + "/", ""))
+    if result.folder.exists():
+        text(name, "NO, a folder was made")
+
+
+refused("no file", None)
+refused("no points", "x,y,volume\n")
+refused("wrong header", good.replace("volume", "mass"))
+refused("text for a number", good + "two,1.25,0.25\n")
+refused("nan", good + "nan,1.25,0.25\n")
+refused("a value too few", good + "2.25,1.25\n")
+refused("negative volume", good + "2.25,1.25,-0.25\n")
+refused("zero volume", good + "2.25,1.25,0\n")
+refused("outside the mesh", good + "20,1.25,0.25\n")
+refused("outside the mesh, after an empty line", good + "\n20,1.25,0.25\n")

@@ -1,0 +1,53 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Scenes whose parts do not fit together: each has its message."""
+
+scene = "tests/bad-input/base.prm"
+
+
+def refused(name, settings, command="run"):
+    result = run(scene, settings, expect=2, command=command)
+    lines = [line for line in result.output.splitlines() if line.strip()]
+    text(name, " | ".join(lines).replace(str(folder) + "/", ""))
+    if result.folder.exists():
+        text(name, "NO, a folder was made")
+
+
+block = "Bodies/block/"
+refused("body outside", {block + "Lower corner": "10, 10",
+                         block + "Upper corner": "12, 12"})
+refused("body partly outside", {block + "Upper corner": "10.5, 4.5"})
+refused("turned body partly outside", {block + "Rotation angle": 30})
+refused("disc partly outside", {
+    "Bodies/disc/Shape": "disc", "Bodies/disc/Centre": "6.5, 6.5",
+    "Bodies/disc/Radius": 2})
+refused("empty body", {"Bodies/none/Shape": "expression",
+                       "Bodies/none/Expression": "-1-x^2"})
+refused("bodies overlap", {
+    "Bodies/second/Shape": "box", "Bodies/second/Lower corner": "4.25, 1",
+    "Bodies/second/Upper corner": "6, 2"})
+refused("first and third overlap", {
+    "Bodies/b/Shape": "box", "Bodies/b/Lower corner": "4.5, 4.5",
+    "Bodies/b/Upper corner": "5, 5",
+    "Bodies/c/Shape": "box", "Bodies/c/Lower corner": "4.25, 4",
+    "Bodies/c/Upper corner": "5, 4.4"})
+refused("boundary away from all bodies",
+        {"Boundaries/far/Points": "7 1; 7 4"})
+refused("boundary outside the mesh",
+        {"Boundaries/far/Points": "20 1; 20 4"})
+refused("free to move", {"Boundaries/left/Constraint": "roller"})
+refused("free to move, both ways", {
+    "Boundaries/left/Constraint": "components",
+    "Boundaries/left/Components": "y"})
+refused("free to rotate", {
+    "Bodies/block/Shape": "disc", "Bodies/block/Centre": "4, 4",
+    "Bodies/block/Radius": "2", "Bodies/block/Lower corner": "",
+    "Bodies/block/Upper corner": "",
+    "Boundaries/left/Surface": "circle", "Boundaries/left/Points": "",
+    "Boundaries/left/Centre": "4, 4", "Boundaries/left/Radius": 2,
+    "Boundaries/left/Body side": "inside",
+    "Boundaries/left/Constraint": "roller"})
+refused("second body not held", {
+    "Bodies/lost/Shape": "box", "Bodies/lost/Lower corner": "6, 6",
+    "Bodies/lost/Upper corner": "7.5, 7.5"})

@@ -1,0 +1,90 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Studies, shortened: rows, errors, the table, the plot and what fails."""
+
+import csv
+
+
+def study(scene, settings, expect=0):
+    result = run(scene, settings, command="study", expect=expect)
+    with open(result.folder / "study.csv") as file:
+        result.rows = list(csv.DictReader(file))
+    return result
+
+
+def show(result, *columns):
+    for row in result.rows:
+        text("  row", ", ".join(row[c] for c in columns))
+
+
+beam = study("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "{{20|10}}"})
+text("fe-mpm, rows", len(beam.rows))
+show(beam, "Series", "Mesh/Cell size", "status", "unknowns", "points")
+error = {(row["Series"], row["Mesh/Cell size"]): float(row["error"])
+         for row in beam.rows}
+for series in ("FE Q1", "FE Q2", "MPM 4x4", "GIMP 4x4"):
+    number(f"error of {series}, h = 10", error[series, "10"], 4)
+at_least("error of FE Q1 over that of FE Q2",
+         error["FE Q1", "10"] / error["FE Q2", "10"], 3)
+text("seconds are positive", all(float(row["wall_seconds"]) > 0 and
+                                 float(row["seconds in assembly"]) > 0
+                                 for row in beam.rows))
+text("memory is there", all(1 < float(row["peak_memory_mib"]) < 4096
+                            for row in beam.rows))
+picture = (beam.folder / "study.png").read_bytes()
+text("picture", "PNG" if picture[1:4] == b"PNG" and len(picture) > 10000
+     else "NO")
+script = (beam.folder / "study.gp").read_text()
+for line in ("set xlabel", "set ylabel", "set title", "set logscale"):
+    text("plot", next(l for l in script.splitlines() if l.startswith(line)))
+text("curves", script.count(" with linespoints"))
+table = [line for line in beam.output.splitlines() if line.startswith("|")]
+text("table", f"{len(table)} lines, {' '.join(table[0].split())}")
+
+again = run("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "20"}, command="study",
+            extra=["--output", str(beam.folder)], expect=2)
+text("not written over", [l for l in again.output.splitlines() if l][-1]
+     .replace(str(folder) + "/", ""))
+
+block = study("prm/studies/enforcement.prm", {"Mesh/Cell size": "10"})
+show(block, "Series", "status", "unknowns", "points")
+for row in block.rows:
+    if row["Series"] in ("skew Nitsche 10", "symmetric Nitsche 20"):
+        bound(f"r_u of {row['Series']}", float(row["error"]), 1e-10)
+
+ring = study("prm/studies/enforcement-ring.prm", {"Mesh/Cell size": "0.115"})
+cantilever = study("prm/studies/enforcement-cantilever.prm",
+                   {"Mesh/Cell size": "4"})
+for name, result in (("ring", ring), ("cantilever", cantilever)):
+    error = {row["Series"]: float(row["error"]) for row in result.rows}
+    text(f"{name}, rows", len(result.rows))
+    number(f"{name}, skew Nitsche", error["skew Nitsche 10"], 3)
+    at_least(f"{name}, weighted 1e-6 over skew Nitsche",
+             error["weighted 1e-6"] / error["skew Nitsche 10"], 3)
+
+solvers = study("prm/studies/solvers.prm", {"Mesh/Cell size": "5"})
+show(solvers, "Series", "status", "unknowns")
+number("linear iterations are counted: 1 or more", float(
+    int(solvers.rows[1]["linear_iterations"]) > 0), 1)
+bound("direct and amg-cg differ by", float(solvers.rows[0]["error"]) -
+      float(solvers.rows[1]["error"]), 1e-6)
+
+failing = study("prm/studies/solvers.prm",
+                {"Mesh/Cell size": "2.5", "Solver/Maximum linear iterations": 1,
+                 "Time/Smallest step": 0.5}, expect=1)
+show(failing, "Series", "status")
+wrong = study("prm/studies/solvers.prm",
+              {"Mesh/Cell size": "5", "Bodies/beam/Upper corner":
+               "{{100|200}}, 100"}, expect=2)
+show(wrong, "Series", "Bodies/beam/Upper corner", "status", "message")
+for settings in ({"Study/Error": "probe u_z at corner"},
+                 {"Study/Group by": "Cel size"},
+                 {"Study/Reference value": "0"},
+                 {"Method/Degree": "{{1|3}}"},
+                 {"Study/Series/direct/Settings": "Solver/Slover = direct"},
+                 {"Boundaries/*/Enforcement": "penalty"}):
+    result = run("prm/studies/solvers.prm",
+                 {"Mesh/Cell size": "10", **settings}, command="study", expect=2)
+    text("wrong", [l for l in result.output.splitlines()
+                   if l.startswith("moraine: ")][0].replace(str(root) + "/", ""))
