@@ -11,6 +11,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
