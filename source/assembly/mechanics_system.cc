@@ -103,11 +103,15 @@ namespace moraine
       prescribed = find_prescribed_nodes(conditions, space, t_start);
     make_constraints();
 
-    LA::SparsityPattern                  pattern(space.locally_owned(),
+    // deal.II takes the row range of a rank without rows for a huge one.
+    const unsigned int  n_per_row = space.locally_owned().n_elements() == 0 ?
+                                      0 :
+                                      Utilities::pow(3, dim) * dim;
+    LA::SparsityPattern pattern(space.locally_owned(),
                                 space.locally_owned(),
                                 space.locally_relevant(),
                                 space.communicator(),
-                                Utilities::pow(3, dim) * dim);
+                                n_per_row);
     std::vector<types::global_dof_index> dofs;
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
       dofs.clear();
