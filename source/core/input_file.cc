@@ -301,9 +301,9 @@ namespace moraine
           {
             const std::string name = Utilities::trim(statement.substr(10));
             if (name.empty() || name.find_first_of("/.") != std::string::npos)
-              throw InputError(lines[i].origin + ": " + in_section(before) +
-                               "found '" + statement +
-                               "'; a subsection needs a name without '/' and '.'");
+              throw InputError(
+                lines[i].origin + ": " + in_section(before) + "found '" +
+                statement + "'; a subsection needs a name without '/' and '.'");
             open_sections.push_back({join(before, name), lines[i].origin});
             if (std::none_of(sections.begin(),
                              sections.end(),
