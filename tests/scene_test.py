@@ -63,7 +63,7 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     words = [str(program), command, str(root / scene)]
     n = on_ranks or ranks
     if n > 1:
-        words = ["mpirun", "-n", str(n)] + words
+        words = ["mpirun", "-q", "-n", str(n)] + words
     if command in ("run", "study"):
         words += ["--output", str(folder)]
     for key, value in (settings or {}).items():

@@ -43,8 +43,7 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_empty_parts(const bool  tangent,
-                                             LA::Vector &force)
+  MechanicsSystem<dim>::assemble_empty_parts(const bool tangent)
   {
     const GridSpace<dim>       &space   = state.grid();
     const unsigned int          n_nodes = space.nodes_per_cell();
@@ -79,7 +78,7 @@ namespace moraine
             for (unsigned int j = 0; j < dim; ++j)
               local.force[r] -=
                 local.matrix(r, dim * b + j) * local.nodal_increments[b][j];
-        add_to_system(local, tangent, force);
+        add_to_system(local, tangent);
       }
   }
 
@@ -90,7 +89,7 @@ namespace moraine
   template void
   MechanicsSystem<3>::find_empty_parts();
   template void
-  MechanicsSystem<2>::assemble_empty_parts(const bool, LA::Vector &);
+  MechanicsSystem<2>::assemble_empty_parts(const bool);
   template void
-  MechanicsSystem<3>::assemble_empty_parts(const bool, LA::Vector &);
+  MechanicsSystem<3>::assemble_empty_parts(const bool);
 } // namespace moraine

@@ -97,9 +97,9 @@ namespace moraine
   MechanicsSystem<dim>::assemble_external_forces()
   {
     const GridSpace<dim> &space = state.grid();
-    LA::Vector            force = state.grid().writable_vector();
     LocalSystem<dim>      local;
     local_scale = 0;
+    node_forces.assign(space.n_nodes(), Tensor<1, dim>());
     if (!loads.body_forces.empty())
       {
         StencilBlock<dim> block;
@@ -108,7 +108,7 @@ namespace moraine
             state.point_basis().evaluate(g, block);
             local.reinit(state, block.nodes, block.n_nodes, false);
             add_body_forces(state, loads.body_forces, t_target, block, local);
-            add_to_system(local, false, force);
+            add_to_system(local, false);
           }
       }
     for (const auto &load : loads.side_tractions)
@@ -125,7 +125,7 @@ namespace moraine
               add_side_traction<dim, 1>(state, load, t_target, cell, local);
             else
               add_side_traction<dim, 2>(state, load, t_target, cell, local);
-            add_to_system(local, false, force);
+            add_to_system(local, false);
           }
     std::vector<double>         N(space.nodes_per_cell());
     std::vector<Tensor<1, dim>> grad_N(space.nodes_per_cell());
@@ -143,10 +143,9 @@ namespace moraine
             for (unsigned int a = 0; a < N.size(); ++a)
               for (unsigned int i = 0; i < dim; ++i)
                 local.force[dim * a + i] += place.weight * N[a] * value[i];
-            add_to_system(local, false, force);
+            add_to_system(local, false);
           }
-    force.compress(VectorOperation::add);
-    external       = force;
+    space.sum_node_values(node_forces, external);
     external_scale = Utilities::MPI::sum(local_scale, space.communicator());
   }
 
@@ -154,7 +153,7 @@ namespace moraine
 
   template <int dim>
   std::vector<BoundaryReport<dim>>
-  MechanicsSystem<dim>::report_grid_conditions()
+  MechanicsSystem<dim>::report_grid_conditions(const LA::Vector &x)
   {
     std::vector<BoundaryReport<dim>> reports;
     for (const auto &condition : conditions)
@@ -162,20 +161,11 @@ namespace moraine
     if (conditions.empty())
       return reports;
 
-    // The force that is missing at the prescribed unknowns, from the loops that
-    // make the residual but without condensing them.
-    AffineConstraints<double> no_constraints;
-    no_constraints.close();
-    std::swap(constraints, no_constraints);
-    LA::Vector force = state.grid().writable_vector();
-    assemble_points(false, force);
-    assemble_boundaries(false, force);
-    force.compress(VectorOperation::add);
-    LA::Vector unbalanced = state.grid().vector();
-    unbalanced            = force;
-    assemble_external_forces();
-    unbalanced += external;
-    std::swap(constraints, no_constraints);
+    // The residual at x is known, unless x is not where Newton ended.
+    LA::Vector difference(x);
+    difference -= assembled_at;
+    if (!assembled || difference.linfty_norm() > 0)
+      assemble(x, false);
 
     for (const auto &entry : prescribed.entries)
       {
@@ -194,9 +184,9 @@ namespace moraine
   template void
   MechanicsSystem<2>::assemble_external_forces();
   template std::vector<BoundaryReport<2>>
-  MechanicsSystem<2>::report_grid_conditions();
+  MechanicsSystem<2>::report_grid_conditions(const LA::Vector &);
   template void
   MechanicsSystem<3>::assemble_external_forces();
   template std::vector<BoundaryReport<3>>
-  MechanicsSystem<3>::report_grid_conditions();
+  MechanicsSystem<3>::report_grid_conditions(const LA::Vector &);
 } // namespace moraine

@@ -103,15 +103,15 @@ namespace moraine
       prescribed = find_prescribed_nodes(conditions, space, t_start);
     make_constraints();
 
-    // deal.II takes the size of an empty range of rows for a negative number.
-    const unsigned int entries_per_row =
-      space.locally_owned().n_elements() == 0 ? 0 :
-                                                Utilities::pow(3, dim) * dim;
+    // deal.II 9.4 takes a rank without rows for one with too many of them,
+    // unless their length is zero (trilinos_sparsity_pattern.cc).
+    const unsigned int row_length =
+      space.locally_owned().n_elements() > 0 ? Utilities::pow(3, dim) * dim : 0;
     LA::SparsityPattern                  pattern(space.locally_owned(),
                                 space.locally_owned(),
                                 space.locally_relevant(),
                                 space.communicator(),
-                                entries_per_row);
+                                row_length);
     std::vector<types::global_dof_index> dofs;
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
       dofs.clear();
@@ -132,8 +132,9 @@ namespace moraine
       }
     pattern.compress();
     matrix.reinit(pattern);
-    residual_vector.reinit(space.locally_owned(), space.communicator());
-    external.reinit(space.locally_owned(), space.communicator());
+    for (LA::Vector *vector :
+         {&residual_vector, &external, &unbalanced, &assembled_at})
+      vector->reinit(space.locally_owned(), space.communicator());
     make_rigid_modes();
   }
 
@@ -158,7 +159,7 @@ namespace moraine
   {
     const GridSpace<dim> &space       = state.grid();
     constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
-    // Assigning to the old vectors kept their old distribution over the ranks.
+    // Assigned to, a Trilinos vector of the same size keeps the layout it has.
     rigid_modes.clear();
     rigid_modes.assign(dim + n_rotations,
                        LA::Vector(space.locally_owned(), space.communicator()));
@@ -191,6 +192,7 @@ namespace moraine
   MechanicsSystem<dim>::set_target(const double t_end)
   {
     t_target       = t_end;
+    assembled      = false;
     last_violation = std::numeric_limits<double>::max();
     for (auto &boundary : boundaries)
       boundary.set_target(t_end);
@@ -247,15 +249,17 @@ namespace moraine
   template <int dim>
   void
   MechanicsSystem<dim>::add_to_system(const LocalSystem<dim> &local,
-                                      const bool              tangent,
-                                      LA::Vector             &force)
+                                      const bool              tangent)
   {
-    local_scale += local.force.norm_sqr();
+    for (unsigned int a = 0; a < local.nodal_increments.size(); ++a)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double f = local.force[dim * a + c];
+          local_scale += f * f;
+          node_forces[local.nodes[a]][c] += f;
+        }
     if (tangent)
-      constraints.distribute_local_to_global(
-        local.matrix, local.force, local.dofs, matrix, force);
-    else
-      constraints.distribute_local_to_global(local.force, local.dofs, force);
+      constraints.distribute_local_to_global(local.matrix, local.dofs, matrix);
   }
 
 
@@ -266,18 +270,20 @@ namespace moraine
   {
     TimerOutput::Scope scope(timer, tangent ? "assembly" : "residual");
     state.set_trial(x);
-    LA::Vector force = state.grid().writable_vector();
+    assembled_at = x;
+    assembled    = true;
     if (tangent)
       matrix = 0;
     local_scale = 0;
-    assemble_points(tangent, force);
-    assemble_boundaries(tangent, force);
-    assemble_empty_parts(tangent, force);
+    node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    assemble_points(tangent);
+    assemble_boundaries(tangent);
+    assemble_empty_parts(tangent);
     if (tangent)
       matrix.compress(VectorOperation::add);
-    force.compress(VectorOperation::add);
-    residual_vector = force;
-    residual_vector += external;
+    state.grid().sum_node_values(node_forces, unbalanced);
+    unbalanced += external;
+    residual_vector = unbalanced;
     constraints.set_zero(residual_vector);
     scale =
       std::sqrt(Utilities::MPI::sum(local_scale, state.grid().communicator()) +
@@ -288,7 +294,7 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_points(const bool tangent, LA::Vector &force)
+  MechanicsSystem<dim>::assemble_points(const bool tangent)
   {
     StencilBlock<dim> block;
     LocalSystem<dim>  local;
@@ -299,7 +305,7 @@ namespace moraine
         local.reinit(state, block.nodes, block.n_nodes, tangent);
         for (const auto &term : point_terms)
           term->add(state, block, tangent, local);
-        add_to_system(local, tangent, force);
+        add_to_system(local, tangent);
       }
   }
 
@@ -332,8 +338,7 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_boundaries(const bool  tangent,
-                                            LA::Vector &force)
+  MechanicsSystem<dim>::assemble_boundaries(const bool tangent)
   {
     LocalSystem<dim>      local;
     const GridSpace<dim> &space = state.grid();
@@ -366,7 +371,7 @@ namespace moraine
                   tangent,
                   local);
               }
-            add_to_system(local, tangent, force);
+            add_to_system(local, tangent);
           }
       }
   }
@@ -472,6 +477,33 @@ namespace moraine
 
   template <int dim>
   double
+  MechanicsSystem<dim>::deepest_point(
+    const ImplicitBoundary<dim>       &boundary,
+    const std::vector<Tensor<1, dim>> &moves) const
+  {
+    const PointSet<dim> &points = state.material_points();
+    const double         range  = 2 * state.grid().mesh().cell_size();
+    const auto           place  = [&](const unsigned int p) {
+      return moves.empty() ? points.position(p) : points.position(p) + moves[p];
+    };
+    double deepest = 0;
+    for (const auto &in_cell : points.cells())
+      {
+        const Point<dim> centre = place(in_cell.first);
+        double           radius = range;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          radius = std::max(radius, range + centre.distance(place(p)));
+        if (!boundary.is_far(centre, radius))
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            deepest = std::max(deepest, boundary.penetration(place(p), range));
+      }
+    return deepest;
+  }
+
+
+
+  template <int dim>
+  double
   MechanicsSystem<dim>::worst_penetration_over_limit(const LA::Vector &x)
   {
     double worst = 0;
@@ -482,15 +514,11 @@ namespace moraine
     state.set_trial(x);
     const double h          = state.grid().mesh().cell_size();
     const auto   increments = state.point_increments();
-    for (unsigned int p = 0; p < increments.size(); ++p)
-      for (const auto &boundary : boundaries)
-        if (boundary.penetration_limit() > 0)
-          worst =
-            std::max(worst,
-                     boundary.penetration(state.material_points().position(p) +
-                                            increments[p],
-                                          2 * h) /
-                       (boundary.penetration_limit() * h));
+    for (const auto &boundary : boundaries)
+      if (boundary.penetration_limit() > 0)
+        worst = std::max(worst,
+                         deepest_point(boundary, increments) /
+                           (boundary.penetration_limit() * h));
     return Utilities::MPI::max(worst, state.grid().communicator());
   }
 
@@ -502,7 +530,7 @@ namespace moraine
   {
     state.set_trial(x);
     auto reports = report_boundaries();
-    for (const auto &report : report_grid_conditions())
+    for (const auto &report : report_grid_conditions(x))
       reports.push_back(report);
     for (auto &load : loads.carried)
       if (state.mesh_after_step() != MeshAfterStep::keep)
@@ -512,17 +540,9 @@ namespace moraine
       state.accept();
     }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
-      {
-        const double range = 2 * state.grid().mesh().cell_size();
-        for (unsigned int p = 0; p < state.material_points().n_local(); ++p)
-          reports[b].penetration =
-            std::max(reports[b].penetration,
-                     boundaries[b].penetration(
-                       state.material_points().position(p), range));
-        reports[b].penetration =
-          Utilities::MPI::max(reports[b].penetration,
-                              state.grid().communicator());
-      }
+      reports[b].penetration =
+        Utilities::MPI::max(deepest_point(boundaries[b], {}),
+                            state.grid().communicator());
     return reports;
   }
 

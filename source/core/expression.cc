@@ -307,9 +307,15 @@ namespace moraine
   {
     if (parser)
       {
+        if (t == last_time)
+          return last_value;
         const double result = parser->value(Point<1>(t));
         if (std::isfinite(result))
-          return result;
+          {
+            last_time  = t;
+            last_value = result;
+            return result;
+          }
         std::ostringstream message;
         message << origin << ": '" << curve_text << "' is " << result
                 << ", not a finite number, at t = " << t << ".";

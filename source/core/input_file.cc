@@ -300,10 +300,10 @@ namespace moraine
                  begins_with(statement, "SUBSECTION"))
           {
             const std::string name = Utilities::trim(statement.substr(10));
-            if (name.empty() || name.find('/') != std::string::npos)
-              throw InputError(lines[i].origin + ": " + in_section(before) +
-                               "found '" + statement +
-                               "'; a subsection needs a name without '/'");
+            if (name.empty() || name.find_first_of("/.") != std::string::npos)
+              throw InputError(
+                lines[i].origin + ": " + in_section(before) + "found '" +
+                statement + "'; a subsection needs a name without '/' and '.'");
             open_sections.push_back({join(before, name), lines[i].origin});
             if (std::none_of(sections.begin(),
                              sections.end(),
@@ -526,25 +526,31 @@ namespace moraine
     for (std::size_t at = value.find('$'); at != std::string::npos;
          at             = value.find('$', at))
       {
-        std::size_t end = at + 1;
-        while (end < value.size() && is_name(value[end]))
+                    std::size_t end = at + 1;
+                    while (end < value.size() && is_name(value[end]))
           ++end;
-        const std::string        name = value.substr(at + 1, end - at - 1);
-        const Entry             *constant = nullptr;
-        std::vector<std::string> known;
-        for (const Entry &other : found_entries)
-          if (other.section == constants_section)
-            {
-              known.push_back("$" + other.key);
-              if (other.key == name)
-                constant = &other;
-            }
+        const std::string        name     = value.substr(at + 1, end - at - 1);
+                    const Entry             *constant = nullptr;
+                    std::vector<std::string> known;
+                    for (const Entry &other : found_entries)
+          {
+                        // A constant sees those before it only, so none needs itself.
+            if (&other == &entry)
+              break;
+            if (other.section == constants_section)
+              {
+                            known.push_back("$" + other.key);
+                            if (other.key == name)
+                  constant = &other;
+              }
+          }
         if (constant == nullptr)
           throw InputError(entry.origin + ": " +
                            place(entry.section, entry.key) + ": found '$" +
                            name + "'" + suggest("$" + name, known));
-        value.replace(at, end - at, constant->value);
-        at += constant->value.size();
+        const std::string text = with_constants(*constant);
+                    value.replace(at, end - at, text);
+                    at += text.size();
       }
     return value;
   }

@@ -9,6 +9,8 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 
+#include <numeric>
+
 namespace moraine
 {
   using namespace dealii;
@@ -125,6 +127,14 @@ namespace moraine
     relevant.add_indices(relevant_dofs.begin(), relevant_dofs.end());
     relevant.add_indices(owned);
     relevant.compress();
+
+    ghosted.reinit(owned, relevant, communicator());
+    const auto &map = ghosted.trilinos_vector().Map();
+    ghosted_index.resize(dim * first_dof.size());
+    for (unsigned int node = 0; node < first_dof.size(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        ghosted_index[dim * node + c] = map.LID(
+          static_cast<TrilinosWrappers::types::int_type>(first_dof[node] + c));
   }
 
 
@@ -134,15 +144,32 @@ namespace moraine
   GridSpace<dim>::node_values(const LA::Vector            &vector,
                               std::vector<Tensor<1, dim>> &values) const
   {
-    LA::Vector ghosted(owned, relevant, communicator());
     ghosted = vector;
     values.resize(first_dof.size());
-    const auto   &map  = ghosted.trilinos_vector().Map();
     const double *data = ghosted.trilinos_vector()[0];
     for (unsigned int node = 0; node < first_dof.size(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
-        values[node][c] = data[map.LID(
-          static_cast<TrilinosWrappers::types::int_type>(first_dof[node] + c))];
+        values[node][c] = data[ghosted_index[dim * node + c]];
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::sum_node_values(const std::vector<Tensor<1, dim>> &values,
+                                  LA::Vector &vector) const
+  {
+    AssertDimension(values.size(), first_dof.size());
+    LA::Vector sums;
+    sums.reinit(owned, relevant, communicator(), true);
+    std::array<types::global_dof_index, dim> indices;
+    for (unsigned int node = 0; node < first_dof.size(); ++node)
+      {
+        std::iota(indices.begin(), indices.end(), first_dof[node]);
+        sums.add(dim, indices.data(), values[node].begin_raw());
+      }
+    sums.compress(VectorOperation::add);
+    vector = sums;
   }
 
 
@@ -152,17 +179,6 @@ namespace moraine
   GridSpace<dim>::vector() const
   {
     return LA::Vector(owned, communicator());
-  }
-
-
-
-  template <int dim>
-  LA::Vector
-  GridSpace<dim>::writable_vector() const
-  {
-    LA::Vector vector;
-    vector.reinit(owned, relevant, communicator(), true);
-    return vector;
   }
 
 

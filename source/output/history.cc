@@ -73,6 +73,6 @@ namespace moraine
     file << '\n' << std::flush;
     if (!file)
       throw InputError("cannot write the file " + path +
-                             ": is the folder there, is the disk full?");
+                       ": is the folder there, is the disk full?");
   }
 } // namespace moraine

@@ -3,9 +3,12 @@
 
 #include <moraine/points/seeding.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace moraine
@@ -77,6 +80,101 @@ namespace moraine
         volume *= box.side_length(d);
       return is_finite(box) ? volume : std::numeric_limits<double>::infinity();
     }
+
+    /** int (x - c) (x - c)^T dV, the sum over tetrahedra with one tip. */
+    SymmetricTensor<2, 3>
+    second_moments(const ConvexPolytope<3> &polytope, const Point<3> &c)
+    {
+      SymmetricTensor<2, 3> sum;
+      const Tensor<1, 3>    tip = polytope.vertices()[0] - c;
+      polytope.for_each_face([&](const ConvexPolytope<3>::PointList &loop) {
+        for (unsigned int i = 1; i + 1 < loop.size(); ++i)
+          {
+            const std::array<Tensor<1, 3>, 4> x{
+              {tip, loop[0] - c, loop[i] - c, loop[i + 1] - c}};
+            const double volume =
+              (x[1] - tip) * cross_product_3d(x[2] - tip, x[3] - tip) / 6.;
+            const Tensor<1, 3>    s       = x[0] + x[1] + x[2] + x[3];
+            SymmetricTensor<2, 3> squares = symmetrize(outer_product(s, s));
+            for (const auto &x_i : x)
+              squares += symmetrize(outer_product(x_i, x_i));
+            sum += volume / 20. * squares;
+          }
+      });
+      return sum;
+    }
+
+    /**
+     * Offsets from the centroid, in the reference cell, of three points of
+     * equal volume that have the mean products xy, yz and zx of the region:
+     * a triangle in the plane of the two larger principal axes, turned by
+     * @p angle. Only products of different coordinates count, so the smallest
+     * principal value may be taken off the squares.
+     */
+    std::array<Tensor<1, 3>, 3>
+    triangle(const SymmetricTensor<2, 3> &covariance, const double angle)
+    {
+      const auto                  principal = eigenvectors(covariance);
+      std::array<Tensor<1, 3>, 3> corners;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const double phi = angle + 2. * numbers::PI * k / 3.;
+          for (unsigned int i = 0; i < 2; ++i)
+            corners[k] +=
+              std::sqrt(2. *
+                        std::max(0., principal[i].first - principal[2].first)) *
+              (i == 0 ? std::cos(phi) : std::sin(phi)) * principal[i].second;
+        }
+      return corners;
+    }
+
+    /**
+     * The points that stand for a sub-cell cut by a straight-sided body. The
+     * centroid integrates linear functions, which the gradients of bilinear
+     * shape functions are. Those of trilinear ones hold products of two
+     * coordinates as well: three points integrate them, if they find room.
+     */
+    std::vector<Point<3>>
+    points_of_part(const ConvexPolytope<3>               &sub_cell,
+                   const ConvexPolytope<3>::CellVertices &cell,
+                   const Shape<3>                        &shape,
+                   const ClippedVolume<3>                &part)
+    {
+      SymmetricTensor<2, 3>       moments;
+      std::vector<SignedPiece<3>> pieces;
+      shape.add_pieces(sub_cell, 1., pieces);
+      for (const auto &piece : pieces)
+        if (!piece.polytope.empty())
+          moments += piece.sign * second_moments(piece.polytope, part.centroid);
+      Tensor<2, 3> jacobian;
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int i = 0; i < 3; ++i)
+          jacobian[i][d] = cell[1u << d][i] - cell[0][i];
+      const Tensor<2, 3>          inverse    = invert(jacobian);
+      const SymmetricTensor<2, 3> covariance = symmetrize(
+        inverse * Tensor<2, 3>(moments / part.volume) * transpose(inverse));
+
+      double product = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        product = std::max(product, std::abs(covariance[d][(d + 1) % 3]));
+      constexpr unsigned int n_angles = 12;
+      for (unsigned int n = 0;
+           n < n_angles && product > 1e-13 * trace(covariance);
+           ++n)
+        {
+          std::vector<Point<3>> points;
+          for (const auto &offset :
+               triangle(covariance, 2. * numbers::PI / 3. * n / n_angles))
+            {
+              const Point<3> x = part.centroid + jacobian * offset;
+              if (shape.contains(x) && sub_cell.pull_inside(x) == x)
+                points.push_back(x);
+            }
+          if (points.size() == 3)
+            return points;
+        }
+      return {part.centroid};
+    }
   } // namespace
 
 
@@ -110,6 +208,15 @@ namespace moraine
         lower.push_back(corner);
         lengths.push_back(length);
       }
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  CellSeeder<dim>::max_points() const
+  {
+    return (dim == 3 ? 3 : 1) * rule.size();
   }
 
 
@@ -182,9 +289,15 @@ namespace moraine
         const auto                part   = shape.clip(whole);
         const bool is_clipped            = part.volume < (1. - 1e-13) * volume;
         is_cut                           = is_cut || is_clipped;
-        if (part.volume > 1e-12 * std::min(volume, body_volume))
+        if (part.volume <= 1e-12 * std::min(volume, body_volume))
+          continue;
+        std::vector<Point<dim>> positions{part.centroid};
+        if constexpr (dim == 3)
+          if (is_clipped && shape.is_straight())
+            positions = points_of_part(whole, cell, shape, part);
+        for (const Point<dim> &x : positions)
           points.push_back(
-            {part.centroid, part.volume, lengths[q], is_clipped});
+            {x, part.volume / positions.size(), lengths[q], is_clipped});
       }
     if (!is_cut)
       {

@@ -25,6 +25,32 @@ namespace moraine
 
   namespace
   {
+    /** For failures alone, so that nothing else can meet its barrier. */
+    MPI_Comm failure_communicator = MPI_COMM_NULL;
+
+
+
+    /**
+     * Whether every rank comes here within some seconds. A rank that failed
+     * alone must not wait for the others, which wait for it elsewhere.
+     */
+    bool
+    all_ranks_fail()
+    {
+      MPI_Request request;
+      MPI_Ibarrier(failure_communicator, &request);
+      int arrived = 0;
+      for (unsigned int i = 0; i < 300 && arrived == 0; ++i)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+      return arrived != 0;
+    }
+
+
+
     const char *const usage =
       "moraine run FILE.prm [--set \"Section/Key = value\"] [--output DIR] "
       "[--overwrite]\n"
@@ -197,43 +223,32 @@ namespace moraine
         "unknown command '" + arguments.command + "'" +
         suggest(arguments.command, {"run", "check", "study", "parameters"}));
     }
-
-
-
-    /**
-     * Whether every rank comes here within some seconds. A rank that failed
-     * alone must not wait for the others, which wait for it elsewhere.
-     */
-    bool
-    all_ranks_arrive(const MPI_Comm &communicator)
-    {
-      MPI_Request request;
-      MPI_Ibarrier(communicator, &request);
-      int arrived = 0;
-      for (unsigned int i = 0; i < 300 && arrived == 0; ++i)
-        {
-          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-          if (arrived == 0)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-      return arrived != 0;
-    }
   } // namespace
+
+
+
+  void
+  end_if_alone(const ExitCode code, const std::string &what)
+  {
+    if (failure_communicator == MPI_COMM_NULL || all_ranks_fail())
+      return;
+    std::cerr << "moraine: " << what << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, code);
+  }
 
 
 
   int
   main_program(const std::vector<std::string> &arguments)
   {
-    const bool     root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const MPI_Comm for_failures =
-      Utilities::MPI::duplicate_communicator(MPI_COMM_WORLD);
-    const auto fail = [&](const ExitCode code, const std::string &what) {
-      const bool together = all_ranks_arrive(for_failures);
-      if (root || !together)
+    const bool root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (failure_communicator == MPI_COMM_NULL)
+      failure_communicator =
+        Utilities::MPI::duplicate_communicator(MPI_COMM_WORLD);
+    const auto fail = [root](const ExitCode code, const std::string &what) {
+      end_if_alone(code, what);
+      if (root)
         std::cerr << "moraine: " << what << std::endl;
-      if (!together)
-        MPI_Abort(MPI_COMM_WORLD, code);
       return code;
     };
     try

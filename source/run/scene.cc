@@ -78,6 +78,13 @@ namespace moraine
                       material,
                       "Name of its material; may be left out if there is one "
                       "only.");
+    prm.add_parameter("Point grid",
+                      point_grid,
+                      "Of a box: its points are the middles of this many equal "
+                      "parts in each direction of the box, turned and moved "
+                      "with it, whatever the cells of the mesh are. If left "
+                      "out, each cell is divided (section 'Method').",
+                      patterns::positive_integers(0, dim));
     shape.add_parameters(prm);
   }
 
@@ -392,6 +399,13 @@ namespace moraine
           input.require("Materials/" + material.first, key);
         make_material(material.second, "Materials/" + material.first);
       }
+    for (const auto &[name, body] : bodies)
+      if (!body.point_grid.empty() &&
+          (body.shape.shape != "box" || body.point_grid.size() != dim))
+        reject("Bodies/" + name,
+               "Point grid",
+               input.get("Bodies/" + name, "Point grid", ""),
+               std::to_string(dim) + " numbers, of a box");
     for (const auto &[name, body] : bodies)
       if (body.material.empty() ?
             materials.size() > 1 :

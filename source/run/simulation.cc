@@ -13,6 +13,7 @@
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
+#include <moraine/run/command_line.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -127,10 +128,21 @@ namespace moraine
             advance(time);
           }
       }
+    catch (const InputError &error)
+      {
+        end_if_alone(wrong_input, error.what());
+        throw;
+      }
     catch (const ComputationError &error)
       {
+        end_if_alone(not_converged, error.what());
         status  = "not converged";
         message = error.what();
+      }
+    catch (const std::exception &error)
+      {
+        end_if_alone(internal_error, error.what());
+        throw;
       }
 
     if (directory && t_written < time.time())

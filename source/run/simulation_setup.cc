@@ -210,13 +210,16 @@ namespace moraine
           if (body.material == material_name || scene.materials.size() == 1)
             materials.push_back(
               make_material(parameters, "Materials/" + material_name));
-        in_order.push_back(body.shape.is_point_file() ? nullptr :
-                                                        shapes.at(name));
+        in_order.push_back(body.is_seeded_by_cells() ? shapes.at(name) :
+                                                       nullptr);
       }
     seed(in_order);
-    for (unsigned int b = 0; b < body_names.size(); ++b)
-      if (!in_order[b])
-        insert_point_file(shape_parameters.at(body_names[b]).point_file, b);
+    for (const auto &[name, body] : scene.bodies)
+      for (unsigned int b = 0; b < body_names.size(); ++b)
+        if (name == body_names[b] && body.shape.is_point_file())
+          insert_point_file(body.shape.point_file, b);
+        else if (name == body_names[b] && !body.is_seeded_by_cells())
+          insert_point_grid(body, b);
     points->finish_insertion();
     check_bodies(in_order);
   }
@@ -235,7 +238,9 @@ namespace moraine
                                  fe || scene.method.point_layout == "Gauss" ?
                                    PointLayout::gauss :
                                    PointLayout::equal);
-    const unsigned int    n_sub = Utilities::pow(n_per_direction, dim);
+    const unsigned int    n_ids = seeder.max_points();
+    first_free_id =
+      mesh->triangulation().n_active_cells() * shapes.size() * n_ids;
 
     std::string                   overlap;
     std::vector<SeededPoint<dim>> seeded;
@@ -274,7 +279,7 @@ namespace moraine
                                mesh->mapping().transform_real_to_unit_cell(
                                  cell, seeded[i].position),
                                (cell->active_cell_index() * shapes.size() + b) *
-                                   n_sub +
+                                   n_ids +
                                  i,
                                b,
                                seeded[i].volume);
@@ -298,35 +303,84 @@ namespace moraine
                        ": found '" + file +
                        "', which cannot be read, allowed: the path of a CSV "
                        "file");
-    const auto                  content = PointFile<dim>::read(file);
+    const auto content = PointFile<dim>::read(file);
+    insert_points(content.positions,
+                  content.volumes,
+                  body,
+                  [&](const unsigned int i) {
+                    return file + ':' + std::to_string(content.lines[i]);
+                  });
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::insert_point_grid(const BodyParameters<dim> &parameters,
+                                     const unsigned int         body)
+  {
+    const std::string    section   = "Bodies/" + body_names[body];
+    const Placement<dim> placement = make_placement(parameters.shape, section);
+    const Point<dim>     lower  = to_point<dim>(parameters.shape.lower_corner,
+                                           place(section, "Lower corner"));
+    Tensor<1, dim>       length = to_point<dim>(parameters.shape.upper_corner,
+                                          place(section, "Upper corner")) -
+                            lower;
+    const auto  &n        = parameters.point_grid;
+    double       volume   = 1;
+    unsigned int n_points = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        length[d] /= n[d];
+        volume *= length[d];
+        n_points *= n[d];
+      }
+    std::vector<Point<dim>> positions;
+    for (unsigned int i = 0; i < n_points; ++i)
+      {
+        Point<dim>   x    = lower;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; rest /= n[d], ++d)
+          x[d] += (rest % n[d] + 0.5) * length[d];
+        positions.push_back(placement.apply(x));
+      }
+    insert_points(positions,
+                  std::vector<double>(n_points, volume),
+                  body,
+                  [&](const unsigned int) {
+                    return "section '" + section + "', key 'Point grid'";
+                  });
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::insert_points(
+    const std::vector<Point<dim>>                        &positions,
+    const std::vector<double>                            &volumes,
+    const unsigned int                                    body,
+    const std::function<std::string(const unsigned int)> &where)
+  {
     const GridTools::Cache<dim> cache(mesh->triangulation(), mesh->mapping());
-    const unsigned int          first_id =
-      mesh->triangulation().n_active_cells() * body_names.size() *
-      Utilities::pow(scene.method.points_per_direction, dim);
     typename Triangulation<dim>::active_cell_iterator hint;
-    for (unsigned int i = 0; i < content.positions.size(); ++i)
+    for (unsigned int i = 0; i < positions.size(); ++i)
       {
         const auto [cell, reference] =
-          GridTools::find_active_cell_around_point(cache,
-                                                   content.positions[i],
-                                                   hint);
+          GridTools::find_active_cell_around_point(cache, positions[i], hint);
         if (cell.state() != IteratorState::valid)
           {
             std::ostringstream message;
-            message << file << ':' << content.lines[i] << ": found a point at ("
-                    << content.positions[i]
+            message << where(i) << ": found a point at (" << positions[i]
                     << "), allowed: points inside the mesh";
             throw InputError(message.str());
           }
         hint = cell;
         if (cell->is_locally_owned())
-          points->insert(cell,
-                         content.positions[i],
-                         reference,
-                         first_id + i,
-                         body,
-                         content.volumes[i]);
+          points->insert(
+            cell, positions[i], reference, first_free_id + i, body, volumes[i]);
       }
+    first_free_id += positions.size();
   }
 
 
@@ -382,7 +436,7 @@ namespace moraine
     for (const std::string &name : body_names)
       for (const auto &[body_name, body] : scene.bodies)
         if (body_name == name)
-          is_seeded.push_back(!body.shape.is_point_file());
+          is_seeded.push_back(body.is_seeded_by_cells());
     if (scene.method.method == "GIMP")
       basis = std::make_unique<GimpBasis<dim>>(
         *space, *points, scene.method.points_per_direction, is_seeded);

@@ -478,9 +478,10 @@ namespace moraine
                         or_dash(ok, std::to_string(summary.linear_iterations)));
         table.add_value("status", summary.status);
       }
-    console << '\n';
-    table.write_text(console.stream(), TableHandler::org_mode_table);
+    std::ostringstream text;
+    table.write_text(text, TableHandler::org_mode_table);
     console << '\n'
+            << text.str() << '\n'
             << "  rows in " << (fs::path(folder) / "study.csv").string()
             << std::endl;
   }

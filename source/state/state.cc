@@ -64,34 +64,38 @@ namespace moraine
   void
   State<dim>::accept()
   {
-    StencilBlock<dim>                  block;
-    std::vector<Tensor<1, dim>>        nodal;
-    std::vector<SymmetricTensor<2, 3>> strain(1), stress(1);
+    StencilBlock<dim>           block;
+    std::vector<Tensor<1, dim>> nodal;
+    TrialStresses<dim>          trial_stresses;
     for (unsigned int g = 0; g < basis.n_groups(); ++g)
       {
         basis.evaluate(g, block);
         nodal.resize(block.n_nodes);
         for (unsigned int a = 0; a < block.n_nodes; ++a)
           nodal[a] = trial[block.nodes[a]];
+        for (unsigned int begin = 0, end = 0; begin < block.n_points;
+             begin = end)
+          {
+            end = end_of_body(block, begin);
+            const auto &stresses =
+              trial_stresses.evaluate(*this, block, begin, end, nodal.data());
+            for (unsigned int p = begin; p < end; ++p)
+              {
+                double *sigma =
+                  points.values(block.points[p]) + points.stress_offset();
+                for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+                  sigma[c] = stresses[p - begin].access_raw_entry(c);
+              }
+          }
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
-            const unsigned int point  = block.points[p];
-            double            *values = points.values(point);
-            double            *sigma  = values + points.stress_offset();
-
-            strain[0] =
-              strain_increment(nodal.data(), block.grad_N(p), block.n_nodes);
-            stress[0] = load_stress<dim>(sigma);
-            materials[points.body(point)]->update_stress(
-              make_array_view(strain), make_array_view(stress));
-            for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-              sigma[c] = stress[0].access_raw_entry(c);
-
+            const unsigned int point = block.points[p];
+            double *u = points.values(point) + points.displacement_offset();
             Tensor<1, dim> du;
             for (unsigned int a = 0; a < block.n_nodes; ++a)
               du += block.N(p)[a] * nodal[a];
             for (unsigned int d = 0; d < dim; ++d)
-              values[points.displacement_offset() + d] += du[d];
+              u[d] += du[d];
             if (after_step != MeshAfterStep::keep)
               points.set_position(point, points.position(point) + du);
           }
@@ -100,6 +104,45 @@ namespace moraine
       space.move_nodes(trial);
     else if (after_step == MeshAfterStep::reset)
       points.find_cells();
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  State<dim>::end_of_body(const StencilBlock<dim> &block,
+                          const unsigned int       begin) const
+  {
+    const unsigned int body = points.body(block.points[begin]);
+    unsigned int       end  = begin + 1;
+    while (end < block.n_points && points.body(block.points[end]) == body)
+      ++end;
+    return end;
+  }
+
+
+
+  template <int dim>
+  const std::vector<SymmetricTensor<2, 3>> &
+  TrialStresses<dim>::evaluate(const State<dim>        &state,
+                               const StencilBlock<dim> &block,
+                               const unsigned int       begin,
+                               const unsigned int       end,
+                               const Tensor<1, dim>    *nodal_increments)
+  {
+    const PointSet<dim> &points = state.material_points();
+    strains.resize(end - begin);
+    stresses.resize(end - begin);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        strains[p - begin] =
+          strain_increment(nodal_increments, block.grad_N(p), block.n_nodes);
+        stresses[p - begin] = load_stress<dim>(points.values(block.points[p]) +
+                                               points.stress_offset());
+      }
+    state.material(points.body(block.points[begin]))
+      .update_stress(make_array_view(strains), make_array_view(stresses));
+    return stresses;
   }
 
 
@@ -123,6 +166,8 @@ namespace moraine
 
 
 
+  template class TrialStresses<2>;
+  template class TrialStresses<3>;
   template class State<2>;
   template class State<3>;
 } // namespace moraine

@@ -201,7 +201,7 @@ TEST(InputFile, Structure)
   EXPECT_EQ(
     mistake("subsection a/b\nend\n"),
     "f.prm:1: found 'subsection a/b'; a subsection needs a name without "
-    "'/'");
+    "'/' and '.'");
   EXPECT_EQ(mistake("include other.prm\n"),
             "f.prm:1: found 'include other.prm', allowed: subsection NAME, set "
             "KEY = VALUE, end, # comment");

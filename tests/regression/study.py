@@ -48,10 +48,20 @@ text("not written over", [l for l in again.output.splitlines() if l][-1]
      .replace(str(folder) + "/", ""))
 
 block = study("prm/studies/enforcement.prm", {"Mesh/Cell size": "10"})
-show(block, "Series", "Mesh/Cell size", "status", "unknowns", "points")
+show(block, "Series", "status", "unknowns", "points")
 for row in block.rows:
     if row["Series"] in ("skew Nitsche 10", "symmetric Nitsche 20"):
         bound(f"r_u of {row['Series']}", float(row["error"]), 1e-10)
+
+ring = study("prm/studies/enforcement-ring.prm", {"Mesh/Cell size": "0.115"})
+cantilever = study("prm/studies/enforcement-cantilever.prm",
+                   {"Mesh/Cell size": "4"})
+for name, result in (("ring", ring), ("cantilever", cantilever)):
+    error = {row["Series"]: float(row["error"]) for row in result.rows}
+    text(f"{name}, rows", len(result.rows))
+    number(f"{name}, skew Nitsche", error["skew Nitsche 10"], 3)
+    at_least(f"{name}, weighted 1e-6 over skew Nitsche",
+             error["weighted 1e-6"] / error["skew Nitsche 10"], 3)
 
 solvers = study("prm/studies/solvers.prm", {"Mesh/Cell size": "5"})
 show(solvers, "Series", "status", "unknowns")
@@ -61,7 +71,7 @@ bound("direct and amg-cg differ by", float(solvers.rows[0]["error"]) -
       float(solvers.rows[1]["error"]), 1e-6)
 
 failing = study("prm/studies/solvers.prm",
-                {"Mesh/Cell size": "5", "Solver/Maximum linear iterations": 1,
+                {"Mesh/Cell size": "2.5", "Solver/Maximum linear iterations": 1,
                  "Time/Smallest step": 0.5}, expect=1)
 show(failing, "Series", "status")
 wrong = study("prm/studies/solvers.prm",

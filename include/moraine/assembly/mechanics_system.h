@@ -45,10 +45,11 @@ namespace moraine
   {
   public:
     /**
-     * @param empty_stiffness Stiffness of the empty part of active cells over
-     * that of the material in them. It resists the increment of each step and
-     * then is forgotten (a finite cell method, Parvizian et al. 2007), so that
-     * nodes touched by too few points are held. 0: none.
+     * The equations of @p state. @p empty_stiffness is the stiffness of the
+     * empty part of active cells over that of the material in them. It resists
+     * the increment of each step and then is forgotten (a finite cell method,
+     * Parvizian et al. 2007), so that nodes touched by too few points are held.
+     * 0: none.
      */
     MechanicsSystem(State<dim>                            &state,
                     std::vector<ImplicitBoundary<dim>>    &boundaries,
@@ -152,27 +153,26 @@ namespace moraine
     assemble_external_forces();
 
     void
-    assemble_points(const bool tangent, LA::Vector &force);
+    assemble_points(const bool tangent);
 
     void
-    assemble_boundaries(const bool tangent, LA::Vector &force);
+    assemble_boundaries(const bool tangent);
 
     void
     find_empty_parts();
 
     void
-    assemble_empty_parts(const bool tangent, LA::Vector &force);
+    assemble_empty_parts(const bool tangent);
 
+    /** Add to node_forces and, if asked, to the matrix. */
     void
-    add_to_system(const LocalSystem<dim> &local,
-                  const bool              tangent,
-                  LA::Vector             &force);
+    add_to_system(const LocalSystem<dim> &local, const bool tangent);
 
     std::vector<BoundaryReport<dim>>
     report_boundaries();
 
     std::vector<BoundaryReport<dim>>
-    report_grid_conditions();
+    report_grid_conditions(const LA::Vector &x);
 
     /** Tension and violation of each point of a boundary in the trial state. */
     void
@@ -185,6 +185,14 @@ namespace moraine
                      const unsigned int                         k,
                      const std::vector<dealii::Vector<double>> &free_motions,
                      const bool first_step) const;
+
+    /**
+     * The largest depth of a point of this rank behind a boundary; with
+     * @p moves of the points added to their positions unless it is empty.
+     */
+    double
+    deepest_point(const ImplicitBoundary<dim>               &boundary,
+                  const std::vector<dealii::Tensor<1, dim>> &moves) const;
 
     /** Typical size of the largest point. */
     double
@@ -208,15 +216,21 @@ namespace moraine
     LA::SparseMatrix                               matrix;
     LA::Vector                                     residual_vector;
     LA::Vector                                     external;
-    std::vector<LA::Vector>                        rigid_modes;
-    double                                         scale          = 0;
-    double                                         external_scale = 0;
-    double                                         local_scale    = 0;
-    double                                         t_start        = 0;
-    double                                         t_target       = 0;
-    double                                         reach          = 0;
-    double                                         last_violation = 0;
-    bool                                           changed        = true;
+    /** The residual with the forces that grid conditions take. */
+    LA::Vector unbalanced;
+    /** Where residual and unbalanced forces were assembled last, if at all. */
+    LA::Vector                          assembled_at;
+    bool                                assembled = false;
+    std::vector<dealii::Tensor<1, dim>> node_forces;
+    std::vector<LA::Vector>             rigid_modes;
+    double                              scale          = 0;
+    double                              external_scale = 0;
+    double                              local_scale    = 0;
+    double                              t_start        = 0;
+    double                              t_target       = 0;
+    double                              reach          = 0;
+    double                              last_violation = 0;
+    bool                                changed        = true;
   };
 } // namespace moraine
 

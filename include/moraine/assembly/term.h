@@ -24,11 +24,11 @@ namespace moraine
     dealii::FullMatrix<double>                   matrix;
     dealii::Vector<double>                       force;
     std::vector<dealii::types::global_dof_index> dofs;
+    const unsigned int                          *nodes = nullptr;
     std::vector<dealii::Tensor<1, dim>>          nodal_increments;
-    /** Moments of gradients, upper triangle used. */
-    std::vector<double>                        moments;
-    std::vector<dealii::SymmetricTensor<2, 3>> strains;
-    std::vector<dealii::SymmetricTensor<2, 3>> stresses;
+    /** Moments of gradients. */
+    std::vector<double> moments;
+    TrialStresses<dim>  trial_stresses;
     /** Boundary fluxes of unit displacements of the unknowns. */
     std::vector<dealii::Tensor<1, dim>> fluxes;
 
@@ -81,11 +81,9 @@ namespace moraine
   };
 
   /**
-   * The force of a point of an implicit boundary and its derivative; see
-   * Enforcement for the weak form.
-   *
-   * @param du, grad_du trial increment and its gradient at the point.
-   * @return the traction on the body, t plus what the trial state adds.
+   * The traction on the body at a point of an implicit boundary, t plus what
+   * the trial state adds; @p grad_du is the gradient of its increment there.
+   * See Enforcement for the weak form.
    */
   template <int dim>
   dealii::Tensor<1, dim>
@@ -95,6 +93,7 @@ namespace moraine
                     const LameConstants          &stiffness,
                     const dealii::Tensor<2, dim> &grad_du);
 
+  /** Adds the force of such a point and, if asked, its derivative. */
   template <int dim>
   void
   add_boundary_point(const BoundaryPoint<dim>     &point,

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -135,6 +136,16 @@ namespace moraine
     /** Distance behind the surface at the end of the step; 0 if in front. */
     double
     penetration(const dealii::Point<dim> &x, const double range) const;
+
+    /**
+     * Whether nothing within @p radius of @p x is near the surface at the end
+     * of the step. The level of an expression is an estimate, hence a factor.
+     */
+    bool
+    is_far(const dealii::Point<dim> &x, const double radius) const
+    {
+      return std::abs(at_end.level(x)) > 2 * radius;
+    }
 
     const std::string &
     name() const

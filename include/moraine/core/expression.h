@@ -6,6 +6,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -105,6 +106,10 @@ namespace moraine
     std::string                                origin;
     std::vector<std::pair<double, double>>     table;
     std::shared_ptr<dealii::FunctionParser<1>> parser;
+
+    /** Many points ask for one time in turn. */
+    mutable double last_time  = std::numeric_limits<double>::quiet_NaN();
+    mutable double last_value = 0;
   };
 } // namespace moraine
 

@@ -114,13 +114,17 @@ namespace moraine
     node_values(const LA::Vector                    &vector,
                 std::vector<dealii::Tensor<1, dim>> &values) const;
 
+    /**
+     * The other way: the sums over all ranks of what each has at its nodes, in
+     * an owned-only vector. Collective.
+     */
+    void
+    sum_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
+                    LA::Vector                                &vector) const;
+
     /** A zero vector of the owned unknowns. */
     LA::Vector
     vector() const;
-
-    /** A zero vector that takes additions to all unknowns this rank knows. */
-    LA::Vector
-    writable_vector() const;
 
     /** Move every node by its value in @p displacement. */
     void
@@ -196,6 +200,9 @@ namespace moraine
     std::vector<dealii::Point<dim>>              positions;
     dealii::IndexSet                             owned;
     dealii::IndexSet                             relevant;
+    /** All relevant unknowns, and where those of the nodes stand in it. */
+    mutable LA::Vector        ghosted;
+    std::vector<unsigned int> ghosted_index;
   };
 } // namespace moraine
 

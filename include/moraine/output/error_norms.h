@@ -72,8 +72,8 @@ namespace moraine
    * The exact solution is evaluated where the point was at the start: small
    * strain theory does not tell the two places apart.
    *
-   * @param points_moved whether positions include the displacement. False on a
-   * mesh that is kept.
+   * @p points_moved says whether positions include the displacement. It is
+   * false on a mesh that is kept.
    */
   template <int dim>
   ErrorNorms

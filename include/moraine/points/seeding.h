@@ -54,6 +54,12 @@ namespace moraine
    * there every sub-cell, full or not, has its point at its centroid, because
    * centroids and volumes integrate linear functions exactly.
    *
+   * In 3D the gradients of trilinear shape functions hold products of two
+   * coordinates as well. A sub-cell that a straight-sided body cuts askew has
+   * three points of equal volume there, with its centroid as their mean, that
+   * integrate these too; where no such triangle lies in the body (next to
+   * re-entrant edges) it has one.
+   *
    * Parts below 1e-12 of the smaller of sub-cell and body's bounding box get
    * no point.
    */
@@ -73,6 +79,10 @@ namespace moraine
     seed(const CellVertices            &cell,
          const Shape<dim>              &shape,
          std::vector<SeededPoint<dim>> &points) const;
+
+    /** The most points that seed() gives a cell. */
+    unsigned int
+    max_points() const;
 
   private:
     void

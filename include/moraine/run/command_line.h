@@ -19,6 +19,15 @@ namespace moraine
   };
 
   /**
+   * To be called where a failure is caught, before any object that others share
+   * is destroyed: if not every rank fails within some seconds, say what
+   * happened and end the program on all of them. A rank that failed alone and
+   * went on would wait for the others for ever.
+   */
+  void
+  end_if_alone(const ExitCode code, const std::string &what);
+
+  /**
    * The program behind `moraine`: run, check, study, parameters. Errors are
    * shown once, on rank 0, and become the exit code.
    */

@@ -10,9 +10,8 @@ namespace moraine
 {
   /**
    * Write every parameter of a scene as Markdown: a table for each section with
-   * key, default, what is allowed, and its text with unit.
-   *
-   * @param dimension 2 or 3
+   * key, default, what is allowed, and its text with unit; @p dimension is 2 or
+   * 3.
    */
   void
   print_parameter_reference(const unsigned int dimension, std::ostream &out);

@@ -60,8 +60,16 @@ namespace moraine
   template <int dim>
   struct BodyParameters
   {
-    std::string          material;
-    ShapeParameters<dim> shape;
+    std::string               material;
+    ShapeParameters<dim>      shape;
+    std::vector<unsigned int> point_grid;
+
+    /** Whether the cells of the mesh give the body its points. */
+    bool
+    is_seeded_by_cells() const
+    {
+      return point_grid.empty() && !shape.is_point_file();
+    }
 
     void
     add_parameters(dealii::ParameterHandler &prm);

@@ -14,6 +14,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -67,6 +68,21 @@ namespace moraine
 
     void
     insert_point_file(const std::string &file, const unsigned int body);
+
+    /** The points of a box with key 'Point grid'. */
+    void
+    insert_point_grid(const BodyParameters<dim> &parameters,
+                      const unsigned int         body);
+
+    /**
+     * Points that are not those of cells.
+     * @param where says of a point what it is for the user.
+     */
+    void
+    insert_points(const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<double>             &volumes,
+                  const unsigned int                     body,
+                  const std::function<std::string(const unsigned int)> &where);
 
     /** That each body has points, and lies in the mesh as a whole. */
     void
@@ -144,6 +160,9 @@ namespace moraine
     std::unique_ptr<LinearSolver>                linear_solver;
     std::unique_ptr<Probes<dim>>                 probes;
     std::vector<std::string>                     effects;
+
+    /** Of points: those of cells come first, then those of files and grids. */
+    unsigned int first_free_id = 0;
 
     std::optional<OutputDirectory>      directory;
     std::optional<History>              history;

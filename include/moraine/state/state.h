@@ -57,6 +57,30 @@ namespace moraine
     return stress;
   }
 
+  template <int dim>
+  class State;
+
+  /** Trial stresses of points of one body that share their nodes. */
+  template <int dim>
+  class TrialStresses
+  {
+  public:
+    /**
+     * The stresses of the points [begin, end) of a block, valid until the next
+     * call.
+     */
+    const std::vector<dealii::SymmetricTensor<2, 3>> &
+    evaluate(const State<dim>             &state,
+             const StencilBlock<dim>      &block,
+             const unsigned int            begin,
+             const unsigned int            end,
+             const dealii::Tensor<1, dim> *nodal_increments);
+
+  private:
+    std::vector<dealii::SymmetricTensor<2, 3>> strains;
+    std::vector<dealii::SymmetricTensor<2, 3>> stresses;
+  };
+
   /**
    * The state of a step. Committed values live at the points; the trial state
    * is the nodal increment @f$\Delta u@f$ alone, because trial stresses and
@@ -112,6 +136,13 @@ namespace moraine
      */
     std::vector<dealii::Tensor<1, dim>>
     point_increments() const;
+
+    /**
+     * The end of the run of points of one body that starts at @p begin of a
+     * block. Nearly always that is all of them.
+     */
+    unsigned int
+    end_of_body(const StencilBlock<dim> &block, const unsigned int begin) const;
 
     const GridSpace<dim> &
     grid() const

@@ -1,0 +1,570 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// Times one step of a block under gravity, by our points and by a plain
+// deal.II program; run_benchmarks.py calls it and judges the numbers. Prints
+// lines 'name value'.
+
+#include <moraine/assembly/mechanics_system.h>
+#include <moraine/core/expression.h>
+#include <moraine/core/memory.h>
+#include <moraine/material/linear_elastic.h>
+#include <moraine/solver/newton.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  constexpr double young_modulus = 1e7;
+  constexpr double poisson_ratio = 0.3;
+  constexpr double tolerance     = 1e-8;
+
+  /** What the command line says. */
+  struct Options
+  {
+    std::string  benchmark;
+    unsigned int dimension  = 2;
+    unsigned int cells      = 100; ///< edge of the body
+    unsigned int height     = 0;   ///< height of the body, 0 for the edge
+    unsigned int mesh_cells = 0;   ///< height of the mesh, 0 for the body's
+    unsigned int points     = 2;   ///< points of a cell, per direction
+    unsigned int repeats    = 3;
+    unsigned int wall       = 0; ///< wall seconds also of one process
+
+    Options(const int argc, char **argv)
+      : benchmark(argc > 1 ? argv[1] : "")
+    {
+      const std::map<std::string, unsigned int *> numbers = {
+        {"--dimension", &dimension},
+        {"--cells", &cells},
+        {"--height", &height},
+        {"--mesh-cells", &mesh_cells},
+        {"--points", &points},
+        {"--repeats", &repeats},
+        {"--wall", &wall}};
+      for (int i = 2; i + 1 < argc; i += 2)
+        {
+          if (numbers.count(argv[i]) == 0)
+            throw std::runtime_error("unknown option " + std::string(argv[i]));
+          *numbers.at(argv[i]) = std::atoi(argv[i + 1]);
+        }
+      if (height == 0)
+        height = cells;
+      if (mesh_cells == 0)
+        mesh_cells = height;
+    }
+  };
+
+
+
+  /**
+   * Seconds of named parts, one entry per repeat. Of one process they are
+   * processor seconds, which other programs on the machine disturb less; of
+   * several ranks, or if asked for, wall seconds.
+   */
+  class Clock
+  {
+  public:
+    template <class Part>
+    void
+    time(const std::string &name, const Part &part)
+    {
+      const double start = now();
+      part();
+      add(name, now() - start);
+    }
+
+    void
+    add(const std::string &name, const double seconds)
+    {
+      entries[name].push_back(seconds);
+    }
+
+    double
+    last(const std::string &name) const
+    {
+      return entries.at(name).back();
+    }
+
+    double
+    median(const std::string &name) const
+    {
+      std::vector<double> sorted = entries.at(name);
+      std::sort(sorted.begin(), sorted.end());
+      return sorted[sorted.size() / 2];
+    }
+
+    void
+    print(const std::string &prefix) const
+    {
+      for (const auto &entry : entries)
+        std::cout << prefix << entry.first << ' ' << median(entry.first)
+                  << '\n';
+    }
+
+    static double
+    now()
+    {
+      if (!wall && Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+        return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+      MPI_Barrier(MPI_COMM_WORLD);
+      return MPI_Wtime();
+    }
+
+    inline static bool wall = false;
+
+  private:
+    std::map<std::string, std::vector<double>> entries;
+  };
+
+
+
+  LinearSolverParameters
+  solver_parameters()
+  {
+    LinearSolverParameters parameters;
+    parameters.solver             = "amg-cg";
+    parameters.relative_tolerance = tolerance;
+    return parameters;
+  }
+
+
+
+  template <int dim>
+  MeshParameters<dim>
+  mesh_parameters(const Options &options)
+  {
+    MeshParameters<dim> parameters;
+    for (unsigned int d = 0; d < dim; ++d)
+      parameters.upper_corner[d] =
+        d == dim - 1 ? options.mesh_cells : options.cells;
+    parameters.cell_size = 1;
+    return parameters;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  gravity(const double t)
+  {
+    Tensor<1, dim> b;
+    b[dim - 1] = -t;
+    return b;
+  }
+
+
+
+  /** The block by the code of the program: material points under gravity. */
+  template <int dim>
+  class PointStep
+  {
+  public:
+    explicit PointStep(const Options &options)
+      : mesh(mesh_parameters<dim>(options), MPI_COMM_WORLD)
+      , space(mesh, 1)
+      , points(mesh, PointFields())
+      , basis(space, points)
+      , state(
+          space,
+          points,
+          basis,
+          {std::make_shared<LinearElastic>(young_modulus, poisson_ratio, 1.)},
+          MeshAfterStep::reset)
+      , timer(MPI_COMM_WORLD, sink, TimerOutput::never, TimerOutput::wall_times)
+      , linear_solver(solver_parameters(), dim)
+    {
+      fill(options);
+      for (unsigned int side = 0; side < 2 * dim - 1; ++side)
+        {
+          GridCondition<dim> roller;
+          roller.name                = mesh.boundary_names()[side];
+          roller.side                = side;
+          roller.component[side / 2] = true;
+          roller.value               = [](const Point<dim> &, const double) {
+            return Tensor<1, dim>();
+          };
+          conditions.push_back(roller);
+        }
+      // As a scene would say it: 'Value = 0; -1' with 'Curve = t'.
+      const Expression<dim> weight(dim == 2 ? "0; -1" : "0; 0; -1",
+                                   "benchmark",
+                                   dim);
+      const TimeCurve curve("t", "benchmark");
+      loads.body_forces.push_back(
+        {"weight",
+         [weight, curve](const Point<dim> &x, const double t) {
+           return curve.value(t) * weight.vector_value(x, t);
+         },
+         true,
+         {true}});
+      system = std::make_unique<MechanicsSystem<dim>>(state,
+                                                      boundaries,
+                                                      conditions,
+                                                      loads,
+                                                      std::vector<std::string>{
+                                                        "block"},
+                                                      timer);
+    }
+
+    /** One step; @p clock may be nothing for one that is not counted. */
+    void
+    step(Clock *clock)
+    {
+      Clock  unused;
+      Clock &c     = clock ? *clock : unused;
+      double start = Clock::now();
+      c.time("stencils", [&] { system->begin_step(t); });
+      c.time("external forces", [&] { system->set_target(t + 1); });
+      NewtonParameters newton_parameters;
+      newton_parameters.tolerance = 10 * tolerance;
+      Newton     newton(newton_parameters);
+      LA::Vector x;
+      c.time("newton", [&] {
+        const auto report = newton.solve(*system, linear_solver, x);
+        if (!report.converged() || report.iterations != 1)
+          throw std::runtime_error("the step did not converge at once: " +
+                                   report.message);
+        linear_iterations = report.linear_iterations;
+      });
+      largest_increment = x.linfty_norm();
+      c.time("update and search", [&] { system->accept(x); });
+      c.add("step", Clock::now() - start);
+      t += 1;
+    }
+
+    /** The assembly alone, which newton contains. */
+    void
+    assemble(Clock &clock)
+    {
+      system->begin_step(t);
+      system->set_target(t + 1);
+      LA::Vector x;
+      system->initial_guess(x);
+      clock.time("assembly", [&] { system->assemble(x, true); });
+    }
+
+    BackgroundMesh<dim>                   mesh;
+    GridSpace<dim>                        space;
+    PointSet<dim>                         points;
+    CellBasis<dim, 1>                     basis;
+    State<dim>                            state;
+    std::vector<ImplicitBoundary<dim>>    boundaries;
+    std::vector<GridCondition<dim>>       conditions;
+    Loads<dim>                            loads;
+    std::ostringstream                    sink;
+    TimerOutput                           timer;
+    LinearSolver                          linear_solver;
+    std::unique_ptr<MechanicsSystem<dim>> system;
+    double                                t                 = 0;
+    unsigned int                          linear_iterations = 0;
+    double                                largest_increment = 0;
+
+  private:
+    void
+    fill(const Options &options)
+    {
+      const unsigned int n         = options.points;
+      const unsigned int n_of_cell = Utilities::pow(n, dim);
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() &&
+            cell->center()[dim - 1] < options.height)
+          for (unsigned int i = 0; i < n_of_cell; ++i)
+            {
+              Point<dim> xi;
+              for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
+                xi[d] = (rest % n + 0.5) / n;
+              points.insert(cell,
+                            mesh.mapping().transform_unit_to_real_cell(cell,
+                                                                       xi),
+                            xi,
+                            cell->active_cell_index() * n_of_cell + i,
+                            0,
+                            cell->measure() / n_of_cell);
+            }
+      points.finish_insertion();
+    }
+  };
+
+
+
+  /** The same block as anyone would write it with deal.II's FEValues. */
+  template <int dim>
+  class FiniteElementStep
+  {
+  public:
+    explicit FiniteElementStep(const BackgroundMesh<dim> &mesh)
+      : mesh(mesh)
+      , fe(FE_Q<dim>(1), dim)
+      , quadrature(2)
+      , dof_handler(mesh.triangulation())
+      , linear_solver(solver_parameters(), dim)
+      , C{young_modulus * poisson_ratio /
+            ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)),
+          young_modulus / (2 * (1 + poisson_ratio))}
+    {
+      dof_handler.distribute_dofs(fe);
+      const IndexSet owned = dof_handler.locally_owned_dofs();
+      IndexSet       relevant;
+      DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      constraints.reinit(relevant);
+      for (unsigned int side = 0; side < 2 * dim - 1; ++side)
+        {
+          ComponentMask mask(dim, false);
+          mask.set(side / 2, true);
+          VectorTools::interpolate_boundary_values(dof_handler,
+                                                   side,
+                                                   Functions::ZeroFunction<dim>(
+                                                     dim),
+                                                   constraints,
+                                                   mask);
+        }
+      constraints.close();
+      LA::SparsityPattern pattern(owned, owned, relevant, MPI_COMM_WORLD);
+      DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
+      pattern.compress();
+      matrix.reinit(pattern);
+      rhs.reinit(owned, MPI_COMM_WORLD);
+      solution.reinit(owned, MPI_COMM_WORLD);
+      relevant_solution.reinit(owned, relevant, MPI_COMM_WORLD);
+      DoFTools::extract_constant_modes(dof_handler,
+                                       ComponentMask(dim, true),
+                                       constant_modes);
+      for (const auto &mode : constant_modes)
+        {
+          modes.emplace_back(owned, MPI_COMM_WORLD);
+          for (unsigned int i = 0; i < owned.n_elements(); ++i)
+            modes.back()(owned.nth_index_in_set(i)) = mode[i];
+          modes.back().compress(VectorOperation::insert);
+        }
+      add_rotation(owned);
+      stress.resize(mesh.triangulation().n_active_cells() * quadrature.size());
+    }
+
+    void
+    step(Clock &clock)
+    {
+      const double start = Clock::now();
+      clock.time("assembly", [&] { assemble(); });
+      clock.time("solve", [&] {
+        linear_solver.set_up(matrix, true, modes);
+        const auto report = linear_solver.solve(solution, rhs);
+        linear_iterations = report.iterations;
+        if (!report.converged)
+          throw std::runtime_error("FE: " + report.message);
+        constraints.distribute(solution);
+      });
+      clock.time("update", [&] { update(); });
+      clock.add("step", Clock::now() - start);
+    }
+
+    unsigned int linear_iterations = 0;
+    LA::Vector   solution;
+
+  private:
+    void
+    add_rotation(const IndexSet &owned)
+    {
+      if (dim != 2)
+        return;
+      modes.emplace_back(owned, MPI_COMM_WORLD);
+      std::map<types::global_dof_index, Point<dim>> places;
+      DoFTools::map_dofs_to_support_points(mesh.mapping(), dof_handler, places);
+      for (const auto &[dof, x] : places)
+        if (owned.is_element(dof))
+          modes.back()(dof) = modes[0](dof) == 1. ? -x[1] : x[0];
+      modes.back().compress(VectorOperation::insert);
+    }
+
+    void
+    assemble()
+    {
+      matrix = 0;
+      rhs    = 0;
+      FEValues<dim>                        fe_values(mesh.mapping(),
+                              fe,
+                              quadrature,
+                              update_values | update_gradients |
+                                update_JxW_values);
+      const unsigned int                   n = fe.n_dofs_per_cell();
+      FullMatrix<double>                   cell_matrix(n, n);
+      Vector<double>                       cell_rhs(n);
+      std::vector<types::global_dof_index> dofs(n);
+      const Tensor<1, dim>                 b = gravity<dim>(1.);
+      std::vector<unsigned int>            component(n);
+      for (unsigned int i = 0; i < n; ++i)
+        component[i] = fe.system_to_component_index(i).first;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            fe_values.reinit(cell);
+            cell_matrix = 0;
+            cell_rhs    = 0;
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  const unsigned int   ci = component[i];
+                  const Tensor<1, dim> gi =
+                    fe_values.shape_grad(i, q) * fe_values.JxW(q);
+                  for (unsigned int j = 0; j < n; ++j)
+                    {
+                      const unsigned int    cj = component[j];
+                      const Tensor<1, dim> &gj = fe_values.shape_grad(j, q);
+                      cell_matrix(i, j) += C.lambda * gi[ci] * gj[cj] +
+                                           C.mu * gi[cj] * gj[ci] +
+                                           (ci == cj ? C.mu * (gi * gj) : 0.);
+                    }
+                  cell_rhs(i) +=
+                    fe_values.shape_value(i, q) * b[ci] * fe_values.JxW(q);
+                }
+            cell->get_dof_indices(dofs);
+            constraints.distribute_local_to_global(
+              cell_matrix, cell_rhs, dofs, matrix, rhs);
+          }
+      matrix.compress(VectorOperation::add);
+      rhs.compress(VectorOperation::add);
+    }
+
+    void
+    update()
+    {
+      relevant_solution = solution;
+      FEValues<dim> fe_values(mesh.mapping(), fe, quadrature, update_gradients);
+      const FEValuesExtractors::Vector     displacement(0);
+      std::vector<SymmetricTensor<2, dim>> strain(quadrature.size());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            fe_values.reinit(cell);
+            fe_values[displacement].get_function_symmetric_gradients(
+              relevant_solution, strain);
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              {
+                SymmetricTensor<2, 3> full;
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = i; j < dim; ++j)
+                    full[i][j] = strain[q][i][j];
+                stress[cell->active_cell_index() * quadrature.size() + q] +=
+                  C * full;
+              }
+          }
+    }
+
+    const BackgroundMesh<dim>         &mesh;
+    const FESystem<dim>                fe;
+    const QGauss<dim>                  quadrature;
+    DoFHandler<dim>                    dof_handler;
+    AffineConstraints<double>          constraints;
+    LA::SparseMatrix                   matrix;
+    LA::Vector                         rhs;
+    LA::Vector                         relevant_solution;
+    std::vector<std::vector<bool>>     constant_modes;
+    std::vector<LA::Vector>            modes;
+    LinearSolver                       linear_solver;
+    const LameConstants                C;
+    std::vector<SymmetricTensor<2, 3>> stress;
+  };
+
+
+
+  /** Part by part, our step and the finite element one in turn. */
+  template <int dim>
+  void
+  compare_with_finite_elements(const Options &options)
+  {
+    PointStep<dim>         points(options);
+    FiniteElementStep<dim> elements(points.mesh);
+    Clock                  of_points, of_elements, unused;
+    points.step(nullptr);
+    elements.step(unused);
+    if (std::abs(points.largest_increment / elements.solution.linfty_norm() -
+                 1) > 0.02)
+      throw std::runtime_error("points and elements do not agree");
+    for (unsigned int i = 0; i < options.repeats; ++i)
+      {
+        points.assemble(of_points);
+        points.step(&of_points);
+        elements.step(of_elements);
+      }
+    of_points.print("points ");
+    of_elements.print("elements ");
+    std::cout << "points linear_iterations " << points.linear_iterations
+              << "\nelements linear_iterations " << elements.linear_iterations
+              << '\n';
+  }
+
+
+
+  template <int dim>
+  void
+  time_points(const Options &options)
+  {
+    const double   before = memory_in_use(MPI_COMM_WORLD).current_mib;
+    PointStep<dim> points(options);
+    Clock          clock;
+    clock.time("first step", [&] { points.step(nullptr); });
+    for (unsigned int i = 0; i < options.repeats; ++i)
+      {
+        points.assemble(clock);
+        points.step(&clock);
+      }
+    const double peak = memory_in_use(MPI_COMM_WORLD).peak_mib;
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+    clock.print("points ");
+    std::cout << "points linear_iterations " << points.linear_iterations
+              << "\nn_points " << points.points.n_global() << "\nn_unknowns "
+              << points.space.n_dofs() << "\nbytes_per_point "
+              << points.points.bytes_per_point() << "\nmemory_before_mib "
+              << before << "\nmemory_peak_mib " << peak << '\n';
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  try
+    {
+      Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+      const Options                    options(argc, argv);
+      Clock::wall = options.wall != 0;
+      if (options.benchmark == "compare" && options.dimension == 2)
+        compare_with_finite_elements<2>(options);
+      else if (options.benchmark == "points" && options.dimension == 2)
+        time_points<2>(options);
+      else if (options.benchmark == "points" && options.dimension == 3)
+        time_points<3>(options);
+      else
+        throw std::runtime_error(
+          "usage: benchmark compare|points [--dimension 2|3] [--cells N] "
+          "[--height N] [--mesh-cells N] [--points N] [--repeats N]");
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << error.what() << '\n';
+      return 1;
+    }
+  return 0;
+}

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+
+"""Speed and memory: run the benchmark program, write a CSV with what was
+measured and what is allowed, and exit with 1 if a threshold is missed.
+
+Ratios compare runs on the same machine a moment apart; times are medians. Of
+one process they are processor seconds, of several ranks wall seconds, so only
+the case "ranks" needs an idle machine.
+"""
+
+import argparse
+import csv
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+COLUMNS = ["case", "quantity", "value", "unit", "allowed", "holds", "revision",
+           "host", "load_before"]
+
+
+class Bench:
+    def __init__(self, arguments):
+        self.program = arguments.program
+        self.source = arguments.source
+        self.repeats = arguments.repeats
+        self.smoke = arguments.smoke
+        self.rows = []
+        self.common = {
+            "revision": subprocess.run(
+                ["git", "-C", self.source, "describe", "--always", "--dirty"],
+                capture_output=True, text=True).stdout.strip() or "unknown",
+            "host": os.uname().nodename + ", " + str(os.cpu_count()) + " cores",
+        }
+
+    def run(self, benchmark, ranks=1, **options):
+        """The numbers that one run of the program prints."""
+        command = [self.program, benchmark]
+        if ranks > 1:
+            command = ["mpirun", "-n", str(ranks), *command]
+        for name, value in options.items():
+            command += ["--" + name.replace("_", "-"), str(value)]
+        result = subprocess.run(command, capture_output=True, text=True)
+        if result.returncode != 0:
+            sys.exit(" ".join(command) + " failed: " + result.stderr)
+        numbers = {}
+        for line in result.stdout.splitlines():
+            name, value = line.rsplit(" ", 1)
+            numbers[name] = float(value)
+        return numbers
+
+    def record(self, case, quantity, value, unit, allowed=None, at_least=False):
+        holds = ""
+        if allowed is not None and not self.smoke:
+            holds = "yes" if (value >= allowed if at_least
+                              else value <= allowed) else "NO"
+        bound = "" if allowed is None else f"{'>=' if at_least else '<='} {allowed}"
+        self.rows.append({"case": case, "quantity": quantity,
+                          "value": f"{value:.4g}", "unit": unit,
+                          "allowed": bound, "holds": holds,
+                          "load_before": f"{os.getloadavg()[0]:.1f}",
+                          **self.common})
+        print(f"{case:10} {quantity:52} {value:10.4g} {unit:8} {bound:10} "
+              f"{holds}", flush=True)
+
+    def record_parts(self, case, prefix, numbers):
+        for name, value in numbers.items():
+            if name.startswith(prefix) and not name.endswith("iterations"):
+                self.record(case, name, value, "s")
+            elif name.endswith("iterations"):
+                self.record(case, name, value, "-")
+
+    # One process against a plain deal.II program.
+    def case_fe(self):
+        n = 20 if self.smoke else 400
+        r = self.run("compare", cells=n, repeats=self.repeats)
+        self.record_parts("fe", "", r)
+        self.record("fe", "stencils + assembly over FEValues assembly",
+                    (r["points stencils"] + r["points external forces"] +
+                     r["points assembly"]) / r["elements assembly"], "-", 1.25)
+        self.record("fe", "whole step over FE step",
+                    r["points step"] / r["elements step"], "-", 1.4)
+
+    # Many points in a cell against few.
+    def case_points(self):
+        n = 10 if self.smoke else 100
+        own = {}
+        for per_direction in (2, 10):
+            r = self.run("points", cells=n, points=per_direction,
+                         repeats=self.repeats * (1 if per_direction > 2 else 5))
+            own[per_direction] = 1e6 / r["n_points"] * sum(
+                r["points " + part] for part in
+                ("stencils", "external forces", "assembly", "update and search"))
+            self.record("points", f"own work at {per_direction ** 2} per cell",
+                        own[per_direction], "us/point")
+        self.record("points", "own work per point, 100 over 4 per cell",
+                    own[10] / own[2], "-", 0.6)
+
+    # 1.7 million points in 3D.
+    def case_3d(self):
+        n = 6 if self.smoke else 60
+        r = self.run("points", dimension=3, cells=n, repeats=1)
+        self.record("3d", "number of points", r["n_points"], "-")
+        self.record("3d", "step", r["points step"], "s")
+        self.record("3d", "peak memory", r["memory_peak_mib"] / 1024, "GiB", 8)
+
+    # Growth with size.
+    def case_growth(self):
+        sizes = (10, 20) if self.smoke else (100, 200, 400, 800)
+        time, memory = {}, {}
+        for n in sizes:
+            r = self.run("points", cells=n,
+                         repeats=max(1, self.repeats * 200 // (n + 200)))
+            time[n] = r["points step"]
+            memory[n] = r["memory_peak_mib"] - r["memory_before_mib"]
+            self.record("growth", f"step with {n}^2 cells", time[n], "s")
+            self.record("growth", f"memory with {n}^2 cells", memory[n], "MiB")
+        self.record("growth", "bytes of fields of a 2D elastic point",
+                    r["bytes_per_point"], "B", 120)
+        first, last = sizes[0], sizes[-1]
+        for name, of in (("time", time), ("memory", memory)):
+            self.record("growth", f"exponent of {name}, {first}^2 to {last}^2",
+                        math.log(of[last] / of[first]) /
+                        (2 * math.log(last / first)), "-", 1.1)
+
+    # Two ranks against one.
+    def case_ranks(self):
+        n = 20 if self.smoke else 400
+        one, two = [], []
+        for _ in range(1 if self.smoke else 3):
+            one.append(self.run("points", cells=n, repeats=self.repeats,
+                                wall=1)["points step"])
+            two.append(self.run("points", ranks=2, cells=n,
+                                repeats=self.repeats, wall=1)["points step"])
+        self.record("ranks", "step on 1 rank", statistics.median(one), "s")
+        self.record("ranks", "step on 2 ranks", statistics.median(two), "s")
+        self.record("ranks", "1 rank over 2 ranks",
+                    statistics.median(one) / statistics.median(two), "-", 1.5,
+                    at_least=True)
+
+    # The same body on a mesh nine tenths empty.
+    def case_empty(self):
+        n = 20 if self.smoke else 400
+        tight = self.run("points", cells=n, height=n // 10,
+                         repeats=self.repeats)
+        empty = self.run("points", cells=n, height=n // 10, mesh_cells=n,
+                         repeats=self.repeats)
+        self.record("empty", "step on the tight mesh", tight["points step"], "s")
+        self.record("empty", "step on the empty mesh", empty["points step"], "s")
+        self.record("empty", "empty over tight mesh",
+                    empty["points step"] / tight["points step"], "-", 1.5)
+
+
+CASES = ["fe", "points", "3d", "growth", "ranks", "empty"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--source", default=str(pathlib.Path(__file__).parent))
+    parser.add_argument("--csv", default="benchmarks.csv")
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--smoke", action="store_true",
+                        help="smallest sizes; nothing is judged")
+    parser.add_argument("cases", nargs="*", metavar="case",
+                        help="of " + ", ".join(CASES) + "; all if none")
+    arguments = parser.parse_args()
+    unknown = set(arguments.cases) - set(CASES)
+    if unknown:
+        parser.error("unknown case " + ", ".join(sorted(unknown)))
+    if arguments.smoke:
+        arguments.repeats = 1
+
+    bench = Bench(arguments)
+    try:
+        for case in arguments.cases or CASES:
+            getattr(bench, "case_" + case)()
+    finally:
+        with open(arguments.csv, "w", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            writer.writerows(bench.rows)
+    missed = [row for row in bench.rows if row["holds"] == "NO"]
+    for row in missed:
+        print(f"missed: {row['case']}: {row['quantity']} is {row['value']}, "
+              f"allowed {row['allowed']}")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,54 @@
+# ranks: 1
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""One, two and three ranks give the same numbers."""
+
+SCENES = {
+    "contained block": ("prm/cortis-2017/block-30.prm", {}),
+    "loads, MPM": ("prm/verification/loads.prm", {}),
+    "loads, GIMP": ("prm/verification/loads.prm", {"Method/Method": "GIMP"}),
+    "loads, FE Q2": ("prm/verification/loads.prm",
+                     {"Method/Method": "finite element", "Method/Degree": 2}),
+    "motion through the mesh": ("prm/verification/rigid-motion.prm",
+                                {"Boundaries/sides/Rotation angle": "20+t"}),
+    "random points": ("prm/verification/patch-random.prm", {}),
+    "ring, gmres": ("prm/boundaries/ring.prm", {"Solver/Solver": "gmres"}),
+    "ring on a roller": ("prm/boundaries/ring-roller.prm", {}),
+    "column": ("prm/verification/column.prm", {}),
+    "hollow sphere": ("prm/boundaries/hollow-sphere.prm",
+                      {"Mesh/Cells": "5, 5, 5"}),
+}
+
+
+def worst_difference(one, many):
+    """Over errors, probes and reactions, relative to each number, or to a
+    thousandth of the largest of its kind."""
+    groups = []
+    for a, b in ((one.errors, many.errors), (one.probes, many.probes)):
+        assert a.keys() == b.keys()
+        groups.append([(a[key], b[key]) for key in a
+                       if a[key] is not None or b[key] is not None])
+    assert one.reactions.keys() == many.reactions.keys()
+    groups.append([(x, y) for key in one.reactions
+                   for x, y in zip(one.reactions[key], many.reactions[key])])
+    worst = 0
+    for group in groups:
+        largest = max((abs(a) for a, b in group), default=0)
+        if largest > 1e-9:  # below, both are round-off
+            worst = max(worst, max(abs(a - b) / max(abs(a), 1e-3 * largest)
+                                   for a, b in group))
+    return worst
+
+
+for name, (scene, settings) in SCENES.items():
+    settings = {**settings, "Output/Points": "false", "Output/Mesh": "false"}
+    one = run(scene, settings, on_ranks=1)
+    text(name + ", points", one.summary["points"])
+    for n in (2, 3):
+        many = run(scene, settings, on_ranks=n)
+        same = all(many.summary[key] == one.summary[key] for key in
+                   ("points", "active_cells", "unknowns", "steps"))
+        text(f"{name}, {n} ranks, sizes and steps",
+             "the same" if same else "NO, different")
+        bound(f"{name}, {n} ranks, difference",
+              worst_difference(one, many), 1e-8)

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Supports balance every kind of load, at every step; uniform stress is exact."""
+
+CURVE = {0.5: 1.0, 1.0: 2.0, 1.5: 1.5, 2.0: 1.0}
+FORCES = {
+    "side": (-8 * 60, 1.5 * 60),
+    "top": (0.5 * 60, -8 * 60),
+    "push": (30, -50),
+    "drag": (0.004 * 3600, -0.01 * 3600),
+    "weight": (0, -10 * 2e-3 * 3600),
+}
+METHODS = {
+    "MPM": {},
+    "GIMP": {"Method/Method": "GIMP"},
+    "FE Q1": {"Method/Method": "finite element"},
+    "FE Q2": {"Method/Method": "finite element", "Method/Degree": 2},
+}
+SCENE = "prm/verification/loads.prm"
+
+
+def unbalance(result, loads):
+    """Largest force left over at any step, over the largest reaction."""
+    worst = largest = 0
+    for row in result.history():
+        for d in (0, 1):
+            reaction = sum(row[f"reaction_{'xy'[d]} of {support}"]
+                           for support in ("left", "base"))
+            load = CURVE[round(row["t"], 9)] * sum(FORCES[name][d]
+                                                  for name in loads)
+            worst = max(worst, abs(reaction + load))
+            largest = max(largest, abs(reaction))
+    return worst / largest
+
+
+def without(names):
+    return {f"Loads/{name}/Value": "0; 0" for name in names}
+
+
+for name, settings in METHODS.items():
+    bound(f"{name}, all loads: unbalance",
+          unbalance(run(SCENE, settings), FORCES), 1e-8)
+for load in FORCES:
+    others = [name for name in FORCES if name != load]
+    bound(f"MPM, {load} alone: unbalance",
+          unbalance(run(SCENE, without(others)), [load]), 1e-8)
+for name, settings in METHODS.items():
+    result = run(SCENE, {**settings, **without(["push", "drag", "weight"]),
+                         "Loads/side/Value": "-8; 0",
+                         "Loads/top/Value": "0; -8",
+                         "Method/Mesh after step": "keep"})
+    bound(f"{name}, pressure: r_u", result.errors["r_u"], 1e-12)
+    bound(f"{name}, pressure: l2_sigma", result.errors["l2_sigma"], 1e-12)
+    bound(f"{name}, pressure: left reaction - 480",
+          result.reactions["left"][0] - 480, 1e-8)
+
+# The traction on a line inside cells, and displacements prescribed on the grid:
+# strain (-0.001, -(1+nu)(1-2nu)/(1-nu)/E*8 + nu/(1-nu)*0.001).
+result = run(SCENE, {
+    **without(["push", "drag", "weight", "side"]),
+    "Bodies/block/Upper corner": "60, 65",
+    "Loads/top/Points": "60 65; 0 65",
+    "Loads/top/Value": "0; -8",
+    "Grid conditions/right/Side": "right",
+    "Grid conditions/right/Components": "x",
+    "Grid conditions/right/Displacement": "-0.03*t; 0",
+    "Method/Mesh after step": "keep",
+    "Exact solution/Displacement":
+        "-0.001*x; (-8/1000*1.3*0.4/0.7+0.3/0.7*0.001)*y",
+    "Exact solution/Stress":
+        "-0.3/0.7*8-1/0.91; -8; -0.3*(8+0.3/0.7*8+1/0.91); 0",
+})
+bound("line in cells, moved side: r_u", result.errors["r_u"], 1e-12)
+bound("line in cells, moved side: l2_sigma", result.errors["l2_sigma"], 1e-12)
+bound("line in cells, moved side: base reaction - 480",
+      result.reactions["base"][1] - 480, 1e-8)

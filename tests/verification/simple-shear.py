@@ -1,0 +1,20 @@
+# ranks: 1 2
+# Simple shear across partly filled cells (Cortis et al. 2017, section 5.3,
+# figure 16) at 13 places against the mesh.
+quiet = {"Output/Points": "false", "Output/Mesh": "false"}
+paper = {"Boundaries/*/Enforcement": "weighted",
+         "Boundaries/*/Band width": 1e-6,
+         "Boundaries/*/Carry reaction": "false"}
+
+for x_A in ("0", "1e-6", "1e-3", "0.1", "1", "10", "25", "50", "75", "90",
+            "99.9", "99.999", "100"):
+    keys = quiet | {"Constants/x_A": x_A}
+    result = run("prm/cortis-2017/simple-shear.prm", keys)
+    text("x_A", x_A)
+    number("points", result.summary["points"], 3)
+    bound("r_sigma_xy", result.errors["r_sigma_xy"],
+          1e-9 if 1 <= float(x_A) <= 99 else 2e-8)
+    bound("r_u", result.errors["r_u"], 1e-9)
+    result = run("prm/cortis-2017/simple-shear.prm", keys | paper)
+    number("with the paper's setting, r_sigma_xy",
+           result.errors["r_sigma_xy"], 1)
