@@ -6,13 +6,12 @@ quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 default = {"Boundaries/support/Enforcement": "skew Nitsche"}
 paper = {"Boundaries/support/Band width": 1e-6,
          "Boundaries/support/Carry reaction": "false"}
-conforming = "deep-beam-conforming"
-implicit = "deep-beam"
+conforming = "prm/cortis-2017/deep-beam-conforming.prm"
+implicit = "prm/cortis-2017/deep-beam.prm"
 
 
 def u_y(scene, h, settings):
-    result = run(f"prm/cortis-2017/{scene}.prm",
-                 quiet | {"Mesh/Cell size": h} | settings)
+    result = run(scene, quiet | {"Mesh/Cell size": h} | settings)
     return result.probes["u_y at A"]
 
 

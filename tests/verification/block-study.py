@@ -1,0 +1,29 @@
+# ranks: 1
+# The study of the contained block, at two angles and one cell size: the error
+# of the weighted basis is that of its band width, Nitsche's methods and a
+# penalty with reaction have round-off only.
+import csv
+
+result = run("prm/cortis-2017/block-study.prm",
+             {"Constants/angle": "{{0|30}}", "Mesh/Cell size": 10},
+             command="study")
+with open(result.folder / "study.csv") as file:
+    rows = list(csv.DictReader(file))
+text("rows", len(rows))
+text("all ended well", all(row["status"] == "ok" for row in rows))
+for row in rows:
+    band = row["Constants/band"]
+    name = f"{row['Series']}, {row['Constants/angle']} degrees"
+    error = float(row["error"])
+    if row["Series"] == "weighted, no reaction":
+        number(f"{name}, band {band}", error, 1)
+    elif row["Series"] != "weighted":
+        bound(name, error, 1e-10)
+    elif row["Constants/angle"] == "0":
+        bound(f"{name}, band {band}", error, 1e-10)
+    elif float(band) == 0.1:
+        # Where a cell is cut small, so wide a band does not hold.
+        at_least(f"{name}, band {band}", error, 0.1)
+    else:
+        # Repeated solutions stop where they gain less than a factor of 2.
+        bound(f"{name}, band {band}", error, 1e-3 * float(band)**0.5)
