@@ -281,7 +281,9 @@ TEST(InputFile, ConstantsDoNotUseLaterOnesOrThemselves)
     });
   };
   EXPECT_EQ(message("  set size = $digit\n  set digit = 7\n"),
-            "s.prm:2: section 'Constants', key 'size': found '$digit'");
+            "s.prm:2: section 'Constants', key 'size': found '$digit'. "
+            "Allowed here: nothing");
   EXPECT_EQ(message("  set size = 2*$size\n"),
-            "s.prm:2: section 'Constants', key 'size': found '$size'");
+            "s.prm:2: section 'Constants', key 'size': found '$size'. "
+            "Allowed here: nothing");
 }
