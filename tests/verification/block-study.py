@@ -26,7 +26,7 @@ for row in rows:
     elif row["Constants/angle"] == "0":
         bound(f"{name}, band {band}", error, 1e-10)
     elif float(band) == 0.1:
-        # Where a cell is cut small, so wide a band does not hold.
+        # So wide a band does not hold at this angle.
         at_least(f"{name}, band {band}", error, 0.1)
     elif float(band) >= 1e-6:
         # Repeated solutions stop where they gain less than a factor of 2.
