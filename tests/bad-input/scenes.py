@@ -51,3 +51,10 @@ refused("free to rotate", {
 refused("second body not held", {
     "Bodies/lost/Shape": "box", "Bodies/lost/Lower corner": "6, 6",
     "Bodies/lost/Upper corner": "7.5, 7.5"})
+refused("point grid of a disc", {
+    "Bodies/disc/Shape": "disc", "Bodies/disc/Centre": "6.5, 6.5",
+    "Bodies/disc/Radius": 1, "Bodies/disc/Point grid": "4, 4"})
+refused("point grid with one number", {block + "Point grid": 4})
+refused("point grid with a zero", {block + "Point grid": "4, 0"})
+refused("point grid outside", {block + "Point grid": "4, 4",
+                               block + "Translation": "100, 0"})

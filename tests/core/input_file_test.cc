@@ -250,3 +250,40 @@ TEST(Patterns, InWords)
   EXPECT_EQ(describe(dealii::Patterns::Anything()), "any text");
   EXPECT_EQ(describe(dealii::Patterns::FileName()), "the name of a file");
 }
+
+
+
+TEST(InputFile, ConstantsMayUseEarlierOnes)
+{
+  const Scene scene = parse(InputFile::from_text("s.prm",
+                                                 "subsection Constants\n"
+                                                 "  set digit = 7\n"
+                                                 "  set size = $digit.5\n"
+                                                 "end\n"
+                                                 "subsection Mesh\n"
+                                                 "  set Cell size = 1$size\n"
+                                                 "end\n"));
+  EXPECT_EQ(scene.size, 17.5);
+}
+
+
+
+TEST(InputFile, ConstantsDoNotUseLaterOnesOrThemselves)
+{
+  const auto message = [](const std::string &constants) {
+    return message_of<InputError>([&]() {
+      parse(InputFile::from_text("s.prm",
+                                 "subsection Constants\n" + constants +
+                                   "end\n"
+                                   "subsection Mesh\n"
+                                   "  set Cell size = $size\n"
+                                   "end\n"));
+    });
+  };
+  EXPECT_EQ(message("  set size = $digit\n  set digit = 7\n"),
+            "s.prm:2: section 'Constants', key 'size': found '$digit'. "
+            "Allowed here: nothing");
+  EXPECT_EQ(message("  set size = 2*$size\n"),
+            "s.prm:2: section 'Constants', key 'size': found '$size'. "
+            "Allowed here: nothing");
+}

@@ -193,6 +193,78 @@ TEST(Seeding, ClippedPointsAreCentroids)
 
 
 
+TEST(Seeding, TrilinearGradientsOfCutCellsAreIntegrated)
+{
+  // A gradient holds 1, x, y, z, xy, yz and zx; the first four are integrated
+  // by any centroid. On cells of a grid of boxes the last three add up.
+  const MovedShape<3> body(std::make_shared<ConvexShape<3>>(ConvexShape<3>::box(
+                             Point<3>(), Point<3>(1., 0.5, 0.7))),
+                           Placement<3>(30.,
+                                        Point<3>(),
+                                        Tensor<1, 3>({1., 2., 3.}),
+                                        Tensor<1, 3>({0.4, 0.3, 0.3})));
+  const auto          products = [&](const unsigned int n) {
+    std::array<double, 3> sums{};
+    for (const auto &point :
+         seed_mesh(CellSeeder<3>(n, PointLayout::equal), body, 3, -0.5, 1.))
+      for (unsigned int d = 0; d < 3; ++d)
+        sums[d] +=
+          point.volume * point.position[d] * point.position[(d + 1) % 3];
+    return sums;
+  };
+  // int x_i x_j of the body: its principal moments, turned, about its centre
+  const Placement<3> turn(30., Point<3>(), Tensor<1, 3>({1., 2., 3.}), {});
+  const Point<3>     c =
+    turn.apply(Point<3>(0.5, 0.25, 0.35)) + Tensor<1, 3>({0.4, 0.3, 0.3});
+  const std::array<double, 3> length{{1., 0.5, 0.7}};
+  for (const unsigned int n : {1, 2, 3})
+    {
+      const auto sums = products(n);
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const unsigned int e     = (d + 1) % 3;
+          double             exact = c[d] * c[e];
+          for (unsigned int k = 0; k < 3; ++k)
+            exact += turn.rotation[d][k] * turn.rotation[e][k] * length[k] *
+                     length[k] / 12.;
+          EXPECT_NEAR(sums[d], 0.35 * exact, 1e-14);
+        }
+    }
+}
+
+
+
+TEST(Seeding, PointsOfCutCellsLieInBodyAndCell)
+{
+  const auto body = ConvexShape<3>::half_space(Point<3>(0.31, 0.27, 0.4),
+                                               Tensor<1, 3>({1., 2., 3.}));
+  std::vector<SeededPoint<3>> points;
+  const CellSeeder<3>         seeder(2, PointLayout::equal);
+  seeder.seed(ConvexPolytope<3>::CellVertices{{{0., 0., 0.},
+                                               {1., 0., 0.},
+                                               {0., 1., 0.},
+                                               {1., 1., 0.},
+                                               {0., 0., 1.},
+                                               {1., 0., 1.},
+                                               {0., 1., 1.},
+                                               {1., 1., 1.}}},
+              body,
+              points);
+  EXPECT_GT(points.size(), 8u);
+  EXPECT_LE(points.size(), seeder.max_points());
+  for (const auto &point : points)
+    {
+      EXPECT_TRUE(body.contains(point.position));
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          EXPECT_GT(point.position[d], 0.);
+          EXPECT_LT(point.position[d], 1.);
+        }
+    }
+}
+
+
+
 TEST(Seeding, ThinBodyKeepsItsVolume)
 {
   // a wire whose section is 1e-14 of a cell face

@@ -1,18 +1,18 @@
-# ranks: 1 2
-# debug: no
+# ranks: 1 2 # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
 # Deep beam (Cortis et al. 2017, section 5.2, tables 2 and 3): u_y at the right
 # corner against finite elements on the same mesh.
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 default = {"Boundaries/support/Enforcement": "skew Nitsche"}
 paper = {"Boundaries/support/Band width": 1e-6,
          "Boundaries/support/Carry reaction": "false"}
-conforming = "deep-beam-conforming"
-implicit = "deep-beam"
+conforming = "prm/cortis-2017/deep-beam-conforming.prm"
+implicit = "prm/cortis-2017/deep-beam.prm"
 
 
 def u_y(scene, h, settings):
-    result = run(f"prm/cortis-2017/{scene}.prm",
-                 quiet | {"Mesh/Cell size": h} | settings)
+    result = run(scene, quiet | {"Mesh/Cell size": h} | settings)
     return result.probes["u_y at A"]
 
 

@@ -1,4 +1,6 @@
 # ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
 # Simple shear across partly filled cells (Cortis et al. 2017, section 5.3,
 # figure 16) at 13 places against the mesh.
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
