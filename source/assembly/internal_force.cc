@@ -75,8 +75,8 @@ namespace moraine
 
 
     /**
-     * @f$G = \sum_p v_p\, g_p g_p^T@f$ of a run of points. Sizes known to the
-     * compiler (0 if not) make it about twice as fast.
+     * @f$G = \sum_p v_p\, g_p g_p^T@f$ of a run of points. A size known to the
+     * compiler (0 if not) lets it unroll the loops.
      */
     template <int dim, unsigned int fixed_n_nodes>
     void
