@@ -34,6 +34,12 @@ namespace moraine
      */
     constexpr double round_off = 1e-13;
 
+    /**
+     * What round-off leaves of the forces at the start of a step, which cancel
+     * altogether where a step ends without stress.
+     */
+    constexpr double cancelled = 1e-14;
+
 
 
     double
@@ -77,7 +83,7 @@ namespace moraine
       LA::Vector             &x;
       NewtonReport            report;
       double                  norm                  = 0.;
-      double                  tangent_norm          = 0.;
+      double                  scale_at_start        = 0.;
       unsigned int            iterations_since_pass = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
@@ -134,7 +140,6 @@ namespace moraine
                            system.symmetric(),
                            system.near_null_space());
       tangent_is_factorised = true;
-      tangent_norm          = system.tangent().linfty_norm();
     }
 
 
@@ -142,13 +147,9 @@ namespace moraine
     bool
     Iteration::small() const
     {
-      // A rigid motion is in equilibrium without forces: what is left is the
-      // round-off of K x.
-      const double round_off = 10. * std::numeric_limits<double>::epsilon() *
-                               tangent_norm * x.l2_norm();
       return norm <= std::max({parameters.tolerance * system.force_scale(),
                                parameters.absolute_tolerance,
-                               round_off});
+                               cancelled * scale_at_start});
     }
 
 
@@ -291,6 +292,7 @@ namespace moraine
     {
       system.initial_guess(x);
       evaluate(true);
+      scale_at_start = system.force_scale();
       record();
       if (!std::isfinite(norm))
         {
