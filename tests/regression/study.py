@@ -44,7 +44,8 @@ text("table", f"{len(table)} lines, {' '.join(table[0].split())}")
 
 again = run("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "20"}, command="study",
             extra=["--output", str(beam.folder)], expect=2)
-text("not written over", [l for l in again.output.splitlines() if l][-1]
+message = next(l for l in again.output.splitlines() if "moraine: " in l)
+text("not written over", message[message.index("moraine: "):]
      .replace(str(folder) + "/", ""))
 
 block = study("prm/studies/enforcement.prm", {"Mesh/Cell size": "10"})
@@ -86,5 +87,5 @@ for settings in ({"Study/Error": "probe u_z at corner"},
                  {"Boundaries/*/Enforcement": "penalty"}):
     result = run("prm/studies/solvers.prm",
                  {"Mesh/Cell size": "10", **settings}, command="study", expect=2)
-    text("wrong", [l for l in result.output.splitlines()
-                   if l.startswith("moraine: ")][0].replace(str(root) + "/", ""))
+    message = next(l for l in result.output.splitlines() if "moraine: " in l)
+    text("wrong", message[message.index("moraine: "):].replace(str(root) + "/", ""))
