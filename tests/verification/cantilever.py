@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 # Slender cantilever: a mesh turned by 90 degrees changes nothing; one at 45
-# degrees to the beam changes what refinement removes.
+# degrees to the beam changes what refinement removes. Scenes: cantilever-0.prm,
+# cantilever-45.prm and cantilever-90.prm.
 from math import cos, log2, radians, sin
 
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
