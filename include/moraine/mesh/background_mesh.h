@@ -57,7 +57,7 @@ namespace moraine
 
   /**
    * The background mesh: a triangulation every process knows as a whole, with
-   * each cell owned by one of them. p4est is not used.
+   * each cell owned by one of them.
    */
   template <int dim>
   class BackgroundMesh
