@@ -4,8 +4,6 @@
 #include <moraine/boundary/dirichlet_weight.h>
 #include <moraine/boundary/enforcement.h>
 
-#include <moraine/boundary/dirichlet_weight.h>
-
 namespace moraine
 {
   using namespace dealii;
@@ -48,12 +46,18 @@ namespace moraine
     if (enforcement == "weighted")
       {
         const DirichletWeight weight(band_width);
+        const double          c3 = weight.integral_derivative_squared();
+        // The reaction takes the place of the flux through the band. Both at
+        // once lose definiteness where the points of a cut cell hold little
+        // energy against the flux on its surface, and updates of t diverge.
+        if (carry_reaction)
+          return {0., 0., 0., c3, true, true};
         return {weight.integral_value_derivative(),
                 weight.integral_derivative(),
                 1.,
-                weight.integral_derivative_squared(),
-                carry_reaction,
-                carry_reaction};
+                c3,
+                false,
+                false};
       }
     if (enforcement == "symmetric Nitsche")
       return {1., 1., 1., nitsche_factor, true, false};

@@ -19,17 +19,19 @@ namespace moraine
    * @f[ -\int \eta \cdot f(u) - s \int f(\eta) \cdot (u - g)
    *     + c_3 \int \eta \cdot M Q M (u - g) - \int \eta \cdot t . @f]
    *
-   * | enforcement       | w_c | w_f | s  | c_3              |
-   * |-------------------|-----|-----|----|------------------|
-   * | weighted          | 1/2 | 1   | 1  | 4/(3 δ)          |
-   * | symmetric Nitsche | 1   | 1   | 1  | γ/h              |
-   * | skew Nitsche      | 1   | 1   | -1 | γ/h              |
-   * | penalty           | 0   | 0   | 0  | β/h              |
+   * | enforcement             | w_c | w_f | s  | c_3     |
+   * |-------------------------|-----|-----|----|---------|
+   * | weighted, no reaction   | 1/2 | 1   | 1  | 4/(3 δ) |
+   * | weighted, with reaction | 0   | 0   | 0  | 4/(3 δ) |
+   * | symmetric Nitsche       | 1   | 1   | 1  | γ/h     |
+   * | skew Nitsche            | 1   | 1   | -1 | γ/h     |
+   * | penalty                 | 0   | 0   | 0  | β/h     |
    *
-   * The weighted row is the closed form of the Dirichlet-weighted basis
+   * The first row is the closed form of the Dirichlet-weighted basis
    * (Cortis et al. 2017, eqs. 13-28) for a band δ thin against the cell h:
    * integrals of d', d d' and d'^2 across the band. t is the reaction the
-   * surface carries from the last step or pass.
+   * surface carries from the last step or pass; of a weighted boundary it
+   * takes the place of the flux.
    */
   struct Enforcement
   {
