@@ -42,6 +42,8 @@ namespace moraine
       json["rejected_steps"]    = summary.rejected_steps;
       json["newton_iterations"] = summary.newton_iterations;
       json["linear_iterations"] = summary.linear_iterations;
+      if (summary.condition_number)
+        json["condition_number"] = *summary.condition_number;
       json["bytes_per_point"]   = summary.bytes_per_point;
       json["peak_memory_mib"]   = summary.peak_memory_mib;
       json["wall_seconds"]      = summary.wall_seconds;

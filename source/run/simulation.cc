@@ -190,6 +190,9 @@ namespace moraine
           }
         if (good)
           {
+            if (scene.linear_solver.estimate_condition_number &&
+                report.iterations > 0)
+              estimate_condition_number();
             check_that_points_stay(time, x);
             time.accept(report.iterations);
             print_step(time, report);
@@ -298,6 +301,17 @@ namespace moraine
 
   template <int dim>
   void
+  Simulation<dim>::estimate_condition_number()
+  {
+    TimerOutput::Scope scope(timer, "condition number");
+    condition_number =
+      std::max(condition_number.value_or(0.), linear_solver->condition_number());
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::write_points(const double t)
   {
     t_written = t;
@@ -344,6 +358,7 @@ namespace moraine
     summary.rejected_steps    = time.n_rejected();
     summary.newton_iterations = newton_iterations;
     summary.linear_iterations = linear_iterations;
+    summary.condition_number  = condition_number;
     summary.bytes_per_point   = points->bytes_per_point();
     summary.peak_memory_mib   = memory_in_use(communicator).peak_mib;
     summary.wall_seconds      = wall_time.wall_time();

@@ -159,6 +159,8 @@ namespace moraine
       number("rejected_steps", summary.rejected_steps);
       number("newton_iterations", summary.newton_iterations);
       number("linear_iterations", summary.linear_iterations);
+      if (summary.condition_number)
+        number("condition_number", *summary.condition_number);
       number("bytes_per_point", summary.bytes_per_point);
       number("peak_memory_mib", summary.peak_memory_mib);
       number("ranks", summary.ranks);
@@ -440,6 +442,10 @@ namespace moraine
   Study::print_table() const
   {
     const auto   paths = choice_paths(cases);
+    const bool   conditioned =
+      std::any_of(results.begin(), results.end(), [](const auto &result) {
+        return result.summary.condition_number.has_value();
+      });
     TableHandler table;
     for (std::size_t i = 0; i < results.size(); ++i)
       {
@@ -476,6 +482,11 @@ namespace moraine
                         or_dash(ok, std::to_string(summary.newton_iterations)));
         table.add_value("linear",
                         or_dash(ok, std::to_string(summary.linear_iterations)));
+        if (conditioned)
+          table.add_value("condition",
+                          or_dash(summary.condition_number.has_value(),
+                                  text_of(summary.condition_number.value_or(0.),
+                                          3)));
         table.add_value("status", summary.status);
       }
     std::ostringstream text;

@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -40,6 +41,16 @@ namespace moraine
      * factorisation keeps far below.
      */
     constexpr double backward_error_limit = 1e-11;
+
+    /**
+     * A matrix is singular to working precision if rounding changes a solution
+     * by this much relative to itself, up to sqrt(n).
+     */
+    constexpr double singular_change = 0.01;
+
+    /** Power iterations end when a step changes a singular value by less. */
+    constexpr double       power_tolerance          = 1e-4;
+    constexpr unsigned int maximum_power_iterations = 200;
 
 
 
@@ -81,10 +92,15 @@ namespace moraine
     class DirectSolver
     {
     public:
-      explicit DirectSolver(const LA::SparseMatrix &matrix);
+      /** @p transposed: solve with the transpose of the matrix. */
+      explicit DirectSolver(const LA::SparseMatrix &matrix,
+                            const bool              transposed = false);
 
       LinearReport
       solve(LA::Vector &x, const LA::Vector &b);
+
+      double
+      condition_number();
 
     private:
       const LA::SparseMatrix            &matrix;
@@ -102,11 +118,15 @@ namespace moraine
 
       bool
       singular();
+
+      LA::Vector
+      arbitrary_vector() const;
     };
 
 
 
-    DirectSolver::DirectSolver(const LA::SparseMatrix &matrix)
+    DirectSolver::DirectSolver(const LA::SparseMatrix &matrix,
+                               const bool              transposed)
       : matrix(matrix)
       , matrix_norm(matrix.linfty_norm())
     {
@@ -124,7 +144,11 @@ namespace moraine
               factory.Create(std::string("Amesos_") + choice, problem));
             break;
           }
+      // Before the factorisation: MUMPS looks at it there only.
+      factors->SetUseTranspose(transposed);
       factorise();
+      if (failure.empty() && !transposed && singular())
+        failure = "the matrix is singular to working precision";
     }
 
 
@@ -141,8 +165,6 @@ namespace moraine
       if (factors->SymbolicFactorization() != 0 ||
           factors->NumericFactorization() != 0)
         failure = "the factorisation failed; the matrix is singular";
-      else if (singular())
-        failure = "the matrix is singular to working precision";
     }
 
 
@@ -159,37 +181,107 @@ namespace moraine
 
 
     /**
-     * What was factorised is not A but A + E with E of the size of round-off.
-     * Solve for an arbitrary right hand side and refine once: the correction is
-     * (A + E)^-1 E x. For a regular matrix it is small; for a singular one x is
-     * a null vector magnified by 1/|E|, A x = 0, and the correction is x
-     * itself. Bad scaling alone, as from stiff boundary terms, does not raise
-     * it to one.
+     * Solve for an arbitrary right hand side; then ask how much the answer x
+     * changes if every product in A x has a relative error of epsilon:
+     * A^-1 s A(s' x), s and s' arbitrary factors of each row and each unknown.
+     * For a singular matrix x is a null vector magnified to |A x| ~ epsilon |A|
+     * |x|, so that the change is of the size of x, but for the part 1/sqrt(n)
+     * of an arbitrary vector that lies along it. Bad scaling of rows alone, as
+     * from stiff boundary terms, does not raise it.
      */
     bool
     DirectSolver::singular()
     {
-      LA::Vector probe(matrix.locally_owned_range_indices(),
-                       matrix.get_mpi_communicator());
-      for (const auto i : probe.locally_owned_elements())
-        {
-          std::minstd_rand generator(i + 1);
-          generator.discard(4);
-          probe(i) = 2. * std::generate_canonical<double, 32>(generator) - 1.;
-        }
-      probe.compress(VectorOperation::insert);
-      LA::Vector x(probe), residual(probe), correction(probe);
+      const LA::Vector probe = arbitrary_vector();
+      LA::Vector       x(probe), w(probe), change(probe);
       if (!back_substitute(x, probe))
         return true;
-      matrix.residual(residual, x, probe);
-      const double relative = residual.l2_norm() / probe.l2_norm();
+      const double relative = matrix.residual(w, x, probe) / probe.l2_norm();
       // The part of the probe along k null vectors of n cannot be balanced:
       // sqrt(k/n) of it is left.
       if (relative < 1e-6)
         return false;
-      if (!std::isfinite(relative) || !back_substitute(correction, residual))
+      LA::Vector perturbed(x);
+      perturbed.scale(probe);
+      matrix.vmult(w, perturbed);
+      // Factors that do not follow the first ones.
+      LA::Vector other(probe);
+      other.scale(probe);
+      other.add(-1. / 3.);
+      w.scale(other);
+      if (!std::isfinite(relative) || !back_substitute(change, w))
         return true;
-      return !(correction.l2_norm() < 0.1 * x.l2_norm());
+      const double epsilon = std::numeric_limits<double>::epsilon();
+      return !(epsilon * std::sqrt(1. * matrix.m()) * change.l2_norm() <
+               singular_change * x.l2_norm());
+    }
+
+
+
+    /** The same on any number of ranks. */
+    LA::Vector
+    DirectSolver::arbitrary_vector() const
+    {
+      LA::Vector vector(matrix.locally_owned_range_indices(),
+                        matrix.get_mpi_communicator());
+      for (const auto i : vector.locally_owned_elements())
+        {
+          std::minstd_rand generator(i + 1);
+          generator.discard(4);
+          vector(i) = 2. * std::generate_canonical<double, 32>(generator) - 1.;
+        }
+      vector.compress(VectorOperation::insert);
+      return vector;
+    }
+
+
+
+    /**
+     * The largest singular value of an operator, by power iteration: apply(y,
+     * x) is y = A^T A x.
+     */
+    template <typename Apply>
+    double
+    largest_singular_value(LA::Vector x, const Apply &apply)
+    {
+      LA::Vector y(x);
+      double     value = 0, before;
+      x *= 1. / x.l2_norm();
+      for (unsigned int i = 0; i < maximum_power_iterations; ++i)
+        {
+          apply(y, x);
+          before = value;
+          value  = y.l2_norm();
+          if (!(value > 0.) ||
+              std::abs(value - before) < power_tolerance * value)
+            break;
+          x = y;
+          x *= 1. / value;
+        }
+      return std::sqrt(value);
+    }
+
+
+
+    double
+    DirectSolver::condition_number()
+    {
+      if (!failure.empty())
+        return std::numeric_limits<double>::infinity();
+      DirectSolver     adjoint(matrix, true);
+      const LA::Vector start = arbitrary_vector();
+      LA::Vector       between(start);
+      const double     largest =
+        largest_singular_value(start, [&](LA::Vector &y, const LA::Vector &x) {
+          matrix.vmult(between, x);
+          matrix.Tvmult(y, between);
+        });
+      const double of_inverse =
+        largest_singular_value(start, [&](LA::Vector &y, const LA::Vector &x) {
+          adjoint.back_substitute(between, x);
+          back_substitute(y, between);
+        });
+      return largest * of_inverse;
     }
 
 
@@ -505,6 +597,19 @@ namespace moraine
 
 
 
+  double
+  LinearSolver::condition_number() const
+  {
+    auto &s = *implementation;
+    Assert(s.matrix != nullptr, ExcMessage("set_up() comes first."));
+    if (!s.is_finite)
+      return std::numeric_limits<double>::quiet_NaN();
+    return s.direct ? s.direct->condition_number() :
+                      DirectSolver(*s.matrix).condition_number();
+  }
+
+
+
   void
   LinearSolver::clear()
   {
@@ -564,5 +669,9 @@ namespace moraine
                       direct_limit_3d,
                       "auto solves directly up to this many unknowns in 3D",
                       Patterns::Integer(0));
+    prm.add_parameter("Estimate condition number",
+                      estimate_condition_number,
+                      "of each step's last tangent, in the 2-norm; the largest "
+                      "goes to summary.json. Costs many solves a step");
   }
 } // namespace moraine

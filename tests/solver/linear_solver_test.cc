@@ -199,6 +199,36 @@ TEST(LinearSolver, StiffRowsAreNotSingular)
   EXPECT_LT(true_residual(problem, x), 1e-11);
 }
 
+TEST(LinearSolver, EstimatesTheConditionNumber)
+{
+  // Blocks s (1 a; 0 1): the singular values of one are s (r + a/2) and
+  // s (r - a/2), r^2 = 1 + a^2/4. The eigenvalues, all s, would tell less.
+  const Elasticity<2> problem(12);
+  LA::SparseMatrix    matrix;
+  matrix.reinit(problem.matrix);
+  const double a = 3, r = std::sqrt(1 + a * a / 4), largest_s = 1e5;
+  for (const auto i : problem.rhs.locally_owned_elements())
+    {
+      const double s = i / 2 == 7 ? largest_s : 1 + 0.5 * std::sin(i / 2);
+      matrix.set(i, i, i / 2 == 20 ? 0.1 : s);
+      if (i % 2 == 0)
+        matrix.set(i, i + 1, a * (i / 2 == 20 ? 0.1 : s));
+    }
+  matrix.compress(dealii::VectorOperation::insert);
+  const double exact = largest_s / 0.1 * (r + a / 2) / (r - a / 2);
+  for (const char *name : {"direct", "gmres"})
+    {
+      LinearSolver solver(use(name), 2);
+      solver.set_up(matrix, false, problem.modes);
+      EXPECT_NEAR(solver.condition_number() / exact, 1, 1e-3) << name;
+    }
+
+  const Elasticity<2> not_held(12, false);
+  LinearSolver        solver(use("direct"), 2);
+  solver.set_up(not_held.matrix, true, not_held.modes);
+  EXPECT_FALSE(std::isfinite(solver.condition_number()));
+}
+
 TEST(LinearSolver, ReportsANumberThatIsNone)
 {
   Elasticity<2> problem(8);

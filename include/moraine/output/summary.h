@@ -35,6 +35,8 @@ namespace moraine
     unsigned int  rejected_steps    = 0;
     unsigned int  newton_iterations = 0;
     unsigned int  linear_iterations = 0;
+    /** Left out if not asked for. */
+    std::optional<double> condition_number;
     unsigned int  bytes_per_point   = 0;
     double        peak_memory_mib   = 0;
     double        wall_seconds      = 0;

@@ -126,6 +126,9 @@ namespace moraine
     void
     write_points(const double t);
 
+    void
+    estimate_condition_number();
+
     /** @throw ComputationError naming the point that the step pushes out. */
     void
     check_that_points_stay(const TimeControl &time, const LA::Vector &x);
@@ -174,6 +177,7 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> last_increments;
     unsigned int                        newton_iterations = 0;
     unsigned int                        linear_iterations = 0;
+    std::optional<double>               condition_number;
     std::string                         solver_name;
     bool                                first_step = true;
   };

@@ -18,7 +18,7 @@ namespace dealii
 namespace moraine
 {
   /**
-   * Keys of the section "Linear solver".
+   * Keys of linear solvers, in the section "Solver".
    */
   struct LinearSolverParameters
   {
@@ -36,6 +36,9 @@ namespace moraine
 
     /** In 3D, auto solves directly up to this many unknowns. */
     unsigned int direct_limit_3d = 5000;
+
+    /** Whether somebody wants LinearSolver::condition_number(). */
+    bool estimate_condition_number = false;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -104,6 +107,17 @@ namespace moraine
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
+
+    /**
+     * An estimate of the condition number of the matrix given to set_up(), in
+     * the 2-norm: the ratio of its largest to its smallest singular value.
+     * Power iterations with K^T K and with its inverse approach both from
+     * inside, so the estimate is a lower bound, as a rule within a few per
+     * cent. Costs up to a few hundred back substitutions, and a factorisation
+     * if K is solved iteratively. Infinite if K is singular.
+     */
+    double
+    condition_number() const;
 
     /** Forget what set_up() built; the matrix may go or change its pattern. */
     void
