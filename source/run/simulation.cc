@@ -180,6 +180,7 @@ namespace moraine
         const NewtonReport report = newton.solve(*system, *linear_solver, x);
         newton_iterations += report.iterations;
         linear_iterations += report.linear_iterations;
+        condition_number   = std::max(condition_number, report.condition_number);
         solver_name        = report.linear_solver;
         std::string reason = report.message;
         bool        good   = report.converged();
@@ -190,9 +191,6 @@ namespace moraine
           }
         if (good)
           {
-            if (scene.linear_solver.estimate_condition_number &&
-                report.iterations > 0)
-              estimate_condition_number();
             check_that_points_stay(time, x);
             time.accept(report.iterations);
             print_step(time, report);
@@ -301,17 +299,6 @@ namespace moraine
 
   template <int dim>
   void
-  Simulation<dim>::estimate_condition_number()
-  {
-    TimerOutput::Scope scope(timer, "condition number");
-    condition_number =
-      std::max(condition_number.value_or(0.), linear_solver->condition_number());
-  }
-
-
-
-  template <int dim>
-  void
   Simulation<dim>::write_points(const double t)
   {
     t_written = t;
@@ -369,6 +356,9 @@ namespace moraine
     summary.timings.emplace_back("solver set up",
                                  linear_solver->set_up_seconds());
     summary.timings.emplace_back("solve", linear_solver->solve_seconds());
+    if (condition_number)
+      summary.timings.emplace_back("condition number",
+                                   linear_solver->condition_seconds());
     const ExactSolution<dim> exact = scene.exact.solution();
     if (exact.displacement || exact.stress)
       summary.errors =

@@ -444,6 +444,7 @@ namespace moraine
     unsigned int                                       n_set_ups      = 0;
     double                                             set_up_seconds = 0;
     double                                             solve_seconds  = 0;
+    double                                             condition_seconds = 0;
     const LA::SparseMatrix                            *matrix         = nullptr;
     Method                                             method = Method::direct;
     bool                                               is_finite = true;
@@ -597,13 +598,14 @@ namespace moraine
 
 
 
-  double
+  std::optional<double>
   LinearSolver::condition_number() const
   {
     auto &s = *implementation;
-    Assert(s.matrix != nullptr, ExcMessage("set_up() comes first."));
-    if (!s.is_finite)
-      return std::numeric_limits<double>::quiet_NaN();
+    if (!s.parameters.estimate_condition_number || s.matrix == nullptr ||
+        !s.is_finite)
+      return {};
+    const AddTime timing(s.condition_seconds);
     return s.direct ? s.direct->condition_number() :
                       DirectSolver(*s.matrix).condition_number();
   }
@@ -640,6 +642,14 @@ namespace moraine
   LinearSolver::solve_seconds() const
   {
     return implementation->solve_seconds;
+  }
+
+
+
+  double
+  LinearSolver::condition_seconds() const
+  {
+    return implementation->condition_seconds;
   }
 
 

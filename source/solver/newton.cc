@@ -304,6 +304,7 @@ namespace moraine
       report.observed_order = observed_order(report.residuals);
       if (balanced)
         settle_multipliers();
+      report.condition_number = linear_solver.condition_number();
       return report;
     }
   } // namespace

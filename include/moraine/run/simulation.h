@@ -126,9 +126,6 @@ namespace moraine
     void
     write_points(const double t);
 
-    void
-    estimate_condition_number();
-
     /** @throw ComputationError naming the point that the step pushes out. */
     void
     check_that_points_stay(const TimeControl &time, const LA::Vector &x);

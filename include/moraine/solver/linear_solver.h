@@ -7,6 +7,7 @@
 #include <moraine/core/linear_algebra.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ namespace moraine
     /** In 3D, auto solves directly up to this many unknowns. */
     unsigned int direct_limit_3d = 5000;
 
-    /** Whether somebody wants LinearSolver::condition_number(). */
+    /** Whether LinearSolver::condition_number() gives one. */
     bool estimate_condition_number = false;
 
     void
@@ -114,9 +115,10 @@ namespace moraine
      * Power iterations with K^T K and with its inverse approach both from
      * inside, so the estimate is a lower bound, as a rule within a few per
      * cent. Costs up to a few hundred back substitutions, and a factorisation
-     * if K is solved iteratively. Infinite if K is singular.
+     * if K is solved iteratively. Infinite if K is singular; nothing if the
+     * parameters do not ask for it or no matrix is set up.
      */
-    double
+    std::optional<double>
     condition_number() const;
 
     /** Forget what set_up() built; the matrix may go or change its pattern. */
@@ -136,6 +138,10 @@ namespace moraine
     /** Wall time spent in solve() so far. */
     double
     solve_seconds() const;
+
+    /** Wall time spent in condition_number() so far. */
+    double
+    condition_seconds() const;
 
   private:
     struct Implementation;

@@ -7,6 +7,7 @@
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/nonlinear_system.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,9 @@ namespace moraine
     unsigned int linear_iterations = 0;
 
     unsigned int augmentations = 0;
+
+    /** Of the last tangent, if the linear solver is to estimate it. */
+    std::optional<double> condition_number;
 
     /** Relative residual at the start and after each correction. */
     std::vector<double> residuals;
