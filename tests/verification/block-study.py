@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 # The study of the contained block, at two angles and one cell size: the error
-# of the weighted basis is that of its band width, Nitsche's methods and a
-# penalty with reaction have round-off only.
+# of the weighted basis is that of its band width, all that carry a reaction
+# have round-off only. Independent calculation gave the weighted basis at 30
+# degrees the condition numbers 3e7, 3e9 and 3e12 at bands of 0.1, 1e-3 and 1e-6.
 import csv
 
 result = run("prm/cortis-2017/block-study.prm",
@@ -13,24 +14,18 @@ with open(result.folder / "study.csv") as file:
     rows = list(csv.DictReader(file))
 text("rows", len(rows))
 text("all ended well", all(row["status"] == "ok" for row in rows))
-without = {}
 for row in rows:
     band = row["Constants/band"]
     name = f"{row['Series']}, {row['Constants/angle']} degrees"
     error = float(row["error"])
     if row["Series"] == "weighted, no reaction":
         number(f"{name}, band {band}", error, 1)
-        without[row["Constants/angle"], band] = error
-    elif row["Series"] != "weighted":
-        bound(name, error, 1e-10)
-    elif row["Constants/angle"] == "0":
-        bound(f"{name}, band {band}", error, 1e-10)
-    elif float(band) == 0.1:
-        # So wide a band does not hold at this angle.
-        at_least(f"{name}, band {band}", error, 0.1)
-    elif float(band) >= 1e-6:
-        # Repeated solutions stop where they gain less than a factor of 2.
-        bound(f"{name}, band {band}, over that without reaction",
-              error / without["30", band], 0.1)
+    elif row["Series"] == "weighted":
+        # The smaller the band, the more digits the stiff terms cost.
+        bound(f"{name}, band {band}", error,
+              1e-11 if float(band) >= 1e-6 else 1e-9)
+        if float(band) in (1e-1, 1e-3, 1e-6):
+            number(f"{name}, band {band}: condition number",
+                   float(row["condition_number"]), 1)
     else:
-        bound(f"{name}, band {band}", error, 1e-8)
+        bound(name, error, 1e-10)
