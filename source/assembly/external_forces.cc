@@ -181,8 +181,34 @@ namespace moraine
 
 
 
+  template <int dim>
+  std::vector<unsigned int>
+  MechanicsSystem<dim>::n_prescribed_nodes() const
+  {
+    std::vector<unsigned int> n(conditions.size(), 0);
+    const auto               *before = prescribed.entries.data();
+    for (const auto &entry : prescribed.entries)
+      {
+        // The components of a node follow each other.
+        if (state.grid().locally_owned().is_element(
+              state.grid().node_dof(entry.node)) &&
+            (&entry == before || entry.node != before->node ||
+             entry.condition != before->condition))
+          ++n[entry.condition];
+        before = &entry;
+      }
+    Utilities::MPI::sum(n, state.grid().communicator(), n);
+    return n;
+  }
+
+
+
   template void
   MechanicsSystem<2>::assemble_external_forces();
+  template std::vector<unsigned int>
+  MechanicsSystem<2>::n_prescribed_nodes() const;
+  template std::vector<unsigned int>
+  MechanicsSystem<3>::n_prescribed_nodes() const;
   template std::vector<BoundaryReport<2>>
   MechanicsSystem<2>::report_grid_conditions(const LA::Vector &);
   template void

@@ -77,8 +77,13 @@ namespace moraine
         effects.push_back("implicit boundary " + boundaries[b].name() + " (" +
                           how + ")");
       }
-    for (const auto &condition : grid_conditions)
-      effects.push_back("grid condition " + condition.name);
+    const auto n_nodes = system->n_prescribed_nodes();
+    for (unsigned int c = 0; c < grid_conditions.size(); ++c)
+      {
+        console << "  grid        " << grid_conditions[c].name << ", holds "
+                << n_nodes[c] << " nodes\n";
+        effects.push_back("grid condition " + grid_conditions[c].name);
+      }
     for (const auto &[name, load] : scene.loads)
       {
         console << "  load        " << name << ", " << load.type << '\n';
@@ -131,6 +136,7 @@ namespace moraine
     catch (const InputError &error)
       {
         end_if_alone(wrong_input, error.what());
+        keep_summary_of_failure(time, error.what());
         throw;
       }
     catch (const ComputationError &error)
@@ -376,6 +382,28 @@ namespace moraine
         summary.reactions.emplace_back(report.name, reaction);
       }
     return summary;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::keep_summary_of_failure(const TimeControl &time,
+                                           const std::string &what)
+  {
+    if (!directory)
+      return;
+    try
+      {
+        Summary summary = make_summary(time);
+        summary.status  = "failed";
+        summary.message = what;
+        summary.write(directory->file("summary.json"), communicator);
+      }
+    catch (const InputError &)
+      {
+        // The first error is the one to report.
+      }
   }
 
 

@@ -585,6 +585,21 @@ namespace moraine
 
 
 
+  /** A motion without a value at the end of a step is found here, before
+   * anything is computed or written. */
+  template <int dim>
+  void
+  Simulation<dim>::check_prescribed_motion()
+  {
+    const double size =
+      (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
+    for (auto &boundary : boundaries)
+      for (unsigned int step = 1; step <= scene.time.n_steps; ++step)
+        boundary.set_target(scene.time.start_time + step * size);
+  }
+
+
+
   template <int dim>
   void
   Simulation<dim>::begin_first_step()
@@ -596,6 +611,7 @@ namespace moraine
         throw InputError("section 'Boundaries/" + boundaries[b].name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
+    check_prescribed_motion();
     system->set_target(scene.time.start_time);
     system->assemble(space->vector(), true);
     system->check_that_it_is_held(true);

@@ -139,6 +139,10 @@ namespace moraine
     std::vector<unsigned int>
     n_boundary_points() const;
 
+    /** Number of nodes that each grid condition holds, over all ranks. */
+    std::vector<unsigned int>
+    n_prescribed_nodes() const;
+
   private:
     void
     set_up_unknowns();

@@ -108,6 +108,9 @@ namespace moraine
     void
     begin_first_step();
 
+    void
+    check_prescribed_motion();
+
     /** One step that must be accepted, with as many cuts as it takes. */
     void
     advance(TimeControl &time);
@@ -138,6 +141,9 @@ namespace moraine
 
     Summary
     make_summary(const TimeControl &time);
+
+    void
+    keep_summary_of_failure(const TimeControl &time, const std::string &what);
 
     Scene<dim>                                  &scene;
     const MPI_Comm                               communicator;
