@@ -24,30 +24,30 @@ export OMP_NUM_THREADS=1
 moraine() {
   local words=() setting
   for setting in "${@:4}"; do words+=(--set "$setting"); done
-  "$build/moraine" "$1" "$prm/$3.prm" --output "$2" "${words[@]}" >"$2.log" || {
+  "$build/moraine" "$1" "$prm/$3.prm" --output "$2" "${words[@]}" >"$2.log" 2>&1 || {
     cat "$2.log"
     exit 1
   }
 }
 run() { moraine run "$@"; }
 
-# The table of ./NAME/study.csv is what is drawn, not the plot of the study.
-study() { moraine study "$@" "Output/Points = false" "Output/Mesh = false"; }
-
-# series BOUNDARIES NAME...: settings that make a study compare enforcements
-series() {
-  local boundaries=$1 name key
-  for name in "${@:2}"; do
-    local settings="Enforcement = ${name%%[,0-9]*}"
-    case $name in
-    weighted*) settings+="; Band width = 1e-6" ;;
-    penalty*) settings+="; Penalty factor = 1e6" ;;
-    symmetric*) settings+="; Nitsche factor = 20" ;;
-    esac
-    [[ $name == *"no reaction" ]] && settings+="; Carry reaction = false"
-    echo "Study/Series/$name/Settings = Boundaries/$boundaries/${settings//; /; Boundaries/$boundaries/}"
-  done
+# What is drawn is the table of ./NAME/study.csv, not the plot of the study
+# (error against time). Gnuplot cuts a text at a comma: commas in quotes go.
+study() {
+  moraine study "$@" "Output/Points = false" "Output/Mesh = false"
+  sed -E -i ':again; s/"([^",]*),([^"]*)"/"\1\2"/; t again' "$1/study.csv"
 }
+
+# Settings that make a study compare the enforcements; style.gp names them too.
+enforcements=()
+for setting in "skew Nitsche 10: skew Nitsche" \
+  "symmetric Nitsche 20: symmetric Nitsche; Nitsche factor = 20" \
+  "weighted 1e-6: weighted; Band width = 1e-6" \
+  "weighted 1e-6, no reaction: weighted; Band width = 1e-6; Carry reaction = false" \
+  "penalty 1e6: penalty; Penalty factor = 1e6"; do
+  words=${setting#*: }
+  enforcements+=("Study/Series/${setting%%:*}/Settings = Boundaries/*/Enforcement = ${words//; /; Boundaries/*/}")
+done
 
 # last FOLDER: its last VTU file
 last() { find "$1" -name '*.vtu' | sort | tail -n 1; }

@@ -445,15 +445,17 @@ def main():
         sys.exit("render.py: the panels do not fill the columns")
     rows = [joined(images[i:i + columns], 0)
             for i in range(0, len(images), columns)]
-    top = [columns * size[0], 2 * font + 4]
-    picture = joined(rows[::-1] +
-                     [image_of(heading(args.heading, font + 4, top), top)], 1)
+    picture = joined(rows[::-1], 1)
     side = [12 * font, picture.GetDimensions()[1]]
+    picture = joined([picture, image_of(legend(args, table, font, side), side)],
+                     0)
+    top = [picture.GetDimensions()[0], 2 * font + 4]
+    picture = joined([picture,
+                      image_of(heading(args.heading, font + 4, top), top)], 1)
     writer = vtk.vtkPNGWriter()
     writer.SetFileName(args.output)
     writer.SetCompressionLevel(9)
-    writer.SetInputData(
-        joined([picture, image_of(legend(args, table, font, side), side)], 0))
+    writer.SetInputData(picture)
     writer.Write()
 
 
