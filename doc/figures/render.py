@@ -382,15 +382,17 @@ class Panel:
         return renderer
 
 
-def legend(args, table, font, size):
+def title(args):
+    words = args.title or " ".join([args.field, args.component]).strip()
+    return words + (f" [{args.unit}]" if args.unit else "")
+
+
+def legend(words, table, font, size):
     """Title and colour bar, at the right of all panels."""
-    title = args.title or " ".join([args.field, args.component]).strip()
-    if args.unit:
-        title += f" [{args.unit}]"
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor2D(colour_bar(table, font, size[0]))
-    renderer.AddActor2D(text_at(title, font, 0.92, 0.84, "Right"))
+    renderer.AddActor2D(text_at(words, font, 0.95, 0.84, "Right"))
     return renderer
 
 
@@ -446,9 +448,10 @@ def main():
     rows = [joined(images[i:i + columns], 0)
             for i in range(0, len(images), columns)]
     picture = joined(rows[::-1], 1)
-    side = [12 * font, picture.GetDimensions()[1]]
-    picture = joined([picture, image_of(legend(args, table, font, side), side)],
-                     0)
+    side = [max(9 * font, int(0.62 * font * len(title(args)))),
+            picture.GetDimensions()[1]]
+    picture = joined([picture, image_of(legend(title(args), table, font, side),
+                                        side)], 0)
     top = [picture.GetDimensions()[0], 2 * font + 4]
     picture = joined([picture,
                       image_of(heading(args.heading, font + 4, top), top)], 1)

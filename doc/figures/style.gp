@@ -19,7 +19,9 @@ set datafile separator ','
 set datafile missing NaN
 set grid lc rgb '#dddddd' lt 1 lw 1
 set border lw 1.2
-set key below center vertical Left reverse maxrows 3 spacing 1.2 samplen 2.5
+# The empty title of the key keeps it off the label of the axis.
+set key below center vertical Left reverse maxrows 3 spacing 1.2 samplen 2.5 \
+        title ' ' font ',5'
 set xlabel offset 0,0.4
 
 # As make_figures.sh names the enforcements in a study, and in words.
@@ -27,7 +29,7 @@ array Name[5] = ['skew Nitsche 10', 'symmetric Nitsche 20', 'weighted 1e-6', \
                  'weighted 1e-6 no reaction', 'penalty 1e6']
 array Title[5] = ['skew Nitsche, γ = 10 (default)', 'symmetric Nitsche, γ = 20', \
                   'weighted, δ = 10^{-6} h, with reaction', \
-                  'the same, no reaction (paper)', \
+                  'weighted, δ = 10^{-6} h, no reaction (paper)', \
                   'penalty, β = 10^{6}, with reaction']
 
 # The value where the rows of a study are of this series, else nothing.

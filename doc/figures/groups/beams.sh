@@ -82,19 +82,33 @@ for angle in 0 45 90; do
   run "cantilever-$angle" "cortis-2017/cantilever-$angle" "Output/Mesh = false" \
     "Output/Points = false"
 done
-plot cantilever-load <<'GP'
-set title 'Slender cantilever: h = 2 mm, 100 points per cell, skew Nitsche'
-set xlabel 'body force  [N/mm²]'
-set ylabel 'deflection near the free end  [mm]'
+paste -d, cantilever-{0,45,90}/history.csv >cantilever-load.csv
+plot cantilever-load 900,700 <<'GP'
+# each history: t, four of the support, u_x and u_y at tip
+set multiplot title 'Slender cantilever: h = 2 mm, 100 points per cell, skew Nitsche, γ = 10'
+set lmargin 11
 set xrange [0:0.21]
+set size 1,0.62
+set origin 0,0.35
+set key top left maxrows 3 inside notitle
+set ylabel 'deflection near the free end  [mm]'
 set yrange [0:60]
-set key top left maxrows 3 inside
-force(t) = 0.2 * t
-y = 'u_y at tip [length]'
-x_ = 'u_x at tip [length]'
-plot 'cantilever-0/history.csv' using (force(column('t'))):(-column(y)) w lp lt 1 pt 6 ps 2 title '0°', \
-     'cantilever-90/history.csv' using (force(column('t'))):(column(x_)) w lp lt 4 pt 2 title '90°', \
-     'cantilever-45/history.csv' using (force(column('t'))):((column(x_) - column(y)) / sqrt(2)) w lp lt 3 title '45°'
+set format x ''
+w(angle) = angle == 0 ? -column(7) : angle == 90 ? column(20) : (column(13) - column(14)) / sqrt(2)
+force = 'column(1) * 0.2'
+plot 'cantilever-load.csv' using (@force):(w(0)) w lp lt 1 pt 6 ps 2 title '0°', \
+     '' using (@force):(w(90)) w lp lt 4 pt 2 title '90°', \
+     '' using (@force):(w(45)) w lp lt 3 title '45°'
+set size 1,0.36
+set origin 0,0
+set format x '%g'
+set xlabel 'body force  [N/mm²]'
+set ylabel 'difference  [%]'
+set yrange [-1:0.5]
+set ytics 0.5
+set key bottom right
+plot 'cantilever-load.csv' using (@force):(100 * (w(45) / w(90) - 1)) w lp lt 3 title '45° against 90°', \
+     '' using (@force):(100 * (w(0) / w(90) - 1)) w lp lt 1 pt 6 title '0° against 90°'
 GP
 
 first=("Mesh/Cell size = {{4|2|1}}" "Method/Points per direction = 5"
@@ -104,7 +118,7 @@ for angle in 45 90; do
     "${enforcements[@]}"
 done
 paste -d, cantilever-study-45/study.csv \
-  <(cut -d, -f6 cantilever-study-90/study.csv | sed 's/u_x at tip/w at 90/') \
+  <(cut -d, -f5 cantilever-study-90/study.csv | sed 's/u_x at tip/w at 90/') \
   >cantilever-study.csv
 plot cantilever-difference 900,640 <<'GP'
 set title 'Slender cantilever, first load step, 25 points per cell: 45° against 90°'
@@ -128,7 +142,7 @@ done
 render cantilever "$(last bent-90/points)" "$(last bent-45/points)" --columns 2 \
   --label "90 degrees" "45 degrees" \
   --mesh "$(last bent-90/mesh)" "$(last bent-45/mesh)" \
-  --field von_mises_stress --range 0 120 \
+  --field von_mises_stress --range 0 250 \
   --heading "Slender cantilever under the full load, skew Nitsche, h = 2 mm" \
   --title "von Mises stress" --unit "N/mm²" --length-unit mm --size 700 620 \
   --wall-of 1 -20 100 0 100 --wall-of 2 70.71 70.71 56.57 84.85
