@@ -32,10 +32,16 @@ moraine() {
 run() { moraine run "$@"; }
 
 # What is drawn is the table of ./NAME/study.csv, not the plot of the study
-# (error against time). Gnuplot cuts a text at a comma: commas in quotes go.
+# (error against time). Gnuplot cuts a text at a comma, so they go.
 study() {
   moraine study "$@" "Output/Points = false" "Output/Mesh = false"
-  sed -E -i ':again; s/"([^",]*),([^"]*)"/"\1\2"/; t again' "$1/study.csv"
+  /usr/bin/python3 - "$1/study.csv" <<'PY'
+import csv, sys
+with open(sys.argv[1]) as file:
+    rows = [[text.replace(",", "") for text in row] for row in csv.reader(file)]
+with open(sys.argv[1], "w") as file:
+    csv.writer(file, lineterminator="\n").writerows(rows)
+PY
 }
 
 # Settings that make a study compare the enforcements; style.gp names them too.
@@ -54,6 +60,9 @@ last() { find "$1" -name '*.vtu' | sort | tail -n 1; }
 
 # render NAME ...: render.py draws NAME.png
 render() { "$figures/render.py" "${@:2}" -o "$figures/$1.png"; }
+
+# table NAME.csv ...: render.py writes the values of the points into ./NAME.csv
+table() { "$figures/render.py" "${@:2}" -o "$1"; }
 
 # plot NAME [WIDTH,HEIGHT]: gnuplot draws NAME.png by the commands it reads
 plot() {

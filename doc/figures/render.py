@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Draw a VTU file of a run as a PNG picture.
+"""Draw a VTU file of a run as a PNG picture, or write its values as a CSV table.
 
 Points are drawn as discs (balls in 3D) of the size of their volume, meshes as
 cells with their edges; walls can be added as lines. Several files become panels
@@ -316,7 +316,7 @@ def arguments():
     parser.add_argument("--size", nargs=2, type=int, default=[1000, 700],
                         help="pixels of a panel; in 2D the width follows from "
                         "the height")
-    parser.add_argument("-o", "--output", required=True, help="PNG file")
+    parser.add_argument("-o", "--output", required=True, help="PNG file, or CSV file")
     return parser.parse_args()
 
 
@@ -428,9 +428,22 @@ def joined(images, axis):
     return append.GetOutput()
 
 
+def write_table(panels, path):
+    """Position and value of all points."""
+    with open(path, "w") as file:
+        file.write("x,y,z,value\n")
+        for data in (panel.data for panel in panels):
+            values = data.GetPointData().GetArray("value")
+            for i in range(data.GetNumberOfPoints()):
+                row = (*data.GetPoint(i), values.GetValue(i))
+                file.write(",".join(f"{number:.8g}" for number in row) + "\n")
+
+
 def main():
     args = arguments()
     panels = [Panel(args, i) for i in range(len(args.files))]
+    if args.output.endswith(".csv"):
+        return write_table(panels, args.output)
     bounds = union([panel.bounds() for panel in panels])
     low, high = zip(*(panel.range for panel in panels))
     value_range = args.range or (min(low), max(high))

@@ -144,5 +144,5 @@ render cantilever "$(last bent-90/points)" "$(last bent-45/points)" --columns 2 
   --mesh "$(last bent-90/mesh)" "$(last bent-45/mesh)" \
   --field von_mises_stress --range 0 250 \
   --heading "Slender cantilever under the full load, skew Nitsche, h = 2 mm" \
-  --title "von Mises stress" --unit "N/mm²" --length-unit mm --size 700 620 \
+  --title "von Mises stress" --unit "N/mm²" --length-unit mm --size 600 520 \
   --wall-of 1 -20 100 0 100 --wall-of 2 70.71 70.71 56.57 84.85

@@ -12,9 +12,9 @@ run ring boundaries/ring
 run quarter boundaries/ring-roller
 render ring "$(last ring/points)" "$(last quarter/points)" --columns 2 \
   --label "ring, 20 cells across" "quarter on rollers, 20 cells across" \
-  --grid -1.15 -1.15 1.15 1.15 0.115 --field von_mises_stress --size 600 560 \
+  --grid -1.15 -1.15 1.15 1.15 0.115 --field von_mises_stress --size 500 480 \
   --heading "Elastic ring, pressure 1 inside: skew Nitsche" \
-  --title "von Mises stress" --point-scale 0.9 \
+  --title "von Mises stress" --range 0.3 2.1 --point-scale 0.9 \
   --wall-of 1 $(arc 0.4 0 360) --wall-of 1 $(arc 1 0 360) \
   --wall-of 2 $(arc 0.4 20 110) --wall-of 2 0.3759 0.1368 0.9397 0.3420 \
   --wall-of 2 -0.1368 0.3759 -0.3420 0.9397
@@ -37,18 +37,17 @@ set ylabel 'relative L2 error of displacement  [-]'
 set xrange [0.012:0.14]
 set xtics (0.0144, 0.0288, 0.0575, 0.115)
 set yrange [2e-5:1]
-set key off
 set label 1 'slope 2' at 0.03,7e-5
 set lmargin 9
 set rmargin 1
-set bmargin 9
+set bmargin 8
 error(name) = of(name, column('error'))
+# one legend for both, half below each
 set label 2 'both arcs prescribed' at 0.014,0.5
-plot for [i=1:5] 'ring-study/study.csv' using (2.3 / column('Mesh/Cells')):(error(Name[i])) w lp lt i, \
-     0.12 * x**2 lt 9
+plot for [i=1:5] 'ring-study/study.csv' using (2.3 / column('Mesh/Cells')):(error(Name[i])) w lp lt i title i < 4 ? Title[i] : '', \
+     0.12 * x**2 lt 9 notitle
 set label 2 'inner arc and sides on rollers'
 unset ylabel
-set key at screen 0.5,0.005 center bottom maxrows 3
-plot for [i=1:5] 'ring-roller-study/study.csv' using (2.3 / column('Mesh/Cells')):(error(Name[i])) w lp lt i title Title[i], \
+plot for [i=1:5] 'ring-roller-study/study.csv' using (2.3 / column('Mesh/Cells')):(error(Name[i])) w lp lt i title i > 3 ? Title[i] : '', \
      0.12 * x**2 lt 9 notitle
 GP
