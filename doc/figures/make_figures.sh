@@ -17,7 +17,6 @@ build=$(readlink -f "${1:-$figures/../../build/release}")
 [ $# -gt 1 ] && groups=("${@:2}") || groups=(start block beams penetration ring basics)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
 export OMP_NUM_THREADS=1
 
 # moraine COMMAND NAME SCENE [SETTING...]: results in ./NAME
@@ -74,5 +73,7 @@ plot() {
 
 for group in "${groups[@]}"; do
   echo "$group"
+  mkdir "$work/$group"
+  cd "$work/$group"
   source "$figures/groups/$group.sh"
 done

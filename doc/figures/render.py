@@ -178,7 +178,8 @@ def edge_lines(data):
     mapper.ScalarVisibilityOff()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.75, 0.75, 0.78)
+    actor.GetProperty().SetColor(0.8, 0.8, 0.83)
+    actor.GetProperty().SetLineWidth(2)
     actor.GetProperty().LightingOff()
     if is_flat(data):
         actor.SetPosition(0, 0, -0.1)

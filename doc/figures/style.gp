@@ -28,8 +28,8 @@ set xlabel offset 0,0.4
 array Name[5] = ['skew Nitsche 10', 'symmetric Nitsche 20', 'weighted 1e-6', \
                  'weighted 1e-6 no reaction', 'penalty 1e6']
 array Title[5] = ['skew Nitsche, γ = 10 (default)', 'symmetric Nitsche, γ = 20', \
-                  'weighted, δ = 1e-6 h, with reaction', \
-                  'weighted, δ = 1e-6 h, no reaction (paper)', \
+                  'weighted, 1e-6 h, with reaction', \
+                  'weighted, 1e-6 h, no reaction (paper)', \
                   'penalty, β = 1e6, with reaction']
 
 # The value where the rows of a study are of this series, else nothing.

@@ -58,7 +58,7 @@ plot loads <<'GP'
 set title 'Every kind of load at once: what the supports carry (MPM, 2² points per cell)'
 set xlabel 'time  t  [-]'
 set ylabel 'force  [N/mm]'
-set xrange [0:2.05]
+set xrange [0:2]
 set yrange [0:1250]
 curve(t) = t < 1 ? 2 * t : 3 - t
 of_all(d) = column('reaction_'.d.' of left [force]') + column('reaction_'.d.' of base [force]')
