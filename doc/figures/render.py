@@ -179,10 +179,11 @@ def edge_lines(data):
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(0.8, 0.8, 0.83)
-    actor.GetProperty().SetLineWidth(2)
     actor.GetProperty().LightingOff()
     if is_flat(data):
         actor.SetPosition(0, 0, -0.1)
+        # Thinner ones may vanish between the pixels.
+        actor.GetProperty().SetLineWidth(2)
     return actor
 
 

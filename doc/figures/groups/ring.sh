@@ -22,7 +22,7 @@ render ring "$(last ring/points)" "$(last quarter/points)" --columns 2 \
 run sphere boundaries/hollow-sphere
 render hollow-sphere "$(last sphere/points)" --mesh "$(last sphere/mesh)" \
   --field displacement --component magnitude --size 700 620 \
-  --heading "Octant of a hollow sphere, 8 cells across: skew Nitsche" --title "|u|"
+  --heading "Octant of a hollow sphere, 8 cells across: skew Nitsche" --title "|u|" --range 0 3e-4
 
 for scene in ring ring-roller; do
   study "$scene-study" "boundaries/$scene" "Study/Error = l2_u" \
