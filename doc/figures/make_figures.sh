@@ -2,59 +2,78 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 #
-# Runs scenes and tutorial programs and renders every picture of README and doc/
-# from their results into doc/figures/:
-#   doc/figures/make_figures.sh [BUILD FOLDER]      default: build/release
-# Needs what ./moraine test installs, and xvfb where there is no display.
+# Runs scenes, studies and tutorial programs and makes every picture of
+# doc/figures/ from their results:
+#   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
+# BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
+# groups/ without its ending (all if left out). Needs what ./moraine test
+# installs, gnuplot, and xvfb where there is no display. The pictures of
+# doc/studies/ show wall times and come from moraine study itself.
 
 set -euo pipefail
-root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
-build=$(readlink -f "${1:-$root/build/release}")
-figures=$root/doc/figures
+figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+prm=$figures/../../prm
+build=$(readlink -f "${1:-$figures/../../build/release}")
+[ $# -gt 1 ] && groups=("${@:2}") || groups=(start block beams penetration ring basics)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
 export OMP_NUM_THREADS=1
 
-# run NAME SCENE: results in ./NAME
-run() {
-  "$build/moraine" run "$root/prm/$2" --output "$1" >"$1.log" || {
-    cat "$1.log"
+# moraine COMMAND NAME SCENE [SETTING...]: results in ./NAME
+moraine() {
+  local words=() setting
+  for setting in "${@:4}"; do words+=(--set "$setting"); done
+  "$build/moraine" "$1" "$prm/$3.prm" --output "$2" "${words[@]}" >"$2.log" 2>&1 || {
+    cat "$2.log"
     exit 1
   }
 }
+run() { moraine run "$@"; }
+
+# What is drawn is the table of ./NAME/study.csv, not the plot of the study
+# (error against time). Gnuplot cuts a text at a comma, so they go.
+study() {
+  moraine study "$@" "Output/Points = false" "Output/Mesh = false"
+  /usr/bin/python3 - "$1/study.csv" <<'PY'
+import csv, sys
+with open(sys.argv[1]) as file:
+    rows = [[text.replace(",", "") for text in row] for row in csv.reader(file)]
+with open(sys.argv[1], "w") as file:
+    csv.writer(file, lineterminator="\n").writerows(rows)
+PY
+}
+
+# Settings that make a study compare the enforcements; style.gp names them too.
+enforcements=()
+for setting in "skew Nitsche 10: skew Nitsche" \
+  "symmetric Nitsche 20: symmetric Nitsche; Nitsche factor = 20" \
+  "weighted 1e-6: weighted; Band width = 1e-6" \
+  "weighted 1e-6, no reaction: weighted; Band width = 1e-6; Carry reaction = false" \
+  "penalty 1e6: penalty; Penalty factor = 1e6"; do
+  words=${setting#*: }
+  enforcements+=("Study/Series/${setting%%:*}/Settings = Boundaries/*/Enforcement = ${words//; /; Boundaries/*/}")
+done
 
 # last FOLDER: its last VTU file
 last() { find "$1" -name '*.vtu' | sort | tail -n 1; }
 
-render() { "$figures/render.py" "$@"; }
+# render NAME ...: render.py draws NAME.png
+render() { "$figures/render.py" "${@:2}" -o "$figures/$1.png"; }
 
-run footing cortis-2017/footing.prm
-render "$(last footing/points)" --mesh "$(last footing/mesh)" \
-  --field stress --component yy --range -600 100 \
-  --heading "Rigid footing, pushed in by 1 m" \
-  --title "vertical stress" --unit "kN/m²" --length-unit m \
-  --wall 0 2 0.5 2 0.5 3 --wall 0 3 0 0 3 0 3 3 -o "$figures/footing.png"
+# table NAME.csv ...: render.py writes the values of the points into ./NAME.csv
+table() { "$figures/render.py" "${@:2}" -o "$1"; }
 
-run tilted boundaries/tilted-roller.prm
-render "$(last tilted/points)" --mesh "$(last tilted/mesh)" \
-  --field stress --component yy --range -5.5 0 \
-  --heading "Block on a slope of 25 degrees" \
-  --title "vertical stress" --unit "N/mm²" --length-unit mm \
-  --wall -21.13 45.32 0 0 90.63 42.26 -o "$figures/tilted-roller.png"
+# plot NAME [WIDTH,HEIGHT]: gnuplot draws NAME.png by the commands it reads
+plot() {
+  { echo "set terminal pngcairo enhanced size ${2:-900,600} font 'DejaVu Sans,13'"
+    echo "set output '$figures/$1.png'"
+    cat "$figures/style.gp" -
+  } | gnuplot
+}
 
-# The tutorial programs write block.vtu (step-1, step-2) and step-3.vtu.
-for step in 1 2 3; do
-  mkdir "step-$step"
-  (cd "step-$step" && "$build/doc/step-$step" >log)
+for group in "${groups[@]}"; do
+  echo "$group"
+  mkdir "$work/$group"
+  cd "$work/$group"
+  source "$figures/groups/$group.sh"
 done
-for step in 1 2; do
-  render "step-$step/block.vtu" --field stress --component xx --range 15 61 \
-    --heading "step-$step" --title "stress xx" --unit "N/mm²" \
-    --length-unit mm --size 900 520 --grid 0 0 110 50 10 --point-scale 0.7 \
-    -o "$figures/step-$step.png"
-done
-render step-3/step-3.vtu --field mean_stress --range -4.5 0 \
-  --heading "step-3: block on a slope" --title "mean stress" --unit "N/mm²" \
-  --length-unit mm --grid -30 -10 100 95 5 \
-  --wall -21.13 45.32 0 0 90.63 42.26 -o "$figures/step-3.png"

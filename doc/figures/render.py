@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Draw a VTU file of a run as a PNG picture.
+"""Draw a VTU file of a run as a PNG picture, or write its values as a CSV table.
 
 Points are drawn as discs (balls in 3D) of the size of their volume, meshes as
-cells with their edges; walls can be added as lines. Needs the Debian packages python3-vtk9 and xvfb
-(without a display the program starts itself under xvfb-run).
+cells with their edges; walls can be added as lines. Several files become panels
+of one picture, with the same axes and colours. Needs the Debian packages
+python3-vtk9 and xvfb (without a display the program starts itself under
+xvfb-run).
 
     render.py results/points/00020.vtu --field stress --component xy \\
               --range -5 5 --title "shear stress" --unit MPa -o shear.png
@@ -149,7 +151,7 @@ def colour_bar(table, size, width):
     bar.SetLabelFormat("%.3g")
     bar.UnconstrainedFontSizeOn()
     text_style(bar.GetLabelTextProperty(), size)
-    bar.SetPosition(1 - 7.5 * size / width, 0.14)
+    bar.SetPosition(1 - 7.0 * size / width, 0.14)
     bar.SetWidth(6.0 * size / width)
     bar.SetHeight(0.65)
     bar.SetBarRatio(0.25)
@@ -176,10 +178,12 @@ def edge_lines(data):
     mapper.ScalarVisibilityOff()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.75, 0.75, 0.78)
+    actor.GetProperty().SetColor(0.8, 0.8, 0.83)
     actor.GetProperty().LightingOff()
     if is_flat(data):
         actor.SetPosition(0, 0, -0.1)
+        # Thinner ones may vanish between the pixels.
+        actor.GetProperty().SetLineWidth(2)
     return actor
 
 
@@ -245,32 +249,30 @@ def axes(bounds, flat, renderer, unit, size):
     return actor
 
 
-def size_for(bounds, height, size):
-    """Width and height in pixels that a flat picture needs."""
-    plot_height = height - 9 * size
+def panel_size(bounds, height, font):
+    """Width and height in pixels of a flat panel, and pixels per length."""
+    plot_height = height - 7 * font
     scale = plot_height / (bounds[3] - bounds[2])
-    width = min((bounds[1] - bounds[0]) * scale, 2.4 * height)
-    scale = width / (bounds[1] - bounds[0])
-    return [int(width + 20 * size),
-            int((bounds[3] - bounds[2]) * scale + 9 * size)], scale
+    scale = min(scale, 2.4 * height / (bounds[1] - bounds[0]))
+    return [int((bounds[1] - bounds[0]) * scale + 8 * font),
+            int((bounds[3] - bounds[2]) * scale + 7 * font)], scale
 
 
-def look_at(renderer, bounds, flat, window, scale, font):
-    """Whole picture with room for the axes and, at the right, the bar."""
+def look_at(renderer, bounds, flat, size, scale, font):
+    """The whole panel, with room for the axes."""
     camera = renderer.GetActiveCamera()
     centre = [(bounds[2 * d] + bounds[2 * d + 1]) / 2 for d in range(3)]
-    size = [bounds[2 * d + 1] - bounds[2 * d] for d in range(3)]
     camera.ParallelProjectionOn()
     if flat:
-        height = window[1] / scale
-        centre[0] = bounds[0] + (window[0] / 2 - 6 * font) / scale
-        centre[1] = bounds[2] + (window[1] / 2 - 5 * font) / scale
+        height = size[1] / scale
+        centre[0] = bounds[0] + (size[0] / 2 - 6 * font) / scale
+        centre[1] = bounds[2] + (size[1] / 2 - 5 * font) / scale
         camera.SetPosition(centre[0], centre[1], 1)
         camera.SetViewUp(0, 1, 0)
     else:
-        diagonal = sum(x * x for x in size) ** 0.5
+        diagonal = sum((bounds[2 * d + 1] - bounds[2 * d])**2
+                       for d in range(3)) ** 0.5
         height = 1.1 * diagonal
-        centre[0] += 0.08 * diagonal
         centre[1] += 0.05 * diagonal
         camera.SetPosition(centre[0] + diagonal, centre[1] - 1.6 * diagonal,
                            centre[2] + diagonal)
@@ -283,8 +285,14 @@ def look_at(renderer, bounds, flat, window, scale, font):
 def arguments():
     parser = argparse.ArgumentParser(
         description="Draw a VTU file of a run as a PNG picture.")
-    parser.add_argument("file", help="VTU file of points or of a mesh")
-    parser.add_argument("--mesh", help="VTU file whose cell edges are drawn too")
+    parser.add_argument("files", nargs="+", metavar="file",
+                        help="VTU file of points or of a mesh; one per panel")
+    parser.add_argument("--label", nargs="+", default=[],
+                        help="above each panel")
+    parser.add_argument("--columns", type=int, default=1, help="of panels")
+    parser.add_argument("--mesh", nargs="+", default=[],
+                        help="VTU files whose cell edges are drawn too: one, "
+                        "or one per panel")
     parser.add_argument("--grid", nargs=5, type=float,
                         metavar=("X0", "Y0", "X1", "Y1", "H"),
                         help="instead of --mesh: squares of size H")
@@ -293,6 +301,9 @@ def arguments():
     parser.add_argument("--wall", nargs="+", type=float, action="append",
                         default=[], metavar="X Y",
                         help="a line through these points, in 2D")
+    parser.add_argument("--wall-of", nargs="+", type=float, action="append",
+                        default=[], metavar="PANEL X Y",
+                        help="the same in one panel, counted from 1")
     parser.add_argument("--heading", default="", help="above the picture")
     parser.add_argument("--diverging", action="store_true",
                         help="colours from blue over white to red")
@@ -305,62 +316,98 @@ def arguments():
     parser.add_argument("--unit", default="", help="unit in that title")
     parser.add_argument("--length-unit", default="", help="unit of the axes")
     parser.add_argument("--size", nargs=2, type=int, default=[1000, 700],
-                        help="pixels; in 2D the width follows from the height")
-    parser.add_argument("-o", "--output", required=True, help="PNG file")
+                        help="pixels of a panel; in 2D the width follows from "
+                        "the height")
+    parser.add_argument("-o", "--output", required=True, help="PNG file, or CSV file")
     return parser.parse_args()
 
 
-def main():
-    args = arguments()
-    data = read(args.file)
-    found_range = add_value(data, args.field, args.component)
-    flat = is_flat(data)
-    is_points = data.GetPointData().HasArray("volume")
-    shapes = as_glyphs(data, args.point_scale) if is_points else data
+class Panel:
+    """What one file shows."""
 
-    table = colours(args.diverging)
-    mapper = vtk.vtkDataSetMapper()
-    mapper.SetInputData(shapes)
-    mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray("value")
-    mapper.SetLookupTable(table)
-    mapper.SetScalarRange(*(args.range or found_range))
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    if flat:
-        actor.GetProperty().LightingOff()
-    else:
-        actor.GetProperty().SetAmbient(0.6)
-        actor.GetProperty().SetDiffuse(0.4)
-    if not is_points:
-        actor.GetProperty().EdgeVisibilityOn()
+    def __init__(self, args, number):
+        self.args = args
+        self.data = read(args.files[number])
+        self.range = add_value(self.data, args.field, args.component)
+        self.flat = is_flat(self.data)
+        self.is_points = self.data.GetPointData().HasArray("volume")
+        self.shapes = as_glyphs(self.data, args.point_scale) \
+            if self.is_points else self.data
+        self.walls = args.wall + [wall[1:] for wall in args.wall_of
+                                  if wall[0] == number + 1]
+        self.label = args.label[number] if number < len(args.label) else ""
+        self.mesh = None
+        if args.mesh:
+            self.mesh = read(args.mesh[min(number, len(args.mesh) - 1)])
+        elif args.grid:
+            self.mesh = grid(*args.grid)
 
+    def bounds(self):
+        boxes = [self.shapes.GetBounds()]
+        if self.mesh:
+            boxes.append(self.mesh.GetBounds())
+        boxes += [[min(wall[0::2]), max(wall[0::2]), min(wall[1::2]),
+                   max(wall[1::2]), 0, 0] for wall in self.walls]
+        return union(boxes)
+
+    def actor(self, table, value_range):
+        mapper = vtk.vtkDataSetMapper()
+        mapper.SetInputData(self.shapes)
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray("value")
+        mapper.SetLookupTable(table)
+        mapper.SetScalarRange(*value_range)
+        actor = vtk.vtkActor()
+        actor.SetMapper(mapper)
+        if self.flat:
+            actor.GetProperty().LightingOff()
+        else:
+            actor.GetProperty().SetAmbient(0.6)
+            actor.GetProperty().SetDiffuse(0.4)
+        if not self.is_points:
+            actor.GetProperty().EdgeVisibilityOn()
+        return actor
+
+    def renderer(self, table, value_range, bounds, size, scale, font):
+        renderer = vtk.vtkRenderer()
+        renderer.SetBackground(1, 1, 1)
+        renderer.AddActor(self.actor(table, value_range))
+        if self.mesh:
+            renderer.AddActor(edge_lines(self.mesh))
+        for wall in self.walls:
+            renderer.AddActor(wall_line(wall))
+        look_at(renderer, bounds, self.flat, size, scale, font)
+        renderer.AddActor(axes(bounds, self.flat, renderer,
+                               self.args.length_unit, font))
+        renderer.AddActor2D(text_at(self.label, font, 6 * font / size[0],
+                                    1 - 1.5 * font / size[1], "Left"))
+        return renderer
+
+
+def title(args):
+    words = args.title or " ".join([args.field, args.component]).strip()
+    return words + (f" [{args.unit}]" if args.unit else "")
+
+
+def legend(words, table, font, size):
+    """Title and colour bar, at the right of all panels."""
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
-    renderer.AddActor(actor)
-    boxes = [shapes.GetBounds()]
-    if args.mesh or args.grid:
-        mesh = read(args.mesh) if args.mesh else grid(*args.grid)
-        boxes.append(mesh.GetBounds())
-        renderer.AddActor(edge_lines(mesh))
-    for wall in args.wall:
-        renderer.AddActor(wall_line(wall))
-        xs, ys = wall[0::2], wall[1::2]
-        boxes.append([min(xs), max(xs), min(ys), max(ys), 0, 0])
-    bounds = union(boxes)
-
-    font = max(16, args.size[1] // 35)
-    size, scale = size_for(bounds, args.size[1], font) if flat else \
-        (args.size, 1)
-    title = args.title or " ".join([args.field, args.component]).strip()
-    if args.unit:
-        title += f" [{args.unit}]"
     renderer.AddActor2D(colour_bar(table, font, size[0]))
-    renderer.AddActor2D(text_at(title, font, 0.98, 0.84, "Right"))
-    renderer.AddActor2D(text_at(args.heading, font + 4, 0.04, 0.93, "Left"))
-    look_at(renderer, bounds, flat, size, scale, font)
-    renderer.AddActor(axes(bounds, flat, renderer, args.length_unit, font))
+    renderer.AddActor2D(text_at(words, font, 0.95, 0.84, "Right"))
+    return renderer
 
+
+def heading(words, font, size):
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    renderer.AddActor2D(text_at(words, font, font / size[0], 0.1, "Left"))
+    return renderer
+
+
+def image_of(renderer, size):
+    """Each renderer has a window of its own: axes are labelled in the lower
+    left part of a window only."""
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
@@ -369,9 +416,64 @@ def main():
     window.Render()
     image = vtk.vtkWindowToImageFilter()
     image.SetInput(window)
+    image.Update()
+    return image.GetOutput()
+
+
+def joined(images, axis):
+    """Images beside (0) or above (1) each other, the first at left or below."""
+    append = vtk.vtkImageAppend()
+    append.SetAppendAxis(axis)
+    for image in images:
+        append.AddInputData(image)
+    append.Update()
+    return append.GetOutput()
+
+
+def write_table(panels, path):
+    """Position and value of all points."""
+    with open(path, "w") as file:
+        file.write("x,y,z,value\n")
+        for data in (panel.data for panel in panels):
+            values = data.GetPointData().GetArray("value")
+            for i in range(data.GetNumberOfPoints()):
+                row = (*data.GetPoint(i), values.GetValue(i))
+                file.write(",".join(f"{number:.8g}" for number in row) + "\n")
+
+
+def main():
+    args = arguments()
+    panels = [Panel(args, i) for i in range(len(args.files))]
+    if args.output.endswith(".csv"):
+        return write_table(panels, args.output)
+    bounds = union([panel.bounds() for panel in panels])
+    low, high = zip(*(panel.range for panel in panels))
+    value_range = args.range or (min(low), max(high))
+    table = colours(args.diverging)
+    table.SetTableRange(*value_range)
+
+    font = max(16, args.size[1] // 35)
+    size, scale = panel_size(bounds, args.size[1], font) \
+        if panels[0].flat else (args.size, 1)
+    images = [image_of(panel.renderer(table, value_range, bounds, size, scale,
+                                      font), size) for panel in panels]
+    columns = args.columns
+    if len(images) % columns:
+        sys.exit("render.py: the panels do not fill the columns")
+    rows = [joined(images[i:i + columns], 0)
+            for i in range(0, len(images), columns)]
+    picture = joined(rows[::-1], 1)
+    side = [max(9 * font, int(0.62 * font * len(title(args)))),
+            picture.GetDimensions()[1]]
+    picture = joined([picture, image_of(legend(title(args), table, font, side),
+                                        side)], 0)
+    top = [picture.GetDimensions()[0], 2 * font + 4]
+    picture = joined([picture,
+                      image_of(heading(args.heading, font + 4, top), top)], 1)
     writer = vtk.vtkPNGWriter()
     writer.SetFileName(args.output)
-    writer.SetInputConnection(image.GetOutputPort())
+    writer.SetCompressionLevel(9)
+    writer.SetInputData(picture)
     writer.Write()
 
 
