@@ -9,6 +9,8 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/memory.h>
 #include <moraine/material/linear_elastic.h>
+#include <moraine/points/bodies.h>
+#include <moraine/points/straight_shapes.h>
 #include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>
@@ -194,7 +196,14 @@ namespace
       , timer(MPI_COMM_WORLD, sink, TimerOutput::never, TimerOutput::wall_times)
       , linear_solver(solver_parameters(), dim)
     {
-      fill(options);
+      Point<dim> corner;
+      for (unsigned int d = 0; d < dim; ++d)
+        corner[d] = d == dim - 1 ? options.height : options.cells;
+      const auto block = std::make_shared<ConvexShape<dim>>(
+        ConvexShape<dim>::box(Point<dim>(), corner));
+      seed_bodies({{"block", block}},
+                  CellSeeder<dim>(options.points, PointLayout::equal),
+                  points);
       for (unsigned int side = 0; side < 2 * dim - 1; ++side)
         {
           GridCondition<dim> roller;
@@ -279,31 +288,6 @@ namespace
     double                                t                 = 0;
     unsigned int                          linear_iterations = 0;
     double                                largest_increment = 0;
-
-  private:
-    void
-    fill(const Options &options)
-    {
-      const unsigned int n         = options.points;
-      const unsigned int n_of_cell = Utilities::pow(n, dim);
-      for (const auto &cell : mesh.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned() &&
-            cell->center()[dim - 1] < options.height)
-          for (unsigned int i = 0; i < n_of_cell; ++i)
-            {
-              Point<dim> xi;
-              for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
-                xi[d] = (rest % n + 0.5) / n;
-              points.insert(cell,
-                            mesh.mapping().transform_unit_to_real_cell(cell,
-                                                                       xi),
-                            xi,
-                            cell->active_cell_index() * n_of_cell + i,
-                            0,
-                            cell->measure() / n_of_cell);
-            }
-      points.finish_insertion();
-    }
   };
 
 

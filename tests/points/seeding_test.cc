@@ -5,6 +5,7 @@
 
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/curved_shapes.h>
+#include <moraine/points/point_list.h>
 #include <moraine/points/seeding.h>
 #include <moraine/points/straight_shapes.h>
 
@@ -61,7 +62,7 @@ namespace
     return sum;
   }
 
-  // the message of what PointFile<dim>::read says about a file of this text
+  // the message of what read_point_file() says about a file of this text
   template <int dim>
   std::string
   complaint(const std::string &text)
@@ -74,7 +75,7 @@ namespace
     std::string message = "none";
     try
       {
-        PointFile<dim>::read(name);
+        read_point_file<dim>(name);
       }
     catch (const InputError &error)
       {
@@ -280,7 +281,7 @@ TEST(Seeding, ThinBodyKeepsItsVolume)
 
 
 
-TEST(PointFile, ReadsPointsAndFurtherColumns)
+TEST(PointFile, ReadsPointsAndSkipsFurtherColumns)
 {
   const std::string name =
     testing::TempDir() + "moraine_good_points_" +
@@ -288,13 +289,12 @@ TEST(PointFile, ReadsPointsAndFurtherColumns)
     ".csv";
   std::ofstream(name)
     << "x, y, z, volume, age\r\n1,2,3,0.5,7\r\n\n4,5,6,1e-3,8";
-  const auto points = PointFile<3>::read(name);
+  const auto points = read_point_file<3>(name);
   std::remove(name.c_str());
   ASSERT_EQ(points.positions.size(), 2u);
   EXPECT_EQ(points.positions[1], Point<3>(4., 5., 6.));
   EXPECT_EQ(points.volumes[1], 1e-3);
-  EXPECT_EQ(points.column_names, std::vector<std::string>{"age"});
-  EXPECT_EQ(points.columns[0], std::vector<double>{7.});
+  EXPECT_EQ(points.origin(1), name + ":4");
 }
 
 
@@ -322,5 +322,5 @@ TEST(PointFile, BadRowsAreNamed)
             "FILE:1: the column name 'a' is given twice");
   EXPECT_EQ(complaint<2>("x,y,volume\n"),
             "The point file 'FILE' has no points.");
-  EXPECT_THROW(PointFile<2>::read("/nowhere/points.csv"), InputError);
+  EXPECT_THROW(read_point_file<2>("/nowhere/points.csv"), InputError);
 }

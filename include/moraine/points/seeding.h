@@ -8,7 +8,6 @@
 
 #include <deal.II/base/quadrature.h>
 
-#include <string>
 #include <vector>
 
 namespace moraine
@@ -103,35 +102,6 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> lengths;
   };
 
-
-
-  /**
-   * Material points given in a CSV file: a header `x,y,volume` (3D:
-   * `x,y,z,volume`) and, if wanted, names of more columns; then one point per
-   * row. Empty lines are skipped.
-   */
-  template <int dim>
-  struct PointFile
-  {
-    /**
-     * Throws InputError, with file and line, for a header that is different, a
-     * row with a wrong number of values, a value that is not a finite number,
-     * a volume that is not > 0, and a file without points.
-     */
-    static PointFile
-    read(const std::string &file_name);
-
-    std::vector<dealii::Point<dim>> positions;
-    std::vector<double>             volumes;
-    std::vector<unsigned int>       lines; ///< of the file, from 1
-
-    std::vector<std::string> column_names;
-
-    /**
-     * The further values: one vector per point, in the order of the names.
-     */
-    std::vector<std::vector<double>> columns;
-  };
 } // namespace moraine
 
 #endif
