@@ -20,9 +20,9 @@ namespace moraine
   {
     template <int dim>
     double
-    common_volume(const std::shared_ptr<const Shape<dim>>          &a,
-                  const std::shared_ptr<const Shape<dim>>          &b,
-                  const typename ConvexPolytope<dim>::CellVertices &vertices)
+    common_volume(const std::shared_ptr<const Shape<dim>> &a,
+                  const std::shared_ptr<const Shape<dim>> &b,
+                  const CellVertices<dim>                 &vertices)
     {
       return CombinedShape<dim>(CombinedShape<dim>::Operation::intersect, a, b)
         .clip(ConvexPolytope<dim>(vertices))

@@ -7,6 +7,7 @@
 #include <moraine/core/nearest.h>
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/curved_shapes.h>
+#include <moraine/points/polygon.h>
 #include <moraine/points/straight_shapes.h>
 
 #include <deal.II/base/utilities.h>
@@ -132,7 +133,8 @@ namespace moraine
       std::shared_ptr<const Shape<dim>> outer = make(p.radius);
       if (p.inner_radius == 0.)
         return outer;
-      return std::make_shared<HollowShape<dim>>(outer, make(p.inner_radius));
+      return std::make_shared<CombinedShape<dim>>(
+        CombinedShape<dim>::Operation::hollow_out, outer, make(p.inner_radius));
     }
 
     template <int dim>

@@ -37,7 +37,7 @@ namespace
     std::vector<SeededPoint<dim>> points;
     for (unsigned int c = 0; c < std::pow(n, dim); ++c)
       {
-        typename ConvexPolytope<dim>::CellVertices cell;
+        CellVertices<dim> cell;
         for (unsigned int v = 0; v < cell.size(); ++v)
           {
             unsigned int rest = c;
@@ -241,14 +241,14 @@ TEST(Seeding, PointsOfCutCellsLieInBodyAndCell)
                                                Tensor<1, 3>({1., 2., 3.}));
   std::vector<SeededPoint<3>> points;
   const CellSeeder<3>         seeder(2, PointLayout::equal);
-  seeder.seed(ConvexPolytope<3>::CellVertices{{{0., 0., 0.},
-                                               {1., 0., 0.},
-                                               {0., 1., 0.},
-                                               {1., 1., 0.},
-                                               {0., 0., 1.},
-                                               {1., 0., 1.},
-                                               {0., 1., 1.},
-                                               {1., 1., 1.}}},
+  seeder.seed(CellVertices<3>{{{0., 0., 0.},
+                               {1., 0., 0.},
+                               {0., 1., 0.},
+                               {1., 1., 0.},
+                               {0., 0., 1.},
+                               {1., 0., 1.},
+                               {0., 1., 1.},
+                               {1., 1., 1.}}},
               body,
               points);
   EXPECT_GT(points.size(), 8u);

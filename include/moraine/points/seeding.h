@@ -66,8 +66,6 @@ namespace moraine
   class CellSeeder
   {
   public:
-    using CellVertices = typename ConvexPolytope<dim>::CellVertices;
-
     CellSeeder(const unsigned int n_per_direction, const PointLayout layout);
 
     /**
@@ -75,7 +73,7 @@ namespace moraine
      * run lexicographically, x fastest.
      */
     void
-    seed(const CellVertices            &cell,
+    seed(const CellVertices<dim>       &cell,
          const Shape<dim>              &shape,
          std::vector<SeededPoint<dim>> &points) const;
 
@@ -85,11 +83,11 @@ namespace moraine
 
   private:
     void
-    seed_full_cell(const CellVertices            &cell,
+    seed_full_cell(const CellVertices<dim>       &cell,
                    std::vector<SeededPoint<dim>> &points) const;
 
-    CellVertices
-    sub_cell(const CellVertices &cell, const unsigned int q) const;
+    CellVertices<dim>
+    sub_cell(const CellVertices<dim> &cell, const unsigned int q) const;
 
     PointLayout layout;
 
