@@ -218,13 +218,11 @@ namespace moraine
       if (rule_is_exact)
         points.push_back(
           {map.place(rule.point(q)),
-           rule.weight(q) * determinant(map.jacobian(rule.point(q))),
-           lengths[q],
-           false});
+           rule.weight(q) * determinant(map.jacobian(rule.point(q)))});
       else
         {
           const ConvexPolytope<dim> part(sub_cell(cell, q));
-          points.push_back({part.centroid(), part.volume(), lengths[q], false});
+          points.push_back({part.centroid(), part.volume()});
         }
   }
 
@@ -261,8 +259,7 @@ namespace moraine
           if (is_clipped && shape.is_straight())
             positions = points_of_part(whole, cell, shape, part);
         for (const Point<dim> &x : positions)
-          points.push_back(
-            {x, part.volume / positions.size(), lengths[q], is_clipped});
+          points.push_back({x, part.volume / positions.size()});
       }
     if (!is_cut)
       {

@@ -4,9 +4,11 @@
 #include <moraine/run/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/points/shape_library.h>
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace moraine

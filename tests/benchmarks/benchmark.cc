@@ -207,7 +207,7 @@ namespace
       for (unsigned int side = 0; side < 2 * dim - 1; ++side)
         {
           GridCondition<dim> roller;
-          roller.name                = mesh.boundary_names()[side];
+          roller.name                = "side";
           roller.side                = side;
           roller.component[side / 2] = true;
           roller.value               = [](const Point<dim> &, const double) {

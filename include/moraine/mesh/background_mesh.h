@@ -96,13 +96,6 @@ namespace moraine
     dealii::types::boundary_id
     boundary_id(const std::string &name, const std::string &place) const;
 
-    /** Names of the sides, in the order of their boundary ids. */
-    const std::vector<std::string> &
-    boundary_names() const
-    {
-      return side_names;
-    }
-
     /** Characteristic cell size: the largest edge of the largest cell. */
     double
     cell_size() const

@@ -29,16 +29,6 @@ namespace moraine
   {
     dealii::Point<dim> position;
     double             volume;
-
-    /**
-     * Lengths of its sub-cell in the reference cell.
-     */
-    dealii::Tensor<1, dim> unit_lengths;
-
-    /**
-     * The body covers only a part of the sub-cell.
-     */
-    bool is_clipped;
   };
 
   /**
