@@ -46,8 +46,8 @@ namespace moraine
                                              grid_conditions,
                                              loads,
                                              body_names,
-                                             timer,
-                                             scene.method.empty_stiffness);
+                                             scene.method.empty_stiffness,
+                                             &timer);
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
     probes        = std::make_unique<Probes<dim>>(
       scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);

@@ -30,7 +30,6 @@
 #include <ctime>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 namespace
 {
@@ -193,7 +192,6 @@ namespace
           basis,
           {std::make_shared<LinearElastic>(young_modulus, poisson_ratio, 1.)},
           MeshAfterStep::reset)
-      , timer(MPI_COMM_WORLD, sink, TimerOutput::never, TimerOutput::wall_times)
       , linear_solver(solver_parameters(), dim)
     {
       Point<dim> corner;
@@ -232,8 +230,7 @@ namespace
                                                       conditions,
                                                       loads,
                                                       std::vector<std::string>{
-                                                        "block"},
-                                                      timer);
+                                                        "block"});
     }
 
     /** One step; @p clock may be nothing for one that is not counted. */
@@ -281,8 +278,6 @@ namespace
     std::vector<ImplicitBoundary<dim>>    boundaries;
     std::vector<GridCondition<dim>>       conditions;
     Loads<dim>                            loads;
-    std::ostringstream                    sink;
-    TimerOutput                           timer;
     LinearSolver                          linear_solver;
     std::unique_ptr<MechanicsSystem<dim>> system;
     double                                t                 = 0;

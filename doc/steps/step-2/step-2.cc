@@ -21,7 +21,6 @@
 
 // deal.II supplies what a finite element program always needs.
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <iomanip>
 #include <iostream>
@@ -167,17 +166,11 @@ main(int argc, char **argv)
                    after_step);
 
   // The equations of a step: points, supports and loads. There is no boundary
-  // that cuts through cells yet; see step-3. The timer collects what each part
-  // of the assembly costs; ask it for a summary if you want to know.
+  // that cuts through cells yet; see step-3.
   const auto                         supports = make_supports(mesh);
   Loads<dim>                         loads    = make_loads(mesh);
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  TimerOutput                        timer(MPI_COMM_WORLD,
-                    std::cout,
-                    TimerOutput::never,
-                    TimerOutput::wall_times);
-  MechanicsSystem<dim>               system(
-    state, no_boundaries, supports, loads, {"block"}, timer);
+  MechanicsSystem<dim> system(state, no_boundaries, supports, loads, {"block"});
 
   Newton       newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);

@@ -19,7 +19,6 @@
 #include <moraine/state/state.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <cmath>
 #include <iomanip>
@@ -157,12 +156,8 @@ main(int argc, char **argv)
     make_roller("stop", Point<dim>(0, height), Point<dim>(0, 0)));
 
   const std::vector<GridCondition<dim>> no_conditions;
-  TimerOutput                           timer(MPI_COMM_WORLD,
-                    std::cout,
-                    TimerOutput::never,
-                    TimerOutput::wall_times);
   MechanicsSystem<dim>                  system(
-    state, boundaries, no_conditions, loads, {"block"}, timer);
+    state, boundaries, no_conditions, loads, {"block"});
   Newton       newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);
 
