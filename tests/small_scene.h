@@ -7,8 +7,7 @@
 #include <moraine/basis/basis.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
-#include <moraine/points/point_set.h>
-#include <moraine/points/seeding.h>
+#include <moraine/points/bodies.h>
 #include <moraine/points/straight_shapes.h>
 
 #include <memory>
@@ -52,24 +51,11 @@ namespace moraine
           lower[d] = 0.3;
           upper[d] = 3.4;
         }
-      const auto                    shape = ConvexShape<dim>::box(lower, upper);
-      const CellSeeder<dim>         seeder(n, PointLayout::equal);
-      std::vector<SeededPoint<dim>> seeded;
-      for (const auto &cell : mesh.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            seeded.clear();
-            seeder.seed(vertices_of<dim>(cell), shape, seeded);
-            for (unsigned int i = 0; i < seeded.size(); ++i)
-              points.insert(cell,
-                            seeded[i].position,
-                            mesh.mapping().transform_real_to_unit_cell(
-                              cell, seeded[i].position),
-                            100 * cell->active_cell_index() + i,
-                            0,
-                            seeded[i].volume);
-          }
-      points.finish_insertion();
+      const auto box =
+        std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::box(lower, upper));
+      seed_bodies({{"box", box}},
+                  CellSeeder<dim>(n, PointLayout::equal),
+                  points);
       if (gimp)
         basis = std::make_unique<GimpBasis<dim>>(space, points, n);
       else

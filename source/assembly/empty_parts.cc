@@ -9,7 +9,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <algorithm>
 
 namespace moraine
 {

@@ -11,7 +11,6 @@
 #include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <set>
 
 namespace moraine
 {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 namespace moraine
 {
@@ -21,14 +22,15 @@ namespace moraine
     const std::vector<GridCondition<dim>> &conditions,
     Loads<dim>                            &loads,
     const std::vector<std::string>        &body_names,
-    TimerOutput                           &timer,
-    const double                           empty_stiffness)
+    const double                           empty_stiffness,
+    TimerOutput                           *timer)
     : state(state)
     , boundaries(boundaries)
     , conditions(conditions)
     , loads(loads)
     , body_names(body_names)
-    , timer(timer)
+    , unused_timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , timer(timer ? *timer : unused_timer)
     , empty_stiffness(empty_stiffness)
   {
     point_terms.push_back(std::make_unique<InternalForce<dim>>());

@@ -245,6 +245,15 @@ namespace moraine
     return {(x - origin) * first, (x - origin) * second};
   }
 
+  Polygon
+  PlaneFrame::to_plane(const std::vector<Point<3>> &points) const
+  {
+    Polygon polygon;
+    for (const auto &x : points)
+      polygon.push_back(to_plane(x));
+    return polygon;
+  }
+
   Point<3>
   PlaneFrame::to_space(const Point<2> &p) const
   {
@@ -253,17 +262,11 @@ namespace moraine
 
   namespace
   {
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     /** Without vertices that repeat, to 1e-15 of the size. */
-    std::vector<Point<2>>
-    without_repeats(const std::vector<Point<2>> &polygon, const double size)
+    Polygon
+    without_repeats(const Polygon &polygon, const double size)
     {
-      std::vector<Point<2>> result;
+      Polygon result;
       for (const auto &p : polygon)
         if (result.empty() || p.distance(result.back()) > 1e-15 * size)
           result.push_back(p);
@@ -293,43 +296,8 @@ namespace moraine
     }
   } // namespace
 
-  double
-  polygon_area(const std::vector<Point<2>> &polygon)
-  {
-    double area = 0.;
-    for (unsigned int i = 2; i < polygon.size(); ++i)
-      area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-    return area;
-  }
-
-  std::vector<Point<2>>
-  clip_polygon(const std::vector<Point<2>> &polygon,
-               const std::vector<Point<2>> &convex)
-  {
-    std::vector<Point<2>> result = polygon;
-    for (unsigned int e = 0; e < convex.size(); ++e)
-      {
-        const Point<2>     a         = convex[e];
-        const Tensor<1, 2> direction = convex[(e + 1) % convex.size()] - a;
-        const auto         subject   = std::move(result);
-        result.clear();
-        for (unsigned int i = 0; i < subject.size(); ++i)
-          {
-            const Point<2> p = subject[i],
-                           q = subject[(i + 1) % subject.size()];
-            const double f_p = cross(direction, p - a),
-                         f_q = cross(direction, q - a);
-            if (f_p >= 0.)
-              result.push_back(p);
-            if ((f_p >= 0.) != (f_q >= 0.))
-              result.push_back(p + (f_p / (f_p - f_q)) * (q - p));
-          }
-      }
-    return result;
-  }
-
   void
-  add_polygon_points(const std::vector<Point<2>>  &polygon,
+  add_polygon_points(const Polygon                &polygon,
                      const PlaneFrame             &frame,
                      const Tensor<1, 3>           &normal,
                      const unsigned int            n_gauss,

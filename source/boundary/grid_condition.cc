@@ -5,7 +5,6 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace moraine

@@ -14,12 +14,6 @@ namespace moraine
 
   namespace
   {
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     template <int dim>
     double
     largest_magnitude(const std::vector<Point<dim>> &points)
@@ -212,11 +206,9 @@ namespace moraine
         }
       else
         {
-          const PlaneFrame      frame(point, unit_normal);
-          std::vector<Point<2>> polygon;
-          for (const auto &x : cut)
-            polygon.push_back(frame.to_plane(x));
-          add_polygon_points(polygon, frame, unit_normal, n_gauss, out);
+          const PlaneFrame frame(point, unit_normal);
+          add_polygon_points(
+            frame.to_plane(cut), frame, unit_normal, n_gauss, out);
         }
   }
 
@@ -224,10 +216,7 @@ namespace moraine
   BoundingBox<dim>
   Plane<dim>::bounding_box() const
   {
-    Point<dim> corner;
-    for (unsigned int d = 0; d < dim; ++d)
-      corner[d] = unlimited_extent;
-    return BoundingBox<dim>({-1. * corner, corner});
+    return unlimited_box<dim>();
   }
 
   template <int dim>
@@ -264,69 +253,6 @@ namespace moraine
             " of a plane patch lies off the plane of the others");
       return frame;
     }
-
-    bool
-    edges_cross(const std::vector<Point<2>> &p)
-    {
-      const unsigned int n = p.size();
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = i + 2; j < n; ++j)
-          {
-            if (i == 0 && j == n - 1)
-              continue;
-            const Point<2> a = p[i], b = p[i + 1], c = p[j], d = p[(j + 1) % n];
-            if (cross(b - a, c - a) * cross(b - a, d - a) < 0. &&
-                cross(d - c, a - c) * cross(d - c, b - c) < 0.)
-              return true;
-          }
-      return false;
-    }
-
-    bool
-    convex(const std::vector<Point<2>> &p)
-    {
-      const unsigned int n = p.size();
-      for (unsigned int i = 0; i < n; ++i)
-        if (cross(p[(i + 1) % n] - p[i], p[(i + 2) % n] - p[(i + 1) % n]) < 0.)
-          return false;
-      return true;
-    }
-
-    /** Triangles of a counter-clockwise simple polygon, by cutting ears. */
-    std::vector<std::vector<Point<2>>>
-    triangulate(std::vector<Point<2>> p)
-    {
-      std::vector<std::vector<Point<2>>> triangles;
-      const auto                         is_ear = [&p](const unsigned int i) {
-        const unsigned int n = p.size();
-        const Point<2>     a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
-        if (cross(b - a, c - b) <= 0.)
-          return false;
-        return std::none_of(p.begin(), p.end(), [&](const Point<2> &x) {
-          return x != a && x != b && x != c && cross(b - a, x - a) >= 0. &&
-                 cross(c - b, x - b) >= 0. && cross(a - c, x - c) >= 0.;
-        });
-      };
-      while (p.size() >= 3)
-        {
-          const unsigned int n   = p.size();
-          unsigned int       ear = 0;
-          while (ear < n && !is_ear(ear))
-            ++ear;
-          if (ear == n)
-            {
-              // only vertices along one straight line are left
-              AssertThrow(std::abs(polygon_area(p)) <=
-                            1e-12 * p[0].distance(p[n / 2]) *
-                              p[0].distance(p[n / 2]),
-                          ExcInternalError());
-              break;
-            }
-          triangles.push_back({p[(ear + n - 1) % n], p[ear], p[(ear + 1) % n]});
-          p.erase(p.begin() + ear);
-        }
-      return triangles;
-    }
   } // namespace
 
   PlanePatch::PlanePatch(const std::vector<Point<3>> &vertices, const bool flip)
@@ -335,12 +261,10 @@ namespace moraine
     , box(vertices)
     , magnitude(largest_magnitude<3>(vertices))
   {
-    std::vector<Point<2>> outline;
-    for (const auto &x : vertices)
-      outline.push_back(frame.to_plane(x));
+    const Polygon outline = frame.to_plane(vertices);
     if (edges_cross(outline))
       throw InputError("the edges of a plane patch cross each other");
-    if (convex(outline))
+    if (is_convex(outline))
       convex_parts.push_back(outline);
     else
       convex_parts = triangulate(outline);
@@ -388,9 +312,7 @@ namespace moraine
       distance[v] = level(cell[v]);
     for (const auto &cut : cut_cell<3>(cell, distance, magnitude))
       {
-        std::vector<Point<2>> polygon;
-        for (const auto &x : cut)
-          polygon.push_back(frame.to_plane(x));
+        const Polygon polygon = frame.to_plane(cut);
         for (const auto &part : convex_parts)
           {
             const auto piece = clip_polygon(polygon, part);

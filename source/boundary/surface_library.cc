@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/boundary/arc.h>
 #include <moraine/boundary/curved_surfaces.h>
 #include <moraine/boundary/straight_surfaces.h>
 #include <moraine/boundary/surface_library.h>
@@ -223,12 +224,7 @@ namespace moraine
     BoundingBox<dim>
     extent(const Entries<dim> &entries)
     {
-      Point<dim> lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = -unlimited_extent;
-          upper[d] = unlimited_extent;
-        }
+      auto [lower, upper] = unlimited_box<dim>().get_boundary_points();
       if (entries.given("Extent lower corner"))
         lower = entries.place("Extent lower corner");
       if (entries.given("Extent upper corner"))
@@ -270,10 +266,9 @@ namespace moraine
           if (kind == "plane patch")
             return std::make_unique<PlanePatch>(entries.places("Points"), flip);
           if (kind == "sphere")
-            return std::make_unique<Sphere<3>>(entries.place("Centre"),
-                                               entries.positive_number(
-                                                 "Radius"),
-                                               entries.body_inside());
+            return std::make_unique<Sphere>(entries.place("Centre"),
+                                            entries.positive_number("Radius"),
+                                            entries.body_inside());
           return std::make_unique<Cylinder>(entries.place("Axis start"),
                                             entries.place("Axis end"),
                                             entries.positive_number("Radius"),

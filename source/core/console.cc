@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <iostream>
 #include <streambuf>
 
@@ -150,13 +151,5 @@ namespace moraine
   {
     if (terminal)
       tee->show_progress(line);
-  }
-
-
-
-  bool
-  Console::is_terminal() const
-  {
-    return terminal;
   }
 } // namespace moraine

@@ -224,33 +224,6 @@ namespace moraine
 
 
 
-  template <int dim>
-  unsigned int
-  Expression<dim>::n_components() const
-  {
-    return components.size();
-  }
-
-
-
-  template <int dim>
-  bool
-  Expression<dim>::is_constant() const
-  {
-    return !numbers.empty();
-  }
-
-
-
-  template <int dim>
-  const std::string &
-  Expression<dim>::text() const
-  {
-    return expression_text;
-  }
-
-
-
   TimeCurve::TimeCurve(const std::string &text, const std::string &place)
     : curve_text(Utilities::trim(text))
     , origin(place)
@@ -334,14 +307,6 @@ namespace moraine
           return (1 - s) * f0 + s * f1;
         }
     return table.back().second;
-  }
-
-
-
-  const std::string &
-  TimeCurve::text() const
-  {
-    return curve_text;
   }
 
 

@@ -112,22 +112,10 @@ namespace moraine
       return Patterns::Double();
     }
 
-    Patterns::Double
-    in_range(const double lower, const double upper)
-    {
-      return Patterns::Double(lower, upper);
-    }
-
     Patterns::Integer
     positive_integer()
     {
       return Patterns::Integer(1);
-    }
-
-    Patterns::Integer
-    non_negative_integer()
-    {
-      return Patterns::Integer(0);
     }
 
     Patterns::Integer
@@ -136,23 +124,10 @@ namespace moraine
       return Patterns::Integer(lower, upper);
     }
 
-    template <int dim>
-    Patterns::List
-    point()
-    {
-      return Patterns::List(Patterns::Double(), dim, dim);
-    }
-
     Patterns::List
     numbers(const unsigned int n_min, const unsigned int n_max)
     {
       return Patterns::List(Patterns::Double(), n_min, n_max);
-    }
-
-    Patterns::List
-    positive_numbers(const unsigned int n_min, const unsigned int n_max)
-    {
-      return Patterns::List(positive(), n_min, n_max);
     }
 
     Patterns::List
@@ -172,11 +147,6 @@ namespace moraine
     {
       return Patterns::MultipleSelection(join(words));
     }
-
-    template Patterns::List
-    point<2>();
-    template Patterns::List
-    point<3>();
   } // namespace patterns
 
 

@@ -7,7 +7,6 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace moraine
 {

@@ -6,7 +6,6 @@
 #include <moraine/core/json.h>
 #include <moraine/output/on_root.h>
 
-#include <limits>
 #include <sstream>
 
 namespace moraine

@@ -185,7 +185,7 @@ namespace moraine
   CombinedShape<dim>::bounding_box() const
   {
     const BoundingBox<dim> box_a = a->bounding_box();
-    if (operation == Operation::subtract)
+    if (operation == Operation::subtract || operation == Operation::hollow_out)
       return box_a;
     const BoundingBox<dim> box_b = b->bounding_box();
     Point<dim>             lower, upper;
@@ -219,7 +219,7 @@ namespace moraine
     Overlap in_b = b->overlap(cell);
     if (operation == Operation::unite)
       return in_b == Overlap::none ? in_a : in_b;
-    if (operation == Operation::subtract && in_b != Overlap::part)
+    if (operation != Operation::intersect && in_b != Overlap::part)
       in_b = in_b == Overlap::all ? Overlap::none : Overlap::all;
     return in_b == Overlap::all ? in_a : in_b;
   }
@@ -275,6 +275,8 @@ namespace moraine
   CombinedShape<dim>::common_moments(const ConvexPolytope<dim> &cell,
                                      const Point<dim>          &reference) const
   {
+    if (operation == Operation::hollow_out)
+      return b->moments(cell, reference);
     VolumeMoments<dim> sum;
     if (a->overlap(cell) == Overlap::none || b->overlap(cell) == Overlap::none)
       return sum;
@@ -297,6 +299,11 @@ namespace moraine
     const double                   sign,
     std::vector<SignedPiece<dim>> &pieces) const
   {
+    if (operation == Operation::hollow_out)
+      {
+        b->add_pieces(cell, sign, pieces);
+        return;
+      }
     if (a->overlap(cell) == Overlap::none || b->overlap(cell) == Overlap::none)
       return;
     std::vector<SignedPiece<dim>> first;
@@ -307,88 +314,10 @@ namespace moraine
 
 
 
-  template <int dim>
-  HollowShape<dim>::HollowShape(const std::shared_ptr<const Shape<dim>> &outer,
-                                const std::shared_ptr<const Shape<dim>> &inner)
-    : outer(outer)
-    , inner(inner)
-  {}
-
-
-
-  template <int dim>
-  double
-  HollowShape<dim>::level(const Point<dim> &p) const
-  {
-    return std::min(outer->level(p), -inner->level(p));
-  }
-
-
-
-  template <int dim>
-  BoundingBox<dim>
-  HollowShape<dim>::bounding_box() const
-  {
-    return outer->bounding_box();
-  }
-
-
-
-  template <int dim>
-  Overlap
-  HollowShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
-  {
-    const Overlap in_outer = outer->overlap(cell);
-    if (in_outer == Overlap::none)
-      return in_outer;
-    const Overlap in_inner = inner->overlap(cell);
-    if (in_inner == Overlap::all)
-      return Overlap::none;
-    return in_inner == Overlap::none ? in_outer : Overlap::part;
-  }
-
-
-
-  template <int dim>
-  bool
-  HollowShape<dim>::is_straight() const
-  {
-    return outer->is_straight() && inner->is_straight();
-  }
-
-
-
-  template <int dim>
-  VolumeMoments<dim>
-  HollowShape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
-                                    const Point<dim>          &reference) const
-  {
-    VolumeMoments<dim> sum = outer->moments(cell, reference);
-    sum.add(-1., inner->moments(cell, reference));
-    return sum;
-  }
-
-
-
-  template <int dim>
-  void
-  HollowShape<dim>::add_pieces_of_part(
-    const ConvexPolytope<dim>     &cell,
-    const double                   sign,
-    std::vector<SignedPiece<dim>> &pieces) const
-  {
-    outer->add_pieces(cell, sign, pieces);
-    inner->add_pieces(cell, -sign, pieces);
-  }
-
-
-
   template struct Placement<2>;
   template struct Placement<3>;
   template class MovedShape<2>;
   template class MovedShape<3>;
   template class CombinedShape<2>;
   template class CombinedShape<3>;
-  template class HollowShape<2>;
-  template class HollowShape<3>;
 } // namespace moraine

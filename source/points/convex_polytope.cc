@@ -3,6 +3,8 @@
 
 #include <moraine/points/convex_polytope.h>
 
+#include <moraine/points/polygon.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,12 +15,6 @@ namespace moraine
 
   namespace
   {
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     // where the edge from a (kept, at distance da) to b leaves the half space
     template <int dim>
     Point<dim>
@@ -44,7 +40,7 @@ namespace moraine
 
 
   template <int dim>
-  ConvexPolytope<dim>::ConvexPolytope(const CellVertices &vertices)
+  ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
   {
     make_faces(vertices);
   }
@@ -55,7 +51,7 @@ namespace moraine
   ConvexPolytope<dim>::ConvexPolytope(const Point<dim> &lower,
                                       const Point<dim> &upper)
   {
-    CellVertices vertices;
+    CellVertices<dim> vertices;
     for (unsigned int v = 0; v < vertices.size(); ++v)
       for (unsigned int d = 0; d < dim; ++d)
         vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
@@ -66,7 +62,7 @@ namespace moraine
 
   template <int dim>
   void
-  ConvexPolytope<dim>::make_faces(const CellVertices &cell)
+  ConvexPolytope<dim>::make_faces(const CellVertices<dim> &cell)
   {
     if constexpr (dim == 2)
       corner = {cell[0], cell[1], cell[3], cell[2]};

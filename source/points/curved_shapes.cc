@@ -3,413 +3,62 @@
 
 #include <moraine/points/curved_shapes.h>
 
-#include <deal.II/base/quadrature_lib.h>
+#include <moraine/points/round_moments.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace moraine
 {
   using namespace dealii;
 
-  namespace
+  template <int dim>
+  RoundShape<dim>::RoundShape(const double                 radius,
+                              const CurveSubdivision<dim> &subdivision)
+    : radius(radius)
+    , subdivision(subdivision)
+  {}
+
+
+
+  template <int dim>
+  Overlap
+  RoundShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
   {
-    template <int dim>
-    using Level = std::function<double(const Point<dim> &)>;
-
-    template <int dim>
-    using Pieces = std::vector<SignedPiece<dim>>;
-
-    using Edge = std::pair<Tensor<1, 2>, Tensor<1, 2>>;
-
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
-    // angle - sin(angle) without cancellation
-    double
-    angle_minus_sine(const double angle)
-    {
-      const double s = angle * angle;
-      if (s > 0.04)
-        return angle - std::sin(angle);
-      return angle * s / 6. *
-             (1. - s / 20. * (1. - s / 42. * (1. - s / 72. * (1. - s / 110.))));
-    }
-
-    // the values of t in [0, 1] between which |a + t (b - a)|^2 < square
-    template <int dim>
-    std::pair<double, double>
-    inside_circle(const Tensor<1, dim> &a,
-                  const Tensor<1, dim> &b,
-                  const double          square)
-    {
-      const Tensor<1, dim> edge   = b - a;
-      const double         ee     = edge.norm_square();
-      const double         ae     = a * edge;
-      const double         root_2 = ae * ae - ee * (a.norm_square() - square);
-      if (!(root_2 > 0.) || ee == 0.)
-        return {0., 0.};
-      const double root  = std::sqrt(root_2);
-      const double begin = std::max(0., (-ae - root) / ee);
-      const double end   = std::min(1., (-ae + root) / ee);
-      return begin < end ? std::make_pair(begin, end) : std::make_pair(0., 0.);
-    }
-
-    // Moments about 0 of the region enclosed by edges, given in any order,
-    // within a disc about centre: the polygon of the edges, with what is
-    // outside projected on the circle, plus a circular segment per such edge.
-    VolumeMoments<2>
-    disc_moments(const std::vector<Edge> &edges,
-                 const Tensor<1, 2>      &centre,
-                 const double             radius)
-    {
-      VolumeMoments<2> sum;
-      const auto       add_triangle = [&](const Tensor<1, 2> &p,
-                                    const Tensor<1, 2> &q) {
-        const double area = cross(p, q) / 2.;
-        sum.volume += area;
-        sum.first += area / 3. * (p + q);
-      };
-      const auto add_outside = [&](const Tensor<1, 2> &p,
-                                   const Tensor<1, 2> &q) {
-        const Tensor<1, 2> u = p / p.norm(), v = q / q.norm();
-        add_triangle(centre + radius * u, centre + radius * v);
-        const double angle = std::atan2(cross(u, v), u * v);
-        const double area  = radius * radius / 2. * angle_minus_sine(angle);
-        const double half  = std::sin(angle / 2.);
-        const Tensor<1, 2> middle({std::cos(angle / 2.) * u[0] - half * u[1],
-                                   half * u[0] + std::cos(angle / 2.) * u[1]});
-        sum.volume += area;
-        sum.first +=
-          area * centre + 2. / 3. * std::pow(radius * half, 3) * middle;
-      };
-      for (const auto &[from, to] : edges)
-        {
-          const Tensor<1, 2> a = from - centre, b = to - centre;
-          const auto [begin, end]  = inside_circle(a, b, radius * radius);
-          const Tensor<1, 2> enter = a + begin * (b - a);
-          const Tensor<1, 2> leave = a + end * (b - a);
-          if (begin == end)
-            {
-              if (a != b)
-                add_outside(a, b);
-              continue;
-            }
-          if (begin > 0.)
-            add_outside(a, enter);
-          add_triangle(begin > 0. ? centre + enter : from,
-                       end < 1. ? centre + leave : to);
-          if (end < 1.)
-            add_outside(leave, b);
-        }
-      return sum;
-    }
-
-    // Moments about the centre of a sphere of the part of a polyhedron in it:
-    // each face spans a cone from the centre, which the sphere cuts off where
-    // the face is outside. Inside, a cone over an area A at distance d has
-    // volume d A / 3 and first moment d / 4 int x dA; outside, a solid angle
-    // has r^3 / 3 int dw and r^4 / 4 int w dw.
-    class BallInPolyhedron
-    {
-    public:
-      BallInPolyhedron(const Point<3> &centre, const double radius)
-        : centre(centre)
-        , radius(radius)
-      {}
-
-      void
-      add_face(const ConvexPolytope<3>::PointList &loop)
-      {
-        normal = 0.;
-        for (unsigned int i = 1; i + 1 < loop.size(); ++i)
-          normal += cross_product_3d(loop[i] - loop[0], loop[i + 1] - loop[0]);
-        if (normal.norm_square() == 0.)
-          return;
-        normal /= normal.norm();
-        distance = normal * (loop[0] - centre);
-        square   = std::max(0., radius * radius - distance * distance);
-        for (unsigned int i = 0; i < loop.size(); ++i)
-          add_edge(loop[i] - centre, loop[(i + 1) % loop.size()] - centre);
-      }
-
-      VolumeMoments<3> sum;
-
-    private:
-      void
-      add_edge(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
-      {
-        if (a == b)
-          return;
-        const Tensor<1, 3> foot = distance * normal;
-        const auto [begin, end] =
-          inside_circle(Tensor<1, 3>(a - foot), Tensor<1, 3>(b - foot), square);
-        const Tensor<1, 3> enter = a + begin * (b - a);
-        const Tensor<1, 3> leave = a + end * (b - a);
-        if (begin == end)
-          {
-            add_outside(a, b);
-            return;
-          }
-        if (begin > 0.)
-          add_outside(a, enter);
-        add_area(normal * cross_product_3d(enter - foot, leave - foot) / 2.,
-                 (foot + enter + leave) / 3.);
-        if (end < 1.)
-          add_outside(leave, b);
-      }
-
-      void
-      add_area(const double area, const Tensor<1, 3> &middle)
-      {
-        sum.volume += distance / 3. * area;
-        sum.first += distance / 4. * area * middle;
-      }
-
-      // the part of the triangle foot, a, b beyond the sphere's trace on the
-      // face, and the sector inside it
-      void
-      add_outside(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
-      {
-        const double       side = distance < 0. ? -1. : 1.;
-        const Tensor<1, 3> ua = a / a.norm(), ub = b / b.norm();
-        const Tensor<1, 3> ab     = cross_product_3d(ua, ub);
-        const double       cosine = ua * ub;
-        const double       up     = side * normal * (ua + ub);
-        double solid = 2. * std::atan2(side * normal * ab, 1. + cosine + up);
-        Tensor<1, 3> arc;
-        if (ab.norm() > 0.)
-          arc = std::atan2(ab.norm(), cosine) / (2. * ab.norm()) * ab;
-        if (square > 0.)
-          {
-            const Tensor<1, 3> pa = a - distance * normal;
-            const Tensor<1, 3> pb = b - distance * normal;
-            const double       angle =
-              std::atan2(normal * cross_product_3d(pa, pb), pa * pb);
-            const double r = std::sqrt(square);
-            // int of the unit vector from the foot over the angle
-            const Tensor<1, 3> turn =
-              cross_product_3d(pb / pb.norm() - pa / pa.norm(), normal);
-            solid -= side * angle * (1. - std::abs(distance) / radius);
-            arc -= r / (2. * radius * radius) *
-                   (r * angle * normal - distance * turn);
-            const double area = square * angle / 2.;
-            sum.volume += distance / 3. * area;
-            sum.first += distance / 4. *
-                         (area * distance * normal + square * r / 3. * turn);
-          }
-        sum.volume += std::pow(radius, 3) / 3. * solid;
-        sum.first += std::pow(radius, 4) / 4. * arc;
-      }
-
-      Point<3>     centre;
-      double       radius;
-      Tensor<1, 3> normal;
-      double       distance = 0.;
-      double       square   = 0.;
-    };
-
+    const Overlap answer = Shape<dim>::overlap(cell);
+    if (answer != Overlap::part)
+      return answer;
     // a convex shape holds a polytope if it holds its vertices
-    template <int dim>
-    bool
-    holds_vertices(const Shape<dim> &shape, const ConvexPolytope<dim> &cell)
-    {
-      for (const auto &x : cell.vertices())
-        if (shape.level(x) < -cell.tolerance())
-          return false;
-      return true;
-    }
+    for (const auto &x : cell.vertices())
+      if (this->level(x) < -cell.tolerance())
+        return Overlap::part;
+    return Overlap::all;
+  }
 
-    template <int dim>
-    Tensor<1, dim>
-    gradient(const Level<dim> &level, const Point<dim> &x, const double step)
-    {
-      Tensor<1, dim> slope;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Tensor<1, dim> shift = step * Point<dim>::unit_vector(d);
-          slope[d] = (level(x + shift) - level(x - shift)) / (2. * step);
-        }
-      return slope;
-    }
 
-    // A level function in a polytope and its linear part at a point.
-    template <int dim>
-    struct LinearPart
-    {
-      LinearPart(const Level<dim>          &level,
-                 const ConvexPolytope<dim> &cell,
-                 const Point<dim>          &x,
-                 const double               size)
-        : x(x)
-        , value(level(x))
-        , slope(gradient(level, x, 1e-3 * size))
-      {
-        lowest = highest = value;
-        for (const auto &vertex : cell.vertices())
-          {
-            const double there = level(vertex);
-            lowest             = std::min(lowest, there);
-            highest            = std::max(highest, there);
-            bend =
-              std::max(bend, std::abs(there - value - slope * (vertex - x)));
-          }
-      }
 
-      // decided where no vertex and not thrice the bend reach zero
-      Overlap
-      overlap() const
-      {
-        if (lowest >= 3. * bend && lowest > 0.)
-          return Overlap::all;
-        return highest <= -3. * bend ? Overlap::none : Overlap::part;
-      }
-
-      // where the linear part vanishes
-      Point<dim>
-      zero() const
-      {
-        return x - value / slope.norm_square() * slope;
-      }
-
-      Point<dim>     x;
-      double         value;
-      Tensor<1, dim> slope;
-      double         lowest, highest;
-      double         bend = 0.;
-    };
-
-    // mean of f over a cut face; exact for quadratic functions
-    template <int dim>
-    double
-    mean_on_cut(const typename ConvexPolytope<dim>::PointList &cut,
-                const Level<dim>                              &f)
-    {
-      if constexpr (dim == 2)
-        return (f(cut[0]) + 4. * f(Point<2>((cut[0] + cut[1]) / 2.)) +
-                f(cut[1])) /
-               6.;
-      else
-        {
-          double integral = 0., area = 0.;
-          for (unsigned int i = 1; i + 1 < cut.size(); ++i)
-            {
-              const std::array<Point<3>, 3> x{{cut[0], cut[i], cut[i + 1]}};
-              const double                  part =
-                cross_product_3d(x[1] - x[0], x[2] - x[0]).norm();
-              area += part;
-              for (unsigned int k = 0; k < 3; ++k)
-                integral += part / 3. * f(x[k] + (x[(k + 1) % 3] - x[k]) / 2.);
-            }
-          return area > 0. ? integral / area : f(cut[0]);
-        }
-    }
-
-    template <int dim>
-    class CurveCutter
-    {
-    public:
-      CurveCutter(const Level<dim> &level,
-                  const bool        is_distance,
-                  const double      sign,
-                  Pieces<dim>      &pieces)
-        : level(level)
-        , is_distance(is_distance)
-        , sign(sign)
-        , pieces(pieces)
-      {}
-
-      void
-      add(const ConvexPolytope<dim> &cell, const unsigned int n_halvings)
-      {
-        const Point<dim> middle = cell.vertex_mean();
-        const double     size   = cell.radius(middle);
-        Overlap          answer = Overlap::part;
-        if (is_distance && std::abs(level(middle)) >= size)
-          answer = level(middle) > 0. ? Overlap::all : Overlap::none;
-        LinearPart<dim> linear(level, cell, middle, size);
-        if (answer == Overlap::part)
-          answer = linear.overlap();
-        if (answer == Overlap::all)
-          pieces.push_back({sign, cell});
-        if (answer != Overlap::part)
-          return;
-        // the tangent plane at a point of the boundary near the middle
-        for (unsigned int k = 0; k < 2 && linear.slope.norm() > 0. &&
-                                 linear.zero().distance(middle) <= size;
-             ++k)
-          linear = LinearPart<dim>(level, cell, linear.zero(), size);
-        if (linear.bend > flat_enough * size * linear.slope.norm() &&
-            n_halvings > 0)
-          halve(cell, n_halvings);
-        else if (linear.slope.norm() > 0.)
-          cut(cell, linear.zero(), linear.slope);
-        else if (linear.value > 0.)
-          pieces.push_back({sign, cell});
-      }
-
-    private:
-      // Of the size of a leaf. Chosen by the error it leaves in a cut cell:
-      // below 1e-6 of its volume where the radius is five cells or more.
-      static constexpr double flat_enough = (dim == 2 ? 5e-3 : 2e-2);
-
-      void
-      halve(const ConvexPolytope<dim> &cell, const unsigned int n_halvings)
-      {
-        const auto   box  = cell.bounding_box();
-        unsigned int wide = 0;
-        for (unsigned int d = 1; d < dim; ++d)
-          if (box.side_length(d) > box.side_length(wide))
-            wide = d;
-        for (const double side : {1., -1.})
-          {
-            ConvexPolytope<dim> half = cell;
-            half.clip(box.center(), side * Point<dim>::unit_vector(wide));
-            if (!half.empty())
-              add(half, n_halvings - 1);
-          }
-      }
-
-      void
-      cut(const ConvexPolytope<dim> &cell,
-          const Point<dim>          &foot,
-          const Tensor<1, dim>      &slope)
-      {
-        typename ConvexPolytope<dim>::PointList face;
-        ConvexPolytope<dim>                     part = cell;
-        part.clip(foot, slope, &face);
-        if (face.size() >= dim)
-          {
-            const double mean = mean_on_cut<dim>(face, level);
-            part              = cell;
-            part.clip(foot - mean / slope.norm_square() * slope, slope);
-          }
-        if (!part.empty())
-          pieces.push_back({sign, part});
-      }
-
-      const Level<dim> &level;
-      const bool        is_distance;
-      const double      sign;
-      Pieces<dim>      &pieces;
-    };
-  } // namespace
+  template <int dim>
+  bool
+  RoundShape<dim>::is_straight() const
+  {
+    return false;
+  }
 
 
 
   template <int dim>
   void
-  CurveSubdivision<dim>::add_pieces(const Level<dim>          &level,
-                                    const bool                 is_distance,
-                                    const ConvexPolytope<dim> &cell,
-                                    const double               sign,
-                                    Pieces<dim>               &pieces) const
+  RoundShape<dim>::add_pieces_of_part(
+    const ConvexPolytope<dim>     &cell,
+    const double                   sign,
+    std::vector<SignedPiece<dim>> &pieces) const
   {
-    CurveCutter<dim>(level, is_distance, sign, pieces).add(cell, dim * depth);
+    subdivision.add_pieces([this](
+                             const Point<dim> &p) { return this->level(p); },
+                           true,
+                           cell,
+                           sign,
+                           pieces);
   }
 
 
@@ -418,9 +67,8 @@ namespace moraine
   BallShape<dim>::BallShape(const Point<dim>            &centre,
                             const double                 radius,
                             const CurveSubdivision<dim> &subdivision)
-    : centre(centre)
-    , radius(radius)
-    , subdivision(subdivision)
+    : RoundShape<dim>(radius, subdivision)
+    , centre(centre)
   {}
 
 
@@ -429,7 +77,7 @@ namespace moraine
   double
   BallShape<dim>::level(const Point<dim> &p) const
   {
-    return radius - p.distance(centre);
+    return this->radius - p.distance(centre);
   }
 
 
@@ -441,31 +89,10 @@ namespace moraine
     Point<dim> lower = centre, upper = centre;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] -= radius;
-        upper[d] += radius;
+        lower[d] -= this->radius;
+        upper[d] += this->radius;
       }
     return BoundingBox<dim>(std::make_pair(lower, upper));
-  }
-
-
-
-  template <int dim>
-  Overlap
-  BallShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
-  {
-    const Overlap answer = Shape<dim>::overlap(cell);
-    return answer == Overlap::part && holds_vertices(*this, cell) ?
-             Overlap::all :
-             answer;
-  }
-
-
-
-  template <int dim>
-  bool
-  BallShape<dim>::is_straight() const
-  {
-    return false;
   }
 
 
@@ -475,37 +102,7 @@ namespace moraine
   BallShape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
                                   const Point<dim>          &reference) const
   {
-    if constexpr (dim == 2)
-      {
-        std::vector<Edge> edges;
-        const auto       &x = cell.vertices();
-        for (unsigned int i = 0; i < x.size(); ++i)
-          edges.emplace_back(x[i] - reference,
-                             x[(i + 1) % x.size()] - reference);
-        return disc_moments(edges, centre - reference, radius);
-      }
-    else
-      {
-        BallInPolyhedron part(centre, radius);
-        cell.for_each_face([&](const auto &loop) { part.add_face(loop); });
-        part.sum.first += part.sum.volume * (centre - reference);
-        return part.sum;
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  BallShape<dim>::add_pieces_of_part(const ConvexPolytope<dim> &cell,
-                                     const double               sign,
-                                     Pieces<dim>               &pieces) const
-  {
-    subdivision.add_pieces([this](const Point<dim> &p) { return level(p); },
-                           true,
-                           cell,
-                           sign,
-                           pieces);
+    return moments_in_ball(cell, centre, this->radius, reference);
   }
 
 
@@ -514,11 +111,10 @@ namespace moraine
                                const Point<3>            &end,
                                const double               radius,
                                const CurveSubdivision<3> &subdivision)
-    : start(start)
+    : RoundShape<3>(radius, subdivision)
+    , start(start)
     , axis((end - start) / start.distance(end))
     , length(start.distance(end))
-    , radius(radius)
-    , subdivision(subdivision)
   {}
 
 
@@ -558,25 +154,6 @@ namespace moraine
 
 
 
-  Overlap
-  CylinderShape::overlap(const ConvexPolytope<3> &cell) const
-  {
-    const Overlap answer = Shape<3>::overlap(cell);
-    return answer == Overlap::part && holds_vertices<3>(*this, cell) ?
-             Overlap::all :
-             answer;
-  }
-
-
-
-  bool
-  CylinderShape::is_straight() const
-  {
-    return false;
-  }
-
-
-
   ConvexPolytope<3>
   CylinderShape::between_ends(const ConvexPolytope<3> &cell) const
   {
@@ -589,213 +166,22 @@ namespace moraine
 
 
 
-  namespace
-  {
-    // Area, first moments and area times height, integrated over the height of
-    // a polyhedron given in the frame of a cylinder (third axis = its axis).
-    class CylinderInPolyhedron
-    {
-    public:
-      using Values = Tensor<1, 4>;
-
-      CylinderInPolyhedron(
-        const std::vector<ConvexPolytope<3>::PointList> &faces,
-        const Tensor<1, 2>                              &centre,
-        const double                                     radius,
-        const Values                                    &tolerance)
-        : faces(faces)
-        , centre(centre)
-        , radius(radius)
-        , tolerance(tolerance)
-        , rule(8)
-      {}
-
-      Values
-      integrate() const
-      {
-        const std::vector<double> heights = kinks();
-        Values                    sum;
-        for (unsigned int i = 0; i + 1 < heights.size(); ++i)
-          if (heights[i] < heights[i + 1])
-            sum += adapt({heights[i], heights[i + 1]},
-                         0.,
-                         1.,
-                         gauss({heights[i], heights[i + 1]}, 0., 1.),
-                         max_halvings);
-        return sum;
-      }
-
-    private:
-      static constexpr unsigned int max_halvings = 20;
-
-      Values
-      slice(const double height) const
-      {
-        std::vector<Edge> edges;
-        for (const auto &face : faces)
-          {
-            boost::container::small_vector<Tensor<1, 2>, 2> up, down;
-            for (unsigned int i = 0; i < face.size(); ++i)
-              {
-                const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
-                if ((a[2] < height) == (b[2] < height))
-                  continue;
-                const double       t = (height - a[2]) / (b[2] - a[2]);
-                const Tensor<1, 2> x(
-                  {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
-                (b[2] > a[2] ? up : down).push_back(x);
-              }
-            // seen from outside, a loop goes up on the right-hand side
-            for (unsigned int i = 0; i < up.size(); ++i)
-              edges.emplace_back(down[i], up[i]);
-          }
-        const VolumeMoments<2> m = disc_moments(edges, centre, radius);
-        return Values({m.volume, m.first[0], m.first[1], m.volume * height});
-      }
-
-      // Heights between which the slice's moments are smooth: of vertices, of
-      // edges that meet the cylinder and of faces that touch it.
-      std::vector<double>
-      kinks() const
-      {
-        std::vector<double> heights;
-        double              lowest  = std::numeric_limits<double>::infinity();
-        double              highest = -lowest;
-        for (const auto &face : faces)
-          for (const auto &x : face)
-            {
-              lowest  = std::min(lowest, x[2]);
-              highest = std::max(highest, x[2]);
-            }
-        for (const auto &face : faces)
-          {
-            Tensor<1, 3> normal;
-            for (unsigned int i = 0; i < face.size(); ++i)
-              {
-                const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
-                const auto [begin, end] =
-                  inside_circle(Tensor<1, 2>({a[0], a[1]}) - centre,
-                                Tensor<1, 2>({b[0], b[1]}) - centre,
-                                radius * radius);
-                heights.push_back(a[2]);
-                heights.push_back(a[2] + begin * (b[2] - a[2]));
-                heights.push_back(a[2] + end * (b[2] - a[2]));
-                normal += cross_product_3d(a - face[0], b - face[0]);
-              }
-            const double across = std::hypot(normal[0], normal[1]);
-            const double to_axis =
-              normal * (face[0] - Point<3>(centre[0], centre[1], 0.));
-            for (const double side : {-1., 1.})
-              {
-                const double touch =
-                  (to_axis + side * radius * across) / normal[2];
-                if (touch > lowest && touch < highest)
-                  heights.push_back(touch);
-              }
-          }
-        std::sort(heights.begin(), heights.end());
-        return heights;
-      }
-
-      // Over the part (s, e) of an interval of heights, mapped from [0, 1]
-      // with zero slope at both ends: there, moments may grow like a root
-      // (x - end)^(3/2), which becomes a smooth function of s.
-      Values
-      gauss(const std::pair<double, double> &interval,
-            const double                     begin,
-            const double                     end) const
-      {
-        const double length = interval.second - interval.first;
-        Values       sum;
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const double s = begin + (end - begin) * rule.point(q)[0];
-            sum += (end - begin) * rule.weight(q) * length * 6. * s * (1. - s) *
-                   slice(interval.first + length * s * s * (3. - 2. * s));
-          }
-        return sum;
-      }
-
-      Values
-      adapt(const std::pair<double, double> &interval,
-            const double                     begin,
-            const double                     end,
-            const Values                    &whole,
-            const unsigned int               n_halvings) const
-      {
-        const double middle = (begin + end) / 2.;
-        const Values lower  = gauss(interval, begin, middle);
-        const Values upper  = gauss(interval, middle, end);
-        const Values change = lower + upper - whole;
-        bool         fine   = true;
-        for (unsigned int i = 0; i < 4; ++i)
-          fine &= std::abs(change[i]) <= tolerance[i];
-        if (fine || n_halvings == 0)
-          return lower + upper;
-        return adapt(interval, begin, middle, lower, n_halvings - 1) +
-               adapt(interval, middle, end, upper, n_halvings - 1);
-      }
-
-      const std::vector<ConvexPolytope<3>::PointList> &faces;
-      const Tensor<1, 2>                               centre;
-      const double                                     radius;
-      const Values                                     tolerance;
-      const QGauss<1>                                  rule;
-    };
-  } // namespace
-
-
-
   VolumeMoments<3>
   CylinderShape::moments_of_part(const ConvexPolytope<3> &cell,
                                  const Point<3>          &reference) const
   {
-    VolumeMoments<3>        sum;
     const ConvexPolytope<3> part = between_ends(cell);
-    if (part.empty())
-      return sum;
-
-    unsigned int across = 0;
-    for (unsigned int d = 1; d < 3; ++d)
-      if (std::abs(axis[d]) < std::abs(axis[across]))
-        across = d;
-    std::array<Tensor<1, 3>, 3> frame;
-    frame[2] = axis;
-    frame[0] = cross_product_3d(Point<3>::unit_vector(across), axis);
-    frame[0] /= frame[0].norm();
-    frame[1] = cross_product_3d(axis, frame[0]);
-
-    std::vector<ConvexPolytope<3>::PointList> faces;
-    part.for_each_face([&](ConvexPolytope<3>::PointList loop) {
-      for (auto &x : loop)
-        {
-          const Tensor<1, 3> arm = x - reference;
-          x = Point<3>(arm * frame[0], arm * frame[1], arm * frame[2]);
-        }
-      faces.push_back(loop);
-    });
-    const Tensor<1, 3> arm    = start - reference;
-    const double       volume = part.volume();
-    const double       size   = part.radius(part.vertex_mean());
-    const auto         m =
-      CylinderInPolyhedron(faces,
-                           Tensor<1, 2>({arm * frame[0], arm * frame[1]}),
-                           radius,
-                           1e-10 * volume *
-                             Tensor<1, 4>({1., size, size, size}))
-        .integrate();
-    sum.volume = m[0];
-    for (unsigned int d = 0; d < 3; ++d)
-      sum.first += m[d + 1] * frame[d];
-    return sum;
+    return part.empty() ?
+             VolumeMoments<3>() :
+             moments_in_cylinder(part, start, axis, radius, reference);
   }
 
 
 
   void
-  CylinderShape::add_pieces_of_part(const ConvexPolytope<3> &cell,
-                                    const double             sign,
-                                    Pieces<3>               &pieces) const
+  CylinderShape::add_pieces_of_part(const ConvexPolytope<3>     &cell,
+                                    const double                 sign,
+                                    std::vector<SignedPiece<3>> &pieces) const
   {
     const ConvexPolytope<3> part = between_ends(cell);
     if (!part.empty())
@@ -842,12 +228,8 @@ namespace moraine
   Overlap
   ExpressionShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
   {
-    const Point<dim> middle = cell.vertex_mean();
-    return LinearPart<dim>([this](const Point<dim> &p) { return level(p); },
-                           cell,
-                           middle,
-                           cell.radius(middle))
-      .overlap();
+    return CurveSubdivision<dim>::overlap(
+      [this](const Point<dim> &p) { return level(p); }, cell);
   }
 
 
@@ -863,9 +245,10 @@ namespace moraine
 
   template <int dim>
   void
-  ExpressionShape<dim>::add_pieces_of_part(const ConvexPolytope<dim> &cell,
-                                           const double               sign,
-                                           Pieces<dim> &pieces) const
+  ExpressionShape<dim>::add_pieces_of_part(
+    const ConvexPolytope<dim>     &cell,
+    const double                   sign,
+    std::vector<SignedPiece<dim>> &pieces) const
   {
     subdivision.add_pieces([this](const Point<dim> &p) { return level(p); },
                            false,
@@ -876,8 +259,8 @@ namespace moraine
 
 
 
-  template struct CurveSubdivision<2>;
-  template struct CurveSubdivision<3>;
+  template class RoundShape<2>;
+  template class RoundShape<3>;
   template class BallShape<2>;
   template class BallShape<3>;
   template class ExpressionShape<2>;

@@ -9,7 +9,6 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
 #include <iomanip>
 #include <sstream>
 

@@ -17,46 +17,9 @@ namespace moraine
 
   namespace
   {
-    // d-linear image of a point of the reference cell
-    template <int dim>
-    Point<dim>
-    image(const typename ConvexPolytope<dim>::CellVertices &cell,
-          const Point<dim>                                 &unit)
-    {
-      Point<dim> x;
-      for (unsigned int v = 0; v < cell.size(); ++v)
-        {
-          double value = 1.;
-          for (unsigned int d = 0; d < dim; ++d)
-            value *= ((v >> d) & 1) ? unit[d] : 1. - unit[d];
-          x += value * cell[v];
-        }
-      return x;
-    }
-
-    template <int dim>
-    double
-    volume_element(const typename ConvexPolytope<dim>::CellVertices &cell,
-                   const Point<dim>                                 &unit)
-    {
-      Tensor<2, dim> jacobian;
-      for (unsigned int v = 0; v < cell.size(); ++v)
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            double slope = 1.;
-            for (unsigned int d = 0; d < dim; ++d)
-              slope *= d == k ? (((v >> d) & 1) ? 1. : -1.) :
-                                (((v >> d) & 1) ? unit[d] : 1. - unit[d]);
-            for (unsigned int i = 0; i < dim; ++i)
-              jacobian[i][k] += slope * cell[v][i];
-          }
-      return determinant(jacobian);
-    }
-
     template <int dim>
     bool
-    is_parallelepiped(const typename ConvexPolytope<dim>::CellVertices &cell,
-                      const double tolerance)
+    is_parallelepiped(const CellVertices<dim> &cell, const double tolerance)
     {
       for (unsigned int v = 0; v < cell.size(); ++v)
         {
@@ -135,10 +98,10 @@ namespace moraine
      * coordinates as well: three points integrate them, if they find room.
      */
     std::vector<Point<3>>
-    points_of_part(const ConvexPolytope<3>               &sub_cell,
-                   const ConvexPolytope<3>::CellVertices &cell,
-                   const Shape<3>                        &shape,
-                   const ClippedVolume<3>                &part)
+    points_of_part(const ConvexPolytope<3> &sub_cell,
+                   const CellVertices<3>   &cell,
+                   const Shape<3>          &shape,
+                   const ClippedVolume<3>  &part)
     {
       SymmetricTensor<2, 3>       moments;
       std::vector<SignedPiece<3>> pieces;
@@ -222,18 +185,19 @@ namespace moraine
 
 
   template <int dim>
-  typename CellSeeder<dim>::CellVertices
-  CellSeeder<dim>::sub_cell(const CellVertices &cell,
-                            const unsigned int  q) const
+  CellVertices<dim>
+  CellSeeder<dim>::sub_cell(const CellVertices<dim> &cell,
+                            const unsigned int       q) const
   {
-    CellVertices vertices;
+    const CellMap<dim> map(cell);
+    CellVertices<dim>  vertices;
     for (unsigned int v = 0; v < vertices.size(); ++v)
       {
         Point<dim> unit = lower[q];
         for (unsigned int d = 0; d < dim; ++d)
           if ((v >> d) & 1)
             unit[d] += lengths[q][d];
-        vertices[v] = image<dim>(cell, unit);
+        vertices[v] = map.place(unit);
       }
     return vertices;
   }
@@ -242,24 +206,23 @@ namespace moraine
 
   template <int dim>
   void
-  CellSeeder<dim>::seed_full_cell(const CellVertices            &cell,
+  CellSeeder<dim>::seed_full_cell(const CellVertices<dim>       &cell,
                                   std::vector<SeededPoint<dim>> &points) const
   {
-    const double tolerance =
+    const CellMap<dim> map(cell);
+    const double       tolerance =
       1e-14 * (cell[0].norm() + (cell[1] - cell[0]).norm());
     const bool rule_is_exact =
       layout == PointLayout::gauss || is_parallelepiped<dim>(cell, tolerance);
     for (unsigned int q = 0; q < rule.size(); ++q)
       if (rule_is_exact)
         points.push_back(
-          {image<dim>(cell, rule.point(q)),
-           rule.weight(q) * volume_element<dim>(cell, rule.point(q)),
-           lengths[q],
-           false});
+          {map.place(rule.point(q)),
+           rule.weight(q) * determinant(map.jacobian(rule.point(q)))});
       else
         {
           const ConvexPolytope<dim> part(sub_cell(cell, q));
-          points.push_back({part.centroid(), part.volume(), lengths[q], false});
+          points.push_back({part.centroid(), part.volume()});
         }
   }
 
@@ -267,7 +230,7 @@ namespace moraine
 
   template <int dim>
   void
-  CellSeeder<dim>::seed(const CellVertices            &cell,
+  CellSeeder<dim>::seed(const CellVertices<dim>       &cell,
                         const Shape<dim>              &shape,
                         std::vector<SeededPoint<dim>> &points) const
   {
@@ -296,8 +259,7 @@ namespace moraine
           if (is_clipped && shape.is_straight())
             positions = points_of_part(whole, cell, shape, part);
         for (const Point<dim> &x : positions)
-          points.push_back(
-            {x, part.volume / positions.size(), lengths[q], is_clipped});
+          points.push_back({x, part.volume / positions.size()});
       }
     if (!is_cut)
       {

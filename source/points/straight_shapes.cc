@@ -3,6 +3,8 @@
 
 #include <moraine/points/straight_shapes.h>
 
+#include <moraine/points/polygon.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,12 +15,6 @@ namespace moraine
 
   namespace
   {
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     template <int dim>
     Point<dim>
     lift(const Tensor<1, 2> &a)
@@ -29,28 +25,6 @@ namespace moraine
       return lifted;
     }
 
-    // is b, known to be on the line through a and c, between them?
-    bool
-    between(const Point<2> &a, const Point<2> &b, const Point<2> &c)
-    {
-      return (a - b) * (c - b) <= 0.;
-    }
-
-    bool
-    edges_meet(const Point<2> &a,
-               const Point<2> &b,
-               const Point<2> &c,
-               const Point<2> &d)
-    {
-      const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
-      const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
-      if (c_side * d_side < 0. && a_side * b_side < 0.)
-        return true;
-      return (c_side == 0. && between(a, c, b)) ||
-             (d_side == 0. && between(a, d, b)) ||
-             (a_side == 0. && between(c, a, d)) ||
-             (b_side == 0. && between(c, b, d));
-    }
   } // namespace
 
 
@@ -168,10 +142,7 @@ namespace moraine
     : vertices(vertices)
     , extent(extent)
   {
-    double area = 0.;
-    for (unsigned int i = 1; i + 1 < vertices.size(); ++i)
-      area += cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
-    if (area < 0.)
+    if (polygon_area(vertices) < 0.)
       std::reverse(this->vertices.begin(), this->vertices.end());
   }
 
@@ -270,32 +241,6 @@ namespace moraine
         if (area != 0. && !part.empty())
           pieces.push_back({sign * turn, part});
       }
-  }
-
-
-
-  std::pair<unsigned int, unsigned int>
-  first_crossing(const std::vector<Point<2>> &vertices)
-  {
-    const unsigned int n    = vertices.size();
-    const auto         next = [n](const unsigned int i) { return (i + 1) % n; };
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Point<2> &a = vertices[i], &b = vertices[next(i)];
-        const Point<2> &c = vertices[next(next(i))];
-        if (a == b)
-          return {i, i};
-        if (cross(b - a, c - b) == 0. && (b - a) * (c - b) < 0.)
-          return {i, next(i)};
-      }
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i + 2; j < n; ++j)
-        if (next(j) != i && edges_meet(vertices[i],
-                                       vertices[i + 1],
-                                       vertices[j],
-                                       vertices[next(j)]))
-          return {i, j};
-    return {n, n};
   }
 
 

@@ -30,11 +30,6 @@ namespace moraine
   Simulation<dim>::describe()
   {
     begin_first_step();
-    std::vector<double> volumes(body_names.size(), 0.);
-    for (unsigned int p = 0; p < points->n_local(); ++p)
-      volumes[points->body(p)] += points->volume(p);
-    Utilities::MPI::sum(volumes, communicator, volumes);
-
     console << "Moraine " << version << ", " << dim << "D, "
             << Utilities::MPI::n_mpi_processes(communicator)
             << (Utilities::MPI::n_mpi_processes(communicator) == 1 ?
@@ -57,7 +52,7 @@ namespace moraine
             << points->bytes_per_point() << " bytes each\n";
     for (unsigned int b = 0; b < body_names.size(); ++b)
       console << "  body        " << body_names[b] << ", volume "
-              << std::setprecision(8) << volumes[b] << '\n';
+              << std::setprecision(8) << body_volumes[b] << '\n';
     const auto n_points = system->n_boundary_points();
     effects.push_back("internal force");
     if (scene.method.empty_stiffness > 0)

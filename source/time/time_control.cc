@@ -146,14 +146,6 @@ namespace moraine
 
 
 
-  double
-  TimeControl::step_size() const
-  {
-    return trial - current;
-  }
-
-
-
   bool
   TimeControl::at_step_end() const
   {

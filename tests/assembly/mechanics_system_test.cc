@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
 
 #include "../small_scene.h"
 
@@ -29,7 +28,6 @@ namespace
               *scene.basis,
               {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
               MeshAfterStep::reset)
-      , timer(MPI_COMM_WORLD, sink, TimerOutput::never, TimerOutput::wall_times)
     {
       EnforcementParameters parameters;
       parameters.enforcement = enforcement;
@@ -58,8 +56,7 @@ namespace
                                              boundaries,
                                              conditions,
                                              loads,
-                                             std::vector<std::string>{"block"},
-                                             timer);
+                                             std::vector<std::string>{"block"});
       system->begin_step(0);
       system->set_target(1);
     }
@@ -86,8 +83,6 @@ namespace
     std::vector<ImplicitBoundary<2>>    boundaries;
     std::vector<GridCondition<2>>       conditions;
     Loads<2>                            loads;
-    std::ostringstream                  sink;
-    TimerOutput                         timer;
     std::unique_ptr<MechanicsSystem<2>> system;
   };
 

@@ -9,6 +9,8 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/memory.h>
 #include <moraine/material/linear_elastic.h>
+#include <moraine/points/bodies.h>
+#include <moraine/points/straight_shapes.h>
 #include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>
@@ -28,7 +30,6 @@
 #include <ctime>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 namespace
 {
@@ -191,14 +192,20 @@ namespace
           basis,
           {std::make_shared<LinearElastic>(young_modulus, poisson_ratio, 1.)},
           MeshAfterStep::reset)
-      , timer(MPI_COMM_WORLD, sink, TimerOutput::never, TimerOutput::wall_times)
       , linear_solver(solver_parameters(), dim)
     {
-      fill(options);
+      Point<dim> corner;
+      for (unsigned int d = 0; d < dim; ++d)
+        corner[d] = d == dim - 1 ? options.height : options.cells;
+      const auto block = std::make_shared<ConvexShape<dim>>(
+        ConvexShape<dim>::box(Point<dim>(), corner));
+      seed_bodies({{"block", block}},
+                  CellSeeder<dim>(options.points, PointLayout::equal),
+                  points);
       for (unsigned int side = 0; side < 2 * dim - 1; ++side)
         {
           GridCondition<dim> roller;
-          roller.name                = mesh.boundary_names()[side];
+          roller.name                = "side";
           roller.side                = side;
           roller.component[side / 2] = true;
           roller.value               = [](const Point<dim> &, const double) {
@@ -223,8 +230,7 @@ namespace
                                                       conditions,
                                                       loads,
                                                       std::vector<std::string>{
-                                                        "block"},
-                                                      timer);
+                                                        "block"});
     }
 
     /** One step; @p clock may be nothing for one that is not counted. */
@@ -272,38 +278,11 @@ namespace
     std::vector<ImplicitBoundary<dim>>    boundaries;
     std::vector<GridCondition<dim>>       conditions;
     Loads<dim>                            loads;
-    std::ostringstream                    sink;
-    TimerOutput                           timer;
     LinearSolver                          linear_solver;
     std::unique_ptr<MechanicsSystem<dim>> system;
     double                                t                 = 0;
     unsigned int                          linear_iterations = 0;
     double                                largest_increment = 0;
-
-  private:
-    void
-    fill(const Options &options)
-    {
-      const unsigned int n         = options.points;
-      const unsigned int n_of_cell = Utilities::pow(n, dim);
-      for (const auto &cell : mesh.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned() &&
-            cell->center()[dim - 1] < options.height)
-          for (unsigned int i = 0; i < n_of_cell; ++i)
-            {
-              Point<dim> xi;
-              for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
-                xi[d] = (rest % n + 0.5) / n;
-              points.insert(cell,
-                            mesh.mapping().transform_unit_to_real_cell(cell,
-                                                                       xi),
-                            xi,
-                            cell->active_cell_index() * n_of_cell + i,
-                            0,
-                            cell->measure() / n_of_cell);
-            }
-      points.finish_insertion();
-    }
   };
 
 

@@ -31,7 +31,7 @@ namespace
       prm.add_parameter("Method", method, "", p::selection({"GIMP", "MPM"}));
       prm.enter_subsection("Mesh");
       prm.add_parameter("Cell size", size, "", p::positive());
-      prm.add_parameter("Lower corner", corner, "", p::point<2>());
+      prm.add_parameter("Lower corner", corner, "", p::numbers(2, 2));
       prm.add_parameter("Count", n, "", p::positive_integer());
       prm.leave_subsection();
       prm.enter_subsection("Materials");
@@ -39,7 +39,10 @@ namespace
         {
           prm.enter_subsection(name);
           prm.add_parameter("Young modulus", young, "", p::positive());
-          prm.add_parameter("Poisson ratio", poisson, "", p::in_range(0, 0.49));
+          prm.add_parameter("Poisson ratio",
+                            poisson,
+                            "",
+                            dealii::Patterns::Double(0, 0.49));
           prm.leave_subsection();
         }
       prm.leave_subsection();
@@ -235,12 +238,13 @@ TEST(Patterns, InWords)
   EXPECT_EQ(describe(p::positive()), "a number > 0");
   EXPECT_EQ(describe(p::non_negative()), "a number >= 0");
   EXPECT_EQ(describe(p::number()), "a number");
-  EXPECT_EQ(describe(p::in_range(-1, 0.5)), "a number from -1 to 0.5");
+  EXPECT_EQ(describe(dealii::Patterns::Double(-1, 0.5)),
+            "a number from -1 to 0.5");
   EXPECT_EQ(describe(p::integer_in_range(1, 9)), "a whole number from 1 to 9");
-  EXPECT_EQ(describe(p::non_negative_integer()), "a whole number >= 0");
-  EXPECT_EQ(describe(p::point<3>()), "3 numbers, separated by commas");
+  EXPECT_EQ(describe(dealii::Patterns::Integer(0)), "a whole number >= 0");
+  EXPECT_EQ(describe(p::numbers(3, 3)), "3 numbers, separated by commas");
   EXPECT_EQ(describe(p::numbers()), "numbers, separated by commas");
-  EXPECT_EQ(describe(p::positive_numbers(1)),
+  EXPECT_EQ(describe(dealii::Patterns::List(p::positive(), 1)),
             "one or more numbers > 0, separated by commas");
   EXPECT_EQ(describe(p::positive_integers(2, 3)),
             "2 to 3 whole numbers >= 1, separated by commas");

@@ -20,7 +20,7 @@ namespace
   }
 
   // a cell with all faces bent, and its right neighbour
-  std::array<ConvexPolytope<3>::CellVertices, 2>
+  std::array<CellVertices<3>, 2>
   bent_cells()
   {
     std::array<Point<3>, 12> x;
@@ -28,7 +28,7 @@ namespace
       x[i] = Point<3>(i % 3 + 0.1 * std::sin(1. + 3. * i),
                       i / 3 % 2 + 0.1 * std::sin(2. + 5. * i),
                       i / 6 + 0.1 * std::sin(3. + 7. * i));
-    std::array<ConvexPolytope<3>::CellVertices, 2> cells;
+    std::array<CellVertices<3>, 2> cells;
     for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int v = 0; v < 8; ++v)
         cells[c][v] = x[c + v % 2 + 3 * (v / 2 % 2) + 6 * (v / 4)];
@@ -37,7 +37,7 @@ namespace
 
   // int of detJ over the reference cell: 2^3 Gauss points are exact
   double
-  trilinear_volume(const ConvexPolytope<3>::CellVertices &x)
+  trilinear_volume(const CellVertices<3> &x)
   {
     double sum = 0.;
     for (unsigned int q = 0; q < 8; ++q)

@@ -5,6 +5,7 @@
 
 #include <moraine/points/combined_shapes.h>
 #include <moraine/points/curved_shapes.h>
+#include <moraine/points/polygon.h>
 #include <moraine/points/straight_shapes.h>
 
 #include <deal.II/base/numbers.h>
@@ -76,7 +77,7 @@ namespace
       n_cells *= n;
     for (unsigned int c = 0; c < n_cells; ++c)
       {
-        typename ConvexPolytope<dim>::CellVertices vertices;
+        CellVertices<dim> vertices;
         for (unsigned int v = 0; v < vertices.size(); ++v)
           {
             unsigned int rest = c;
@@ -319,11 +320,13 @@ TEST(CombinedShapes, BoundingBoxes)
 
 TEST(CurvedShapes, DiscAndRingAreExact)
 {
-  const Point<2>       centre(0.31, 0.27);
-  const Tensor<1, 3>   at({0.31, 0.27, 0.});
-  const auto           disc  = std::make_shared<BallShape<2>>(centre, 0.9);
-  const auto           inner = std::make_shared<BallShape<2>>(centre, 0.4);
-  const HollowShape<2> ring(disc, inner);
+  const Point<2>         centre(0.31, 0.27);
+  const Tensor<1, 3>     at({0.31, 0.27, 0.});
+  const auto             disc  = std::make_shared<BallShape<2>>(centre, 0.9);
+  const auto             inner = std::make_shared<BallShape<2>>(centre, 0.4);
+  const CombinedShape<2> ring(CombinedShape<2>::Operation::hollow_out,
+                              disc,
+                              inner);
   for (const unsigned int n : {1, 3, 20})
     for (const bool bent : {false, true})
       {
@@ -400,10 +403,15 @@ TEST(CurvedShapes, Cylinder)
                PI * 0.25 * 1.2,
                Tensor<1, 3>({0.3, 0.2, 0.2}),
                exact);
-  expect_total(total_over_mesh(HollowShape<3>(upright, bore), -1., 1.6, 6),
-               PI * 0.21 * 1.2,
-               Tensor<1, 3>({0.3, 0.2, 0.2}),
-               exact);
+  expect_total(
+    total_over_mesh(
+      *combine<3>(CombinedShape<3>::Operation::hollow_out, upright, bore),
+      -1.,
+      1.6,
+      6),
+    PI * 0.21 * 1.2,
+    Tensor<1, 3>({0.3, 0.2, 0.2}),
+    exact);
   const Tensor<1, 3>  way({0.3, 0.5, 1.});
   const CylinderShape inclined(start, start + way, 0.5);
   expect_total(total_over_mesh(inclined, -1.2, 1.6, 5),

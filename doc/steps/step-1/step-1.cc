@@ -13,8 +13,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
-#include <moraine/points/point_set.h>
-#include <moraine/points/seeding.h>
+#include <moraine/points/bodies.h>
 #include <moraine/points/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
@@ -22,7 +21,6 @@
 
 // deal.II supplies what a finite element program always needs.
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <iomanip>
 #include <iostream>
@@ -44,41 +42,6 @@ constexpr double final_tension = 30;
 // they are in their cells: the finite element method. The other choice is the
 // subject of step-2.
 constexpr MeshAfterStep after_step = MeshAfterStep::follow_material;
-
-
-
-// @sect3{Points}
-//
-// The body is a shape; the seeder divides a cell into sub-cells and gives each
-// of them a point that carries the volume of its part inside the shape. With
-// the Gauss layout and two points per direction these are the points and
-// weights every finite element program uses on bilinear elements. A point needs
-// an id of its own; the number of the cell makes one that does not depend on
-// the number of processes.
-void
-fill_with_points(const BackgroundMesh<dim> &mesh, PointSet<dim> &points)
-{
-  const auto block =
-    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height));
-  const CellSeeder<dim> seeder(2, PointLayout::gauss);
-
-  std::vector<SeededPoint<dim>> seeded;
-  for (const auto &cell : mesh.triangulation().active_cell_iterators())
-    if (cell->is_locally_owned())
-      {
-        seeded.clear();
-        seeder.seed(vertices_of<dim>(cell), block, seeded);
-        for (unsigned int i = 0; i < seeded.size(); ++i)
-          points.insert(cell,
-                        seeded[i].position,
-                        mesh.mapping().transform_real_to_unit_cell(
-                          cell, seeded[i].position),
-                        4 * cell->active_cell_index() + i,
-                        /* body = */ 0,
-                        seeded[i].volume);
-      }
-  points.finish_insertion();
-}
 
 
 
@@ -177,8 +140,16 @@ main(int argc, char **argv)
   const BackgroundMesh<dim> mesh(box, MPI_COMM_WORLD);
   GridSpace<dim>            space(mesh, /* degree = */ 1);
 
+  // A body is a name and a shape. The seeder divides a cell into sub-cells and
+  // gives each of them a point that carries the volume of its part inside the
+  // shape. With the Gauss layout and two points per direction these are the
+  // points and weights every finite element program uses on bilinear elements.
+  const auto block = std::make_shared<ConvexShape<dim>>(
+    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
   PointSet<dim> points(mesh, PointFields());
-  fill_with_points(mesh, points);
+  seed_bodies({{"block", block}},
+              CellSeeder<dim>(2, PointLayout::gauss),
+              points);
 
   // The basis tells for each point which nodes it touches and the values and
   // gradients of their shape functions there. The state joins what we have: the
@@ -195,17 +166,11 @@ main(int argc, char **argv)
                    after_step);
 
   // The equations of a step: points, supports and loads. There is no boundary
-  // that cuts through cells yet; see step-3. The timer collects what each part
-  // of the assembly costs; ask it for a summary if you want to know.
+  // that cuts through cells yet; see step-3.
   const auto                         supports = make_supports(mesh);
   Loads<dim>                         loads    = make_loads(mesh);
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  TimerOutput                        timer(MPI_COMM_WORLD,
-                    std::cout,
-                    TimerOutput::never,
-                    TimerOutput::wall_times);
-  MechanicsSystem<dim>               system(
-    state, no_boundaries, supports, loads, {"block"}, timer);
+  MechanicsSystem<dim> system(state, no_boundaries, supports, loads, {"block"});
 
   Newton       newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);

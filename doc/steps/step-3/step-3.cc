@@ -11,16 +11,14 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
+#include <moraine/points/bodies.h>
 #include <moraine/points/combined_shapes.h>
-#include <moraine/points/point_set.h>
-#include <moraine/points/seeding.h>
 #include <moraine/points/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <cmath>
 #include <iomanip>
@@ -39,41 +37,6 @@ constexpr double angle         = 25;  // degrees
 constexpr double weight        = 0.1; // force per volume
 constexpr double young_modulus = 1000;
 constexpr double poisson_ratio = 0.3;
-
-
-
-// @sect3{A body that does not follow the mesh}
-//
-// The only difference to step-1 is that the box is turned. The seeder clips
-// each sub-cell with the shape, and gives its point volume and centroid of what
-// is left; the volumes sum up to that of the block to round-off.
-void
-fill_with_points(const BackgroundMesh<dim> &mesh, PointSet<dim> &points)
-{
-  const auto box = std::make_shared<ConvexShape<dim>>(
-    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
-  const MovedShape<dim> block(
-    box,
-    Placement<dim>(angle, Point<dim>(), Tensor<1, dim>(), Tensor<1, dim>()));
-  const CellSeeder<dim> seeder(2, PointLayout::equal);
-
-  std::vector<SeededPoint<dim>> seeded;
-  for (const auto &cell : mesh.triangulation().active_cell_iterators())
-    if (cell->is_locally_owned())
-      {
-        seeded.clear();
-        seeder.seed(vertices_of<dim>(cell), block, seeded);
-        for (unsigned int i = 0; i < seeded.size(); ++i)
-          points.insert(cell,
-                        seeded[i].position,
-                        mesh.mapping().transform_real_to_unit_cell(
-                          cell, seeded[i].position),
-                        4 * cell->active_cell_index() + i,
-                        /* body = */ 0,
-                        seeded[i].volume);
-      }
-  points.finish_insertion();
-}
 
 
 
@@ -153,8 +116,19 @@ main(int argc, char **argv)
   box.cell_size    = 5;
   const BackgroundMesh<dim> mesh(box, MPI_COMM_WORLD);
   GridSpace<dim>            space(mesh, /* degree = */ 1);
-  PointSet<dim>             points(mesh, PointFields());
-  fill_with_points(mesh, points);
+
+  // The only difference to the body of step-1 is that the box is turned. Each
+  // sub-cell is clipped with the shape, and its point gets volume and centroid
+  // of what is left; the volumes sum up to that of the block to round-off.
+  const auto flat = std::make_shared<ConvexShape<dim>>(
+    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
+  const auto block = std::make_shared<MovedShape<dim>>(
+    flat,
+    Placement<dim>(angle, Point<dim>(), Tensor<1, dim>(), Tensor<1, dim>()));
+  PointSet<dim> points(mesh, PointFields());
+  const double  volume = seed_bodies({{"block", block}},
+                                    CellSeeder<dim>(2, PointLayout::equal),
+                                    points)[0];
 
   CellBasis<dim, 1> basis(space, points);
   State<dim>        state(space,
@@ -182,20 +156,12 @@ main(int argc, char **argv)
     make_roller("stop", Point<dim>(0, height), Point<dim>(0, 0)));
 
   const std::vector<GridCondition<dim>> no_conditions;
-  TimerOutput                           timer(MPI_COMM_WORLD,
-                    std::cout,
-                    TimerOutput::never,
-                    TimerOutput::wall_times);
   MechanicsSystem<dim>                  system(
-    state, boundaries, no_conditions, loads, {"block"}, timer);
+    state, boundaries, no_conditions, loads, {"block"});
   Newton       newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);
 
   // Is it the block we wanted?
-  double volume = 0;
-  for (unsigned int p = 0; p < points.n_local(); ++p)
-    volume += points.volume(p);
-  volume = Utilities::MPI::sum(volume, MPI_COMM_WORLD);
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     std::cout << points.n_global() << " points, volume " << std::fixed
               << std::setprecision(10) << volume << "\n   t boundary        x"

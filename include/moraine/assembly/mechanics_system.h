@@ -49,15 +49,15 @@ namespace moraine
      * empty part of active cells over that of the material in them. It resists
      * the increment of each step and then is forgotten (a finite cell method,
      * Parvizian et al. 2007), so that nodes touched by too few points are held.
-     * 0: none.
+     * 0: none. @p timer, if there is one, gets the times of the parts.
      */
     MechanicsSystem(State<dim>                            &state,
                     std::vector<ImplicitBoundary<dim>>    &boundaries,
                     const std::vector<GridCondition<dim>> &conditions,
                     Loads<dim>                            &loads,
                     const std::vector<std::string>        &body_names,
-                    dealii::TimerOutput                   &timer,
-                    const double empty_stiffness = 0.);
+                    const double                           empty_stiffness = 0.,
+                    dealii::TimerOutput                   *timer = nullptr);
 
     /**
      * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
@@ -207,6 +207,7 @@ namespace moraine
     const std::vector<GridCondition<dim>> &conditions;
     Loads<dim>                            &loads;
     const std::vector<std::string>         body_names;
+    dealii::TimerOutput                    unused_timer;
     dealii::TimerOutput                   &timer;
     const double                           empty_stiffness;
     /** Cells of this rank that points do not fill, and what is left of them. */

@@ -5,6 +5,7 @@
 #define moraine_boundary_cell_cut_h
 
 #include <moraine/boundary/surface.h>
+#include <moraine/points/polygon.h>
 
 namespace moraine
 {
@@ -65,21 +66,15 @@ namespace moraine
     dealii::Point<2>
     to_plane(const dealii::Point<3> &x) const;
 
+    Polygon
+    to_plane(const std::vector<dealii::Point<3>> &points) const;
+
     dealii::Point<3>
     to_space(const dealii::Point<2> &p) const;
 
     dealii::Point<3>     origin;
     dealii::Tensor<1, 3> normal, first, second;
   };
-
-  /** Signed area, positive if counter-clockwise. */
-  double
-  polygon_area(const std::vector<dealii::Point<2>> &polygon);
-
-  /** The part of a polygon inside a convex counter-clockwise polygon. */
-  std::vector<dealii::Point<2>>
-  clip_polygon(const std::vector<dealii::Point<2>> &polygon,
-               const std::vector<dealii::Point<2>> &convex);
 
   /**
    * Quadrature of a polygon in the plane of @p frame, exact for polynomials of
@@ -89,11 +84,11 @@ namespace moraine
    * points carry.
    */
   void
-  add_polygon_points(const std::vector<dealii::Point<2>> &polygon,
-                     const PlaneFrame                    &frame,
-                     const dealii::Tensor<1, 3>          &normal,
-                     const unsigned int                   n_gauss,
-                     std::vector<SurfacePoint<3>>        &out);
+  add_polygon_points(const Polygon                &polygon,
+                     const PlaneFrame             &frame,
+                     const dealii::Tensor<1, 3>   &normal,
+                     const unsigned int            n_gauss,
+                     std::vector<SurfacePoint<3>> &out);
 } // namespace moraine
 
 #endif

@@ -143,11 +143,11 @@ namespace moraine
     curved() const override;
 
   private:
-    PlaneFrame                                 frame;
-    dealii::Tensor<1, 3>                       unit_normal;
-    std::vector<std::vector<dealii::Point<2>>> convex_parts;
-    dealii::BoundingBox<3>                     box;
-    double                                     magnitude;
+    PlaneFrame             frame;
+    dealii::Tensor<1, 3>   unit_normal;
+    std::vector<Polygon>   convex_parts;
+    dealii::BoundingBox<3> box;
+    double                 magnitude;
   };
 } // namespace moraine
 

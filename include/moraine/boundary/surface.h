@@ -4,11 +4,12 @@
 #ifndef moraine_boundary_surface_h
 #define moraine_boundary_surface_h
 
+#include <moraine/mesh/cell_map.h>
+
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <array>
 #include <vector>
 
 namespace moraine
@@ -25,12 +26,22 @@ namespace moraine
     double                 JxW;
   };
 
-  /** The vertices of one cell in deal.II's lexicographic order. */
-  template <int dim>
-  using CellVertices = std::array<dealii::Point<dim>, (1 << dim)>;
-
   /** Half the width of the bounding box of a surface without limits. */
   constexpr double unlimited_extent = 1e100;
+
+  /** The box of a surface without limits. */
+  template <int dim>
+  dealii::BoundingBox<dim>
+  unlimited_box();
+
+  /** The direction of v, or any where v is zero. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  unit_or_any(const dealii::Tensor<1, dim> &v);
+
+  /** Throws InputError unless a radius is positive. */
+  void
+  check_radius(const double radius);
 
   /**
    * A surface φ(x) = 0 with the body on the side φ > 0, in its own frame. A

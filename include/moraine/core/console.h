@@ -6,7 +6,6 @@
 
 #include <mpi.h>
 
-#include <fstream>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -60,10 +59,6 @@ namespace moraine
      */
     void
     progress(const std::string &line);
-
-    /** Whether progress lines are shown. */
-    bool
-    is_terminal() const;
 
   private:
     class Tee;

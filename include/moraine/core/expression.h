@@ -56,16 +56,6 @@ namespace moraine
     dealii::Tensor<1, dim>
     vector_value(const dealii::Point<dim> &p, const double t = 0.) const;
 
-    unsigned int
-    n_components() const;
-
-    /** Whether every component is a plain number. */
-    bool
-    is_constant() const;
-
-    const std::string &
-    text() const;
-
   private:
     std::string              expression_text;
     std::string              origin;
@@ -94,9 +84,6 @@ namespace moraine
     /** @throw InputError naming place, text and t if that is not a number. */
     double
     value(const double t) const;
-
-    const std::string &
-    text() const;
 
   private:
     void

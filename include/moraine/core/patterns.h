@@ -30,10 +30,6 @@ namespace moraine
     dealii::Patterns::Double
     number();
 
-    /** A number from @p lower to @p upper, both included. */
-    dealii::Patterns::Double
-    in_range(const double lower, const double upper);
-
     /**
      * A whole number >= 1. Give a pattern to every unsigned member: the one
      * that deal.II chooses takes -2 and makes 4294967294 of it.
@@ -41,28 +37,13 @@ namespace moraine
     dealii::Patterns::Integer
     positive_integer();
 
-    /** A whole number >= 0. */
-    dealii::Patterns::Integer
-    non_negative_integer();
-
     /** A whole number from @p lower to @p upper, both included. */
     dealii::Patterns::Integer
     integer_in_range(const int lower, const int upper);
 
-    /** Exactly @p dim numbers, separated by commas. */
-    template <int dim>
-    dealii::Patterns::List
-    point();
-
     /** Numbers separated by commas, at least @p n_min, at most @p n_max. */
     dealii::Patterns::List
     numbers(
-      const unsigned int n_min = 0,
-      const unsigned int n_max = std::numeric_limits<unsigned int>::max());
-
-    /** Like numbers(), every one of them > 0. */
-    dealii::Patterns::List
-    positive_numbers(
       const unsigned int n_min = 0,
       const unsigned int n_max = std::numeric_limits<unsigned int>::max());
 

@@ -4,6 +4,8 @@
 #ifndef moraine_mesh_background_mesh_h
 #define moraine_mesh_background_mesh_h
 
+#include <moraine/mesh/cell_map.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
@@ -94,13 +96,6 @@ namespace moraine
     dealii::types::boundary_id
     boundary_id(const std::string &name, const std::string &place) const;
 
-    /** Names of the sides, in the order of their boundary ids. */
-    const std::vector<std::string> &
-    boundary_names() const
-    {
-      return side_names;
-    }
-
     /** Characteristic cell size: the largest edge of the largest cell. */
     double
     cell_size() const
@@ -118,10 +113,10 @@ namespace moraine
 
   /** The vertices of a cell in deal.II's lexicographic order. */
   template <int dim, class CellIterator>
-  std::array<dealii::Point<dim>, (1 << dim)>
+  CellVertices<dim>
   vertices_of(const CellIterator &cell)
   {
-    std::array<dealii::Point<dim>, (1 << dim)> vertices;
+    CellVertices<dim> vertices;
     for (unsigned int v = 0; v < vertices.size(); ++v)
       vertices[v] = cell->vertex(v);
     return vertices;

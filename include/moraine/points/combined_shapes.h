@@ -89,8 +89,9 @@ namespace moraine
 
   /**
    * What two shapes a and b make: their union (a + b - ab), their
-   * intersection ab (the pieces of the straighter one, clipped by the other)
-   * or their difference (a - ab).
+   * intersection ab (the pieces of the straighter one, clipped by the other),
+   * their difference (a - ab), or a hollowed out by b, which lies inside a
+   * (a - b: ring, tube; needs no intersection).
    */
   template <int dim>
   class CombinedShape : public Shape<dim>
@@ -100,7 +101,8 @@ namespace moraine
     {
       unite,
       intersect,
-      subtract
+      subtract,
+      hollow_out
     };
 
     CombinedShape(const Operation                          operation,
@@ -130,6 +132,7 @@ namespace moraine
                        std::vector<SignedPiece<dim>> &pieces) const override;
 
   private:
+    /** Of ab, or of b where it lies inside a. */
     VolumeMoments<dim>
     common_moments(const ConvexPolytope<dim> &cell,
                    const dealii::Point<dim>  &reference) const;
@@ -144,45 +147,6 @@ namespace moraine
     std::shared_ptr<const Shape<dim>> b;
   };
 
-
-
-  /**
-   * A shape without another one that lies inside it (ring, tube). Needs no
-   * intersection of the two.
-   */
-  template <int dim>
-  class HollowShape : public Shape<dim>
-  {
-  public:
-    HollowShape(const std::shared_ptr<const Shape<dim>> &outer,
-                const std::shared_ptr<const Shape<dim>> &inner);
-
-    double
-    level(const dealii::Point<dim> &p) const override;
-
-    dealii::BoundingBox<dim>
-    bounding_box() const override;
-
-    Overlap
-    overlap(const ConvexPolytope<dim> &cell) const override;
-
-    bool
-    is_straight() const override;
-
-  protected:
-    VolumeMoments<dim>
-    moments_of_part(const ConvexPolytope<dim> &cell,
-                    const dealii::Point<dim>  &reference) const override;
-
-    void
-    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
-                       const double                   sign,
-                       std::vector<SignedPiece<dim>> &pieces) const override;
-
-  private:
-    std::shared_ptr<const Shape<dim>> outer;
-    std::shared_ptr<const Shape<dim>> inner;
-  };
 } // namespace moraine
 
 #endif

@@ -4,8 +4,9 @@
 #ifndef moraine_points_convex_polytope_h
 #define moraine_points_convex_polytope_h
 
+#include <moraine/mesh/cell_map.h>
+
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 
 #include <boost/container/small_vector.hpp>
@@ -51,14 +52,11 @@ namespace moraine
   {
   public:
     using PointList = boost::container::small_vector<dealii::Point<dim>, 8>;
-    using CellVertices =
-      std::array<dealii::Point<dim>,
-                 dealii::GeometryInfo<dim>::vertices_per_cell>;
 
     /**
      * A cell by its vertices in deal.II's (lexicographic) order.
      */
-    explicit ConvexPolytope(const CellVertices &vertices);
+    explicit ConvexPolytope(const CellVertices<dim> &vertices);
 
     /**
      * The box with these two opposite corners, lower <= upper.
@@ -155,7 +153,7 @@ namespace moraine
 
   private:
     void
-    make_faces(const CellVertices &cell);
+    make_faces(const CellVertices<dim> &cell);
 
     void
     add_face(const std::array<unsigned int, 4> &quadrilateral);

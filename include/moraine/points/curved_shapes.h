@@ -6,46 +6,38 @@
 
 #include <moraine/core/expression.h>
 
+#include <moraine/points/curve_subdivision.h>
 #include <moraine/points/shape.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace moraine
 {
   /**
-   * Approximation of a curved boundary by polytopes.
-   *
-   * A polytope that the boundary may cut is halved until the boundary in it
-   * differs from a plane by less than a small fraction of its size, or has
-   * been halved depth times in each direction. It is then clipped by the
-   * tangent plane, shifted by the mean distance to the boundary over the cut
-   * face, so that the volume is right to second order in the curvature.
+   * What the round shapes share: they are convex, and their pieces are those of
+   * a CurveSubdivision.
    */
   template <int dim>
-  struct CurveSubdivision
+  class RoundShape : public Shape<dim>
   {
-    /**
-     * Halvings per direction that resolve edges of an expression to 1e-3
-     * (2D), 2e-2 (3D) of a sub-cell.
-     */
-    static constexpr unsigned int default_depth = (dim == 2 ? 10 : 6);
+  public:
+    Overlap
+    overlap(const ConvexPolytope<dim> &cell) const override;
 
-    unsigned int depth = default_depth;
+    bool
+    is_straight() const override;
 
-    /**
-     * Append the pieces of @p cell in which @p level is positive. If
-     * @p is_distance, |level| is never more than the distance to the
-     * boundary; otherwise what is decided without cutting rests on values at
-     * the vertices.
-     */
+  protected:
+    RoundShape(const double radius, const CurveSubdivision<dim> &subdivision);
+
     void
-    add_pieces(const std::function<double(const dealii::Point<dim> &)> &level,
-               const bool                     is_distance,
-               const ConvexPolytope<dim>     &cell,
-               const double                   sign,
-               std::vector<SignedPiece<dim>> &pieces) const;
+    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
+                       const double                   sign,
+                       std::vector<SignedPiece<dim>> &pieces) const override;
+
+    double                radius;
+    CurveSubdivision<dim> subdivision;
   };
 
 
@@ -56,7 +48,7 @@ namespace moraine
    * the sphere of the cone from its centre in 3D.
    */
   template <int dim>
-  class BallShape : public Shape<dim>
+  class BallShape : public RoundShape<dim>
   {
   public:
     BallShape(const dealii::Point<dim>    &centre,
@@ -69,26 +61,13 @@ namespace moraine
     dealii::BoundingBox<dim>
     bounding_box() const override;
 
-    Overlap
-    overlap(const ConvexPolytope<dim> &cell) const override;
-
-    bool
-    is_straight() const override;
-
   protected:
     VolumeMoments<dim>
     moments_of_part(const ConvexPolytope<dim> &cell,
                     const dealii::Point<dim>  &reference) const override;
 
-    void
-    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
-                       const double                   sign,
-                       std::vector<SignedPiece<dim>> &pieces) const override;
-
   private:
-    dealii::Point<dim>    centre;
-    double                radius;
-    CurveSubdivision<dim> subdivision;
+    dealii::Point<dim> centre;
   };
 
 
@@ -98,7 +77,7 @@ namespace moraine
    * axis of exact slices, to 1e-10 of the polytope's volume; exact if the axis
    * is parallel to the edges that the cylinder cuts.
    */
-  class CylinderShape : public Shape<3>
+  class CylinderShape : public RoundShape<3>
   {
   public:
     CylinderShape(const dealii::Point<3>    &start,
@@ -111,12 +90,6 @@ namespace moraine
 
     dealii::BoundingBox<3>
     bounding_box() const override;
-
-    Overlap
-    overlap(const ConvexPolytope<3> &cell) const override;
-
-    bool
-    is_straight() const override;
 
   protected:
     VolumeMoments<3>
@@ -138,8 +111,6 @@ namespace moraine
     dealii::Point<3>     start;
     dealii::Tensor<1, 3> axis;
     double               length;
-    double               radius;
-    CurveSubdivision<3>  subdivision;
   };
 
 

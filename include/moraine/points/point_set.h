@@ -11,7 +11,6 @@
 
 #include <deal.II/particles/particle_handler.h>
 
-#include <memory>
 #include <vector>
 
 namespace moraine

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/quadrature.h>
 
-#include <string>
 #include <vector>
 
 namespace moraine
@@ -30,16 +29,6 @@ namespace moraine
   {
     dealii::Point<dim> position;
     double             volume;
-
-    /**
-     * Lengths of its sub-cell in the reference cell.
-     */
-    dealii::Tensor<1, dim> unit_lengths;
-
-    /**
-     * The body covers only a part of the sub-cell.
-     */
-    bool is_clipped;
   };
 
   /**
@@ -67,8 +56,6 @@ namespace moraine
   class CellSeeder
   {
   public:
-    using CellVertices = typename ConvexPolytope<dim>::CellVertices;
-
     CellSeeder(const unsigned int n_per_direction, const PointLayout layout);
 
     /**
@@ -76,7 +63,7 @@ namespace moraine
      * run lexicographically, x fastest.
      */
     void
-    seed(const CellVertices            &cell,
+    seed(const CellVertices<dim>       &cell,
          const Shape<dim>              &shape,
          std::vector<SeededPoint<dim>> &points) const;
 
@@ -86,11 +73,11 @@ namespace moraine
 
   private:
     void
-    seed_full_cell(const CellVertices            &cell,
+    seed_full_cell(const CellVertices<dim>       &cell,
                    std::vector<SeededPoint<dim>> &points) const;
 
-    CellVertices
-    sub_cell(const CellVertices &cell, const unsigned int q) const;
+    CellVertices<dim>
+    sub_cell(const CellVertices<dim> &cell, const unsigned int q) const;
 
     PointLayout layout;
 
@@ -103,35 +90,6 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> lengths;
   };
 
-
-
-  /**
-   * Material points given in a CSV file: a header `x,y,volume` (3D:
-   * `x,y,z,volume`) and, if wanted, names of more columns; then one point per
-   * row. Empty lines are skipped.
-   */
-  template <int dim>
-  struct PointFile
-  {
-    /**
-     * Throws InputError, with file and line, for a header that is different, a
-     * row with a wrong number of values, a value that is not a finite number,
-     * a volume that is not > 0, and a file without points.
-     */
-    static PointFile
-    read(const std::string &file_name);
-
-    std::vector<dealii::Point<dim>> positions;
-    std::vector<double>             volumes;
-    std::vector<unsigned int>       lines; ///< of the file, from 1
-
-    std::vector<std::string> column_names;
-
-    /**
-     * The further values: one vector per point, in the order of the names.
-     */
-    std::vector<std::vector<double>> columns;
-  };
 } // namespace moraine
 
 #endif

@@ -50,7 +50,7 @@ namespace moraine
    * mesh): exactly, but for round-off, for straight-sided shapes, discs,
    * spheres and their combinations in which at most one operand is curved in
    * a cell; to about 1e-9 of the polytope for cylinders; otherwise by
-   * subdivision (see CurvedShape).
+   * subdivision (see CurveSubdivision).
    */
   template <int dim>
   class Shape

@@ -4,92 +4,17 @@
 #ifndef moraine_points_shape_library_h
 #define moraine_points_shape_library_h
 
-#include <moraine/points/combined_shapes.h>
+#include <moraine/points/point_list.h>
 #include <moraine/points/shape.h>
+#include <moraine/points/shape_parameters.h>
 
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace moraine
 {
-  /**
-   * The shape of one body as the user gives it. Empty lists and zero numbers
-   * mean: not given. A key that the shape does not use must not be given.
-   */
-  template <int dim>
-  struct ShapeParameters
-  {
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-
-    std::string shape = "box";
-
-    std::vector<double>      lower_corner;
-    std::vector<double>      upper_corner;
-    std::string              vertices;
-    std::vector<double>      extent;
-    std::vector<double>      centre;
-    double                   radius       = 0.;
-    double                   inner_radius = 0.;
-    std::vector<double>      axis_start;
-    std::vector<double>      axis_end;
-    std::vector<double>      point;
-    std::vector<double>      normal;
-    std::string              expression;
-    std::vector<std::string> operands;
-    std::string              point_file;
-
-    double              rotation_angle = 0.;
-    std::vector<double> rotation_centre;
-    std::vector<double> rotation_axis;
-    std::vector<double> translation;
-
-    /**
-     * Whether the body's points come from a file; it has no shape then.
-     */
-    bool
-    is_point_file() const;
-  };
-
-
-
-  /**
-   * A shape and what it is for the user: the value of `Shape` and the keys it
-   * needs and may have.
-   */
-  struct ShapeEntry
-  {
-    std::string              name;
-    std::string              description;
-    std::vector<std::string> needs;
-    std::vector<std::string> may_have;
-  };
-
-  /**
-   * All shapes in this dimension.
-   */
-  template <int dim>
-  const std::vector<ShapeEntry> &
-  shape_entries();
-
-
-
-  /**
-   * Rotation and translation of a body; @p section is named in messages.
-   * Throws InputError.
-   */
-  template <int dim>
-  Placement<dim>
-  make_placement(const ShapeParameters<dim> &parameters,
-                 const std::string          &section);
-
   template <int dim>
   using NamedShapes = std::map<std::string, std::shared_ptr<const Shape<dim>>>;
 
@@ -113,6 +38,16 @@ namespace moraine
   NamedShapes<dim>
   make_shapes(const std::map<std::string, ShapeParameters<dim>> &bodies,
               const std::string                                 &section);
+
+  /**
+   * The middles of n[d] equal parts in each direction d of a box, turned and
+   * moved with it; their origin is @p section.
+   */
+  template <int dim>
+  PointList<dim>
+  make_point_grid(const ShapeParameters<dim>      &box,
+                  const std::vector<unsigned int> &n,
+                  const std::string               &section);
 } // namespace moraine
 
 #endif

@@ -81,8 +81,8 @@ namespace moraine
   public:
     /**
      * The vertices in either sense of rotation, at least three, without
-     * crossing edges (see first_crossing()). @p extent is lower and upper z,
-     * not used in 2D.
+     * crossing edges (see first_crossing() in polygon.h). @p extent is lower
+     * and upper z, not used in 2D.
      */
     PolygonShape(const std::vector<dealii::Point<2>> &vertices,
                  const std::pair<double, double>     &extent = {0., 1.});
@@ -110,17 +110,6 @@ namespace moraine
     std::vector<dealii::Point<2>> vertices;
     std::pair<double, double>     extent;
   };
-
-
-
-  /**
-   * The numbers, from 0, of two edges (edge i goes from vertex i to the next)
-   * of a closed polygon that meet elsewhere than in a common end, or fold back
-   * on each other; a repeated vertex is given as twice its own number. Two
-   * equal numbers of n, the number of vertices, mean a simple polygon.
-   */
-  std::pair<unsigned int, unsigned int>
-  first_crossing(const std::vector<dealii::Point<2>> &vertices);
 } // namespace moraine
 
 #endif

@@ -11,7 +11,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
-#include <moraine/points/shape_library.h>
+#include <moraine/points/shape_parameters.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
@@ -20,7 +20,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <map>
 #include <string>
 #include <vector>
 

@@ -10,11 +10,11 @@
 #include <moraine/output/output_directory.h>
 #include <moraine/output/pvd_history.h>
 #include <moraine/output/summary.h>
+#include <moraine/points/bodies.h>
 #include <moraine/run/scene.h>
 
 #include <deal.II/base/timer.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -61,45 +61,7 @@ namespace moraine
 
   private:
     void
-    make_bodies();
-
-    void
-    seed(const std::vector<std::shared_ptr<const Shape<dim>>> &shapes);
-
-    void
-    insert_point_file(const std::string &file, const unsigned int body);
-
-    /** The points of a box with key 'Point grid'. */
-    void
-    insert_point_grid(const BodyParameters<dim> &parameters,
-                      const unsigned int         body);
-
-    /**
-     * Points that are not those of cells.
-     * @param where says of a point what it is for the user.
-     */
-    void
-    insert_points(const std::vector<dealii::Point<dim>> &positions,
-                  const std::vector<double>             &volumes,
-                  const unsigned int                     body,
-                  const std::function<std::string(const unsigned int)> &where);
-
-    /** That each body has points, and lies in the mesh as a whole. */
-    void
-    check_bodies(
-      const std::vector<std::shared_ptr<const Shape<dim>>> &shapes) const;
-
-    void
-    make_basis();
-
-    void
-    make_boundaries();
-
-    void
-    make_grid_conditions();
-
-    void
-    make_loads();
+    make_basis(const std::vector<Body<dim>> &bodies);
 
     /**
      * Find cells and pieces for the first step; check that boundaries touch a
@@ -166,9 +128,6 @@ namespace moraine
     std::unique_ptr<LinearSolver>                linear_solver;
     std::unique_ptr<Probes<dim>>                 probes;
     std::vector<std::string>                     effects;
-
-    /** Of points: those of cells come first, then those of files and grids. */
-    unsigned int first_free_id = 0;
 
     std::optional<OutputDirectory>      directory;
     std::optional<History>              history;

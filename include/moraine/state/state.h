@@ -168,12 +168,6 @@ namespace moraine
       return *materials[body];
     }
 
-    unsigned int
-    n_bodies() const
-    {
-      return materials.size();
-    }
-
     MeshAfterStep
     mesh_after_step() const
     {

@@ -106,10 +106,6 @@ namespace moraine
     double
     trial_time() const;
 
-    /** trial_time() - time() */
-    double
-    step_size() const;
-
     /** Whether time() ends one of the user's steps. */
     bool
     at_step_end() const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/exceptions.h>
+#include <moraine/points/point_list.h>
 
-#include <moraine/points/seeding.h>
+#include <moraine/core/exceptions.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -85,15 +85,16 @@ namespace moraine
 
 
   template <int dim>
-  PointFile<dim>
-  PointFile<dim>::read(const std::string &file_name)
+  PointList<dim>
+  read_point_file(const std::string &file_name)
   {
     std::ifstream in(file_name);
     if (!in)
       throw InputError("The point file '" + file_name + "' cannot be read.");
-    PointFile                points;
-    std::vector<std::string> names;
-    std::string              text;
+    PointList<dim>            points;
+    std::vector<unsigned int> lines;
+    std::vector<std::string>  names;
+    std::string               text;
     for (unsigned int line = 1; std::getline(in, text); ++line)
       {
         text = Utilities::trim(text);
@@ -102,7 +103,6 @@ namespace moraine
         if (names.empty())
           {
             names = read_header<dim>(text, file_name, line);
-            points.column_names.assign(names.begin() + dim + 1, names.end());
             continue;
           }
         const auto cells = cells_of(text);
@@ -122,18 +122,22 @@ namespace moraine
                    "'. Allowed: a number > 0");
         Point<dim> position;
         std::copy_n(row.begin(), dim, position.begin_raw());
-        points.lines.push_back(line);
+        lines.push_back(line);
         points.positions.push_back(position);
         points.volumes.push_back(row[dim]);
-        points.columns.emplace_back(row.begin() + dim + 1, row.end());
       }
     if (points.positions.empty())
       throw InputError("The point file '" + file_name + "' has no points.");
+    points.origin = [file_name, lines](const unsigned int i) {
+      return file_name + ':' + std::to_string(lines[i]);
+    };
     return points;
   }
 
 
 
-  template struct PointFile<2>;
-  template struct PointFile<3>;
+  template PointList<2>
+  read_point_file(const std::string &);
+  template PointList<3>
+  read_point_file(const std::string &);
 } // namespace moraine

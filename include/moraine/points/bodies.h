@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_points_bodies_h
+#define moraine_points_bodies_h
+
+#include <moraine/points/point_list.h>
+#include <moraine/points/point_set.h>
+#include <moraine/points/seeding.h>
+#include <moraine/points/shape.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** A body before it is points. */
+  template <int dim>
+  struct Body
+  {
+    /** Points fill what @p shape covers of the cells. */
+    Body(const std::string                       &name,
+         const std::shared_ptr<const Shape<dim>> &shape)
+      : name(name)
+      , shape(shape)
+    {}
+
+    /** The points are given. */
+    Body(const std::string &name, const PointList<dim> &listed)
+      : name(name)
+      , listed(listed)
+    {}
+
+    std::string                       name;
+    std::shared_ptr<const Shape<dim>> shape; ///< null if the points are given
+    PointList<dim>                    listed;
+  };
+
+
+
+  /**
+   * Put the points of all bodies into an empty @p points: those that @p seeder
+   * gives the cells a shape covers, and those listed. A point's body is the
+   * index in @p bodies. Its id counts the points that cells may have, then the
+   * listed ones, so it does not depend on the number of ranks. Collective.
+   *
+   * @return the volumes of the bodies, over all ranks. That of a straight-sided
+   * body is exact but for round-off.
+   * @throws InputError if shapes overlap, a listed point lies outside the mesh,
+   * a body has no point, or a bounded shape lies partly outside the mesh.
+   */
+  template <int dim>
+  std::vector<double>
+  seed_bodies(const std::vector<Body<dim>> &bodies,
+              const CellSeeder<dim>        &seeder,
+              PointSet<dim>                &points);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_points_point_list_h
+#define moraine_points_point_list_h
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** Material points given one by one, wherever the cells of the mesh are. */
+  template <int dim>
+  struct PointList
+  {
+    std::vector<dealii::Point<dim>> positions;
+    std::vector<double>             volumes;
+
+    /** What point i is for the user, for messages. */
+    std::function<std::string(const unsigned int i)> origin;
+  };
+
+  /**
+   * The points of a CSV file: a header `x,y,volume` (3D: `x,y,z,volume`) and,
+   * if wanted, names of more columns, which are not used; then one point per
+   * row. Empty lines are skipped. The origin of a point is file and line.
+   *
+   * Throws InputError, with file and line, for a header that is different, a
+   * row with a wrong number of values, a value that is not a finite number, a
+   * volume that is not > 0, and a file without points.
+   */
+  template <int dim>
+  PointList<dim>
+  read_point_file(const std::string &file_name);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_scene_bodies_h
+#define moraine_run_scene_bodies_h
+
+#include <moraine/material/material.h>
+#include <moraine/points/bodies.h>
+#include <moraine/run/scene.h>
+
+#include <memory>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The bodies of a scene in its order, but for those that others are made
+   * from: a body that is an operand is a tool without material of its own.
+   * @throws InputError for shapes and point files that are wrong.
+   */
+  template <int dim>
+  std::vector<Body<dim>>
+  make_bodies(const Scene<dim> &scene);
+
+  /** The material of each body. @throws InputError for impossible values. */
+  template <int dim>
+  std::vector<std::shared_ptr<const Material>>
+  make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
+
+  /** How cells are filled with points. */
+  template <int dim>
+  CellSeeder<dim>
+  make_seeder(const MethodParameters &method);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_scene_conditions_h
+#define moraine_run_scene_conditions_h
+
+#include <moraine/boundary/grid_condition.h>
+#include <moraine/boundary/implicit_boundary.h>
+#include <moraine/load/load.h>
+#include <moraine/run/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What holds and what drives the bodies of a scene. All throw InputError for
+   * keys that are missing or wrong.
+   */
+  template <int dim>
+  std::vector<ImplicitBoundary<dim>>
+  make_boundaries(const Scene<dim> &scene);
+
+  template <int dim>
+  std::vector<GridCondition<dim>>
+  make_grid_conditions(const Scene<dim>          &scene,
+                       const BackgroundMesh<dim> &mesh);
+
+  template <int dim>
+  Loads<dim>
+  make_loads(const Scene<dim>               &scene,
+             const BackgroundMesh<dim>      &mesh,
+             const std::vector<std::string> &body_names);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/points/bodies.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/points/combined_shapes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    double
+    common_volume(const std::shared_ptr<const Shape<dim>> &a,
+                  const std::shared_ptr<const Shape<dim>> &b,
+                  const CellVertices<dim>                 &vertices)
+    {
+      return CombinedShape<dim>(CombinedShape<dim>::Operation::intersect, a, b)
+        .clip(ConvexPolytope<dim>(vertices))
+        .volume;
+    }
+
+
+
+    /** Whether @p box lies in @p outer but for round-off. */
+    template <int dim>
+    bool
+    fits_into(const BoundingBox<dim> &box, const BoundingBox<dim> &outer)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double margin = 1e-9 * outer.side_length(d);
+          if (box.lower_bound(d) < outer.lower_bound(d) - margin ||
+              box.upper_bound(d) > outer.upper_bound(d) + margin)
+            return false;
+        }
+      return true;
+    }
+
+
+
+    /** The points of one cell. @return where two bodies overlap, or "". */
+    template <int dim>
+    std::string
+    seed_cell(const typename PointSet<dim>::CellIterator &cell,
+              const std::vector<Body<dim>>               &bodies,
+              const CellSeeder<dim>                      &seeder,
+              PointSet<dim>                              &points)
+    {
+      const auto                    vertices = vertices_of<dim>(cell);
+      std::string                   overlap;
+      std::vector<unsigned int>     earlier;
+      std::vector<SeededPoint<dim>> seeded;
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          if (!bodies[b].shape)
+            continue;
+          seeded.clear();
+          seeder.seed(vertices, *bodies[b].shape, seeded);
+          if (seeded.empty())
+            continue;
+          for (const unsigned int other : earlier)
+            if (overlap.empty() &&
+                common_volume<dim>(bodies[other].shape,
+                                   bodies[b].shape,
+                                   vertices) > 1e-10 * cell->measure())
+              {
+                std::ostringstream message;
+                message << "section 'Bodies': '" << bodies[other].name
+                        << "' and '" << bodies[b].name << "' overlap near ("
+                        << cell->center()
+                        << "), allowed: bodies that share no volume";
+                overlap = message.str();
+              }
+          earlier.push_back(b);
+          const unsigned int first_id =
+            (cell->active_cell_index() * bodies.size() + b) *
+            seeder.max_points();
+          for (unsigned int i = 0; i < seeded.size(); ++i)
+            points.insert(cell,
+                          seeded[i].position,
+                          points.mesh().mapping().transform_real_to_unit_cell(
+                            cell, seeded[i].position),
+                          first_id + i,
+                          b,
+                          seeded[i].volume);
+        }
+      return overlap;
+    }
+
+
+
+    template <int dim>
+    void
+    seed_cells(const std::vector<Body<dim>> &bodies,
+               const CellSeeder<dim>        &seeder,
+               PointSet<dim>                &points)
+    {
+      const Triangulation<dim> &triangulation = points.mesh().triangulation();
+      std::string               overlap;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const std::string found = seed_cell(cell, bodies, seeder, points);
+            if (overlap.empty())
+              overlap = found;
+          }
+      for (const std::string &message :
+           Utilities::MPI::all_gather(triangulation.get_communicator(),
+                                      overlap))
+        if (!message.empty())
+          throw InputError(message);
+    }
+
+
+
+    /** The points of a list, with ids from @p first_id. */
+    template <int dim>
+    void
+    insert_list(const PointList<dim> &list,
+                const unsigned int    body,
+                const unsigned int    first_id,
+                PointSet<dim>        &points)
+    {
+      const GridTools::Cache<dim>          cache(points.mesh().triangulation(),
+                                        points.mesh().mapping());
+      typename PointSet<dim>::CellIterator hint;
+      for (unsigned int i = 0; i < list.positions.size(); ++i)
+        {
+          const auto [cell, reference] =
+            GridTools::find_active_cell_around_point(cache,
+                                                     list.positions[i],
+                                                     hint);
+          if (cell.state() != IteratorState::valid)
+            {
+              std::ostringstream message;
+              message << list.origin(i) << ": found a point at ("
+                      << list.positions[i]
+                      << "), allowed: points inside the mesh";
+              throw InputError(message.str());
+            }
+          hint = cell;
+          if (cell->is_locally_owned())
+            points.insert(cell,
+                          list.positions[i],
+                          reference,
+                          first_id + i,
+                          body,
+                          list.volumes[i]);
+        }
+    }
+
+
+
+    /** That a body has points, and lies in the mesh as a whole. */
+    template <int dim>
+    void
+    check_body(const Body<dim>        &body,
+               const double            volume,
+               const BoundingBox<dim> &mesh_box)
+    {
+      const std::string where = "section 'Bodies/" + body.name + "': ";
+      if (volume == 0)
+        throw InputError(where +
+                         "found no part of the body inside the mesh, allowed: "
+                         "a body that is not empty and lies in the mesh");
+      if (!body.shape)
+        return;
+      const BoundingBox<dim> box = body.shape->bounding_box();
+      if (!is_finite(box) || fits_into(box, mesh_box))
+        return;
+      const auto  &corners = box.get_boundary_points();
+      const double whole =
+        body.shape->clip(ConvexPolytope<dim>(corners.first, corners.second))
+          .volume;
+      if (volume > (1 - (body.shape->is_straight() ? 1e-9 : 1e-3)) * whole)
+        return;
+      std::ostringstream message;
+      message << where << "found " << 100 * (1 - volume / whole)
+              << " % of its volume outside the mesh, which is ("
+              << mesh_box.get_boundary_points().first << ") to ("
+              << mesh_box.get_boundary_points().second
+              << "), allowed: a body in the mesh; only half-spaces and "
+                 "expressions are cut by it";
+      throw InputError(message.str());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<double>
+  seed_bodies(const std::vector<Body<dim>> &bodies,
+              const CellSeeder<dim>        &seeder,
+              PointSet<dim>                &points)
+  {
+    const Triangulation<dim> &triangulation = points.mesh().triangulation();
+    seed_cells(bodies, seeder, points);
+    unsigned int first_id =
+      triangulation.n_active_cells() * bodies.size() * seeder.max_points();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (!bodies[b].shape)
+        {
+          insert_list(bodies[b].listed, b, first_id, points);
+          first_id += bodies[b].listed.positions.size();
+        }
+    points.finish_insertion();
+
+    std::vector<double> volumes(bodies.size(), 0.);
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      volumes[points.body(p)] += points.volume(p);
+    Utilities::MPI::sum(volumes, triangulation.get_communicator(), volumes);
+    const BoundingBox<dim> mesh_box =
+      GridTools::compute_bounding_box(triangulation);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      check_body(bodies[b], volumes[b], mesh_box);
+    return volumes;
+  }
+
+
+
+  template std::vector<double>
+  seed_bodies(const std::vector<Body<2>> &,
+              const CellSeeder<2> &,
+              PointSet<2> &);
+  template std::vector<double>
+  seed_bodies(const std::vector<Body<3>> &,
+              const CellSeeder<3> &,
+              PointSet<3> &);
+} // namespace moraine

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/scene_bodies.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/points/shape_library.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<Body<dim>>
+  make_bodies(const Scene<dim> &scene)
+  {
+    std::map<std::string, ShapeParameters<dim>> shape_parameters;
+    std::set<std::string>                       operands;
+    for (const auto &[name, body] : scene.bodies)
+      {
+        shape_parameters[name] = body.shape;
+        operands.insert(body.shape.operands.begin(), body.shape.operands.end());
+      }
+    const NamedShapes<dim> shapes = make_shapes(shape_parameters, "Bodies");
+
+    std::vector<Body<dim>> bodies;
+    for (const auto &[name, body] : scene.bodies)
+      {
+        if (operands.count(name) > 0)
+          continue;
+        const std::string section = "Bodies/" + name;
+        const std::string file    = body.shape.point_file;
+        if (body.is_seeded_by_cells())
+          bodies.push_back({name, shapes.at(name)});
+        else if (!body.shape.is_point_file())
+          bodies.push_back(
+            {name, make_point_grid(body.shape, body.point_grid, section)});
+        else if (std::ifstream(file))
+          bodies.push_back({name, read_point_file<dim>(file)});
+        else
+          throw InputError(place(section, "Point file") + ": found '" + file +
+                           "', which cannot be read, allowed: the path of a "
+                           "CSV file");
+      }
+    return bodies;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::shared_ptr<const Material>>
+  make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies)
+  {
+    std::vector<std::shared_ptr<const Material>> materials;
+    for (const Body<dim> &body : bodies)
+      {
+        const auto parameters =
+          std::find_if(scene.bodies.begin(),
+                       scene.bodies.end(),
+                       [&](const auto &b) { return b.first == body.name; });
+        for (const auto &[name, material] : scene.materials)
+          if (parameters->second.material == name ||
+              scene.materials.size() == 1)
+            materials.push_back(make_material(material, "Materials/" + name));
+      }
+    return materials;
+  }
+
+
+
+  template <int dim>
+  CellSeeder<dim>
+  make_seeder(const MethodParameters &method)
+  {
+    const bool fe = method.is_finite_element();
+    return CellSeeder<dim>(fe ? method.degree + 1 : method.points_per_direction,
+                           fe || method.point_layout == "Gauss" ?
+                             PointLayout::gauss :
+                             PointLayout::equal);
+  }
+
+
+
+#define INSTANTIATE(dim)                                                \
+  template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
+  template std::vector<std::shared_ptr<const Material>> make_materials( \
+    const Scene<dim> &, const std::vector<Body<dim>> &);                \
+  template CellSeeder<dim> make_seeder(const MethodParameters &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
