@@ -189,10 +189,4 @@ namespace moraine
   {
     return box;
   }
-
-  bool
-  Arc::curved() const
-  {
-    return true;
-  }
 } // namespace moraine

@@ -216,13 +216,6 @@ namespace moraine
       }
   }
 
-  template <int dim>
-  bool
-  LevelSetSurface<dim>::curved() const
-  {
-    return true;
-  }
-
   template class LevelSetSurface<2>;
   template class LevelSetSurface<3>;
 } // namespace moraine

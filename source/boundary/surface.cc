@@ -37,12 +37,10 @@ namespace moraine
                        std::to_string(radius));
   }
 
-  template BoundingBox<2>
-  unlimited_box();
-  template BoundingBox<3>
-  unlimited_box();
-  template Tensor<1, 2>
-  unit_or_any(const Tensor<1, 2> &);
-  template Tensor<1, 3>
-  unit_or_any(const Tensor<1, 3> &);
+#define INSTANTIATE(dim)                     \
+  template BoundingBox<dim> unlimited_box(); \
+  template Tensor<1, dim>   unit_or_any(const Tensor<1, dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -38,15 +38,6 @@ namespace moraine
 
 
   template <int dim>
-  bool
-  RoundShape<dim>::is_straight() const
-  {
-    return false;
-  }
-
-
-
-  template <int dim>
   void
   RoundShape<dim>::add_pieces_of_part(
     const ConvexPolytope<dim>     &cell,
@@ -230,15 +221,6 @@ namespace moraine
   {
     return CurveSubdivision<dim>::overlap(
       [this](const Point<dim> &p) { return level(p); }, cell);
-  }
-
-
-
-  template <int dim>
-  bool
-  ExpressionShape<dim>::is_straight() const
-  {
-    return false;
   }
 
 

@@ -430,14 +430,12 @@ namespace moraine
 
 
 
-  template VolumeMoments<2>
-  moments_in_ball(const ConvexPolytope<2> &,
-                  const Point<2> &,
-                  const double,
-                  const Point<2> &);
-  template VolumeMoments<3>
-  moments_in_ball(const ConvexPolytope<3> &,
-                  const Point<3> &,
-                  const double,
-                  const Point<3> &);
+#define INSTANTIATE(dim)                                                   \
+  template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &, \
+                                              const Point<dim> &,          \
+                                              const double,                \
+                                              const Point<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

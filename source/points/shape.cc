@@ -102,6 +102,15 @@ namespace moraine
 
 
   template <int dim>
+  bool
+  Shape<dim>::is_straight() const
+  {
+    return false;
+  }
+
+
+
+  template <int dim>
   VolumeMoments<dim>
   Shape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
                               const Point<dim>          &reference) const

@@ -406,26 +406,17 @@ namespace moraine
 
 
 
-  template std::shared_ptr<const Shape<2>>
-  make_shape(const ShapeParameters<2> &,
-             const NamedShapes<2> &,
-             const std::string &);
-  template std::shared_ptr<const Shape<3>>
-  make_shape(const ShapeParameters<3> &,
-             const NamedShapes<3> &,
-             const std::string &);
-  template NamedShapes<2>
-  make_shapes(const std::map<std::string, ShapeParameters<2>> &,
-              const std::string &);
-  template NamedShapes<3>
-  make_shapes(const std::map<std::string, ShapeParameters<3>> &,
-              const std::string &);
-  template PointList<2>
-  make_point_grid(const ShapeParameters<2> &,
-                  const std::vector<unsigned int> &,
-                  const std::string &);
-  template PointList<3>
-  make_point_grid(const ShapeParameters<3> &,
-                  const std::vector<unsigned int> &,
-                  const std::string &);
+#define INSTANTIATE(dim)                                                       \
+  template std::shared_ptr<const Shape<dim>> make_shape(                       \
+    const ShapeParameters<dim> &,                                              \
+    const NamedShapes<dim> &,                                                  \
+    const std::string &);                                                      \
+  template NamedShapes<dim> make_shapes(                                       \
+    const std::map<std::string, ShapeParameters<dim>> &, const std::string &); \
+  template PointList<dim> make_point_grid(const ShapeParameters<dim> &,        \
+                                          const std::vector<unsigned int> &,   \
+                                          const std::string &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

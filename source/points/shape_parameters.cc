@@ -62,6 +62,31 @@ namespace moraine
               {"Operands", !p.operands.empty()},
               {"Point file", !p.point_file.empty()}};
     }
+
+    // rotation and translation
+    template <int dim>
+    void
+    add_placement(ShapeParameters<dim> &p, ParameterHandler &prm)
+    {
+      prm.add_parameter("Rotation angle",
+                        p.rotation_angle,
+                        "Turns the body counter-clockwise [degrees]",
+                        patterns::number());
+      prm.add_parameter("Rotation centre",
+                        p.rotation_centre,
+                        "A point that the rotation leaves in place; the origin "
+                        "if not set [length]",
+                        patterns::numbers(0, dim));
+      if (dim == 3)
+        prm.add_parameter("Rotation axis",
+                          p.rotation_axis,
+                          "Direction of the axis of rotation; any length",
+                          patterns::numbers(0, dim));
+      prm.add_parameter("Translation",
+                        p.translation,
+                        "Moves the body after the rotation [length]",
+                        patterns::numbers(0, dim));
+    }
   } // namespace
 
 
@@ -145,24 +170,7 @@ namespace moraine
                       "CSV file with columns x, y (, z), volume and, if "
                       "wanted, more; its path is seen from the folder of the "
                       "scene");
-    prm.add_parameter("Rotation angle",
-                      rotation_angle,
-                      "Turns the body counter-clockwise [degrees]",
-                      patterns::number());
-    prm.add_parameter("Rotation centre",
-                      rotation_centre,
-                      "A point that the rotation leaves in place; the origin "
-                      "if not set [length]",
-                      point_pattern);
-    if (dim == 3)
-      prm.add_parameter("Rotation axis",
-                        rotation_axis,
-                        "Direction of the axis of rotation; any length",
-                        point_pattern);
-    prm.add_parameter("Translation",
-                      translation,
-                      "Moves the body after the rotation [length]",
-                      point_pattern);
+    add_placement(*this, prm);
   }
 
 
@@ -235,14 +243,11 @@ namespace moraine
 
 
 
-  template struct ShapeParameters<2>;
-  template struct ShapeParameters<3>;
-  template const std::vector<ShapeEntry> &
-  shape_entries<2>();
-  template const std::vector<ShapeEntry> &
-  shape_entries<3>();
-  template void
-  check_keys(const ShapeParameters<2> &, const std::string &);
-  template void
-  check_keys(const ShapeParameters<3> &, const std::string &);
+#define INSTANTIATE(dim)                                        \
+  template struct ShapeParameters<dim>;                         \
+  template const std::vector<ShapeEntry> &shape_entries<dim>(); \
+  template void check_keys(const ShapeParameters<dim> &, const std::string &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

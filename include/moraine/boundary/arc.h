@@ -43,9 +43,6 @@ namespace moraine
     dealii::BoundingBox<2>
     bounding_box() const override;
 
-    bool
-    curved() const override;
-
   private:
     /** Angle of x from the start of the arc, in [0, 2π). */
     double

@@ -51,9 +51,6 @@ namespace moraine
            const unsigned int              n_gauss,
            std::vector<SurfacePoint<dim>> &out) const override;
 
-    bool
-    curved() const override;
-
   protected:
     /** The point of the surface that belongs to a nearby x. */
     virtual dealii::Point<dim>

@@ -85,9 +85,15 @@ namespace moraine
     virtual dealii::BoundingBox<dim>
     bounding_box() const = 0;
 
-    /** Whether the normal changes along a smooth part of the surface. */
+    /**
+     * Whether the normal changes along a smooth part of the surface; yes if not
+     * overridden.
+     */
     virtual bool
-    curved() const = 0;
+    curved() const
+    {
+      return true;
+    }
   };
 } // namespace moraine
 

@@ -25,9 +25,6 @@ namespace moraine
     Overlap
     overlap(const ConvexPolytope<dim> &cell) const override;
 
-    bool
-    is_straight() const override;
-
   protected:
     RoundShape(const double radius, const CurveSubdivision<dim> &subdivision);
 
@@ -140,9 +137,6 @@ namespace moraine
 
     Overlap
     overlap(const ConvexPolytope<dim> &cell) const override;
-
-    bool
-    is_straight() const override;
 
   protected:
     void

@@ -108,10 +108,10 @@ namespace moraine
                std::vector<SignedPiece<dim>> &pieces) const;
 
     /**
-     * Whether add_pieces() is exact.
+     * Whether add_pieces() is exact; no if not overridden.
      */
     virtual bool
-    is_straight() const = 0;
+    is_straight() const;
 
   protected:
     /**
