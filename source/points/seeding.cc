@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/points/moment_fitting.h>
 #include <moraine/points/seeding.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -144,8 +146,10 @@ namespace moraine
 
   template <int dim>
   CellSeeder<dim>::CellSeeder(const unsigned int n_per_direction,
-                              const PointLayout  layout)
+                              const PointLayout  layout,
+                              const unsigned int fitted_degree)
     : layout(layout)
+    , fitted_degree(fitted_degree)
     , rule(layout == PointLayout::gauss ?
              Quadrature<dim>(QGauss<dim>(n_per_direction)) :
              Quadrature<dim>(QIterated<dim>(QMidpoint<1>(), n_per_direction)))
@@ -179,7 +183,9 @@ namespace moraine
   unsigned int
   CellSeeder<dim>::max_points() const
   {
-    return (dim == 3 ? 3 : 1) * rule.size();
+    const unsigned int n_fitted =
+      fitted_degree > 0 ? Utilities::pow(fitted_degree + 1, dim) : 0;
+    return std::max((dim == 3 ? 3 : 1) * rule.size(), n_fitted);
   }
 
 
@@ -229,6 +235,36 @@ namespace moraine
 
 
   template <int dim>
+  bool
+  CellSeeder<dim>::seed_fitted(const CellVertices<dim>       &cell,
+                               const Shape<dim>              &shape,
+                               std::vector<SeededPoint<dim>> &points) const
+  {
+    // The pieces of curved shapes in 3D are coarser than their moments.
+    if (dim == 3 && !shape.is_straight())
+      return false;
+    const ConvexPolytope<dim> whole(cell);
+    const double              part = shape.clip(whole).volume;
+    if (part <= 1e-12 * whole.volume() || part >= (1. - 1e-13) * whole.volume())
+      return false;
+    std::vector<SignedPiece<dim>> pieces;
+    shape.add_pieces(whole, 1., pieces);
+    auto fitted = moment_fitted_rule(pieces, shape, part, fitted_degree);
+    if (fitted.size() == 0)
+      {
+        pieces.clear();
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          shape.add_pieces(ConvexPolytope<dim>(sub_cell(cell, q)), 1., pieces);
+        fitted = moment_fitted_rule(pieces, shape, part, fitted_degree);
+      }
+    for (unsigned int q = 0; q < fitted.size(); ++q)
+      points.push_back({fitted.point(q), fitted.weight(q)});
+    return fitted.size() > 0;
+  }
+
+
+
+  template <int dim>
   void
   CellSeeder<dim>::seed(const CellVertices<dim>       &cell,
                         const Shape<dim>              &shape,
@@ -242,6 +278,8 @@ namespace moraine
         seed_full_cell(cell, points);
         return;
       }
+    if (fitted_degree > 0 && seed_fitted(cell, shape, points))
+      return;
     const double       body_volume = box_volume(shape.bounding_box());
     const unsigned int n_before    = points.size();
     bool               is_cut      = false;

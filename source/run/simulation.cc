@@ -185,6 +185,10 @@ namespace moraine
         solver_name        = report.linear_solver;
         std::string reason = report.message;
         bool        good   = report.converged();
+        if (report.status == NewtonStatus::linear_solver_failed &&
+            scene.method.empty_stiffness == 0)
+          reason += " (nodes that too few points touch can be the cause; "
+                    "'Empty stiffness = 1e-6' in section 'Method' holds them)";
         if (good && system->worst_penetration_over_limit(x) > 1)
           {
             good   = false;

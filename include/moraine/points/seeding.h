@@ -49,6 +49,11 @@ namespace moraine
    * integrate these too; where no such triangle lies in the body (next to
    * re-entrant edges) it has one.
    *
+   * Finite elements of degree 2 ask for more: with a fitted degree k > 0 the
+   * whole part of a cut cell has the points and weights of
+   * moment_fitted_rule() with degree k instead, if there is one (in 3D only for
+   * straight-sided bodies).
+   *
    * Parts below 1e-12 of the smaller of sub-cell and body's bounding box get
    * no point.
    */
@@ -56,7 +61,9 @@ namespace moraine
   class CellSeeder
   {
   public:
-    CellSeeder(const unsigned int n_per_direction, const PointLayout layout);
+    CellSeeder(const unsigned int n_per_direction,
+               const PointLayout  layout,
+               const unsigned int fitted_degree = 0);
 
     /**
      * Append the points of @p shape in a cell. The numbers of the sub-cells
@@ -76,10 +83,17 @@ namespace moraine
     seed_full_cell(const CellVertices<dim>       &cell,
                    std::vector<SeededPoint<dim>> &points) const;
 
+    /** Whether there is a rule for the cut cell. */
+    bool
+    seed_fitted(const CellVertices<dim>       &cell,
+                const Shape<dim>              &shape,
+                std::vector<SeededPoint<dim>> &points) const;
+
     CellVertices<dim>
     sub_cell(const CellVertices<dim> &cell, const unsigned int q) const;
 
-    PointLayout layout;
+    PointLayout  layout;
+    unsigned int fitted_degree;
 
     /**
      * The middles of the sub-cells or the Gauss points, with weights.
