@@ -34,9 +34,6 @@ namespace moraine
     , empty_stiffness(empty_stiffness)
   {
     point_terms.push_back(std::make_unique<InternalForce<dim>>());
-    if (!loads.carried.empty())
-      cell_cache = std::make_unique<GridTools::Cache<dim>>(
-        state.grid().mesh().triangulation(), state.grid().mesh().mapping());
   }
 
 
@@ -80,7 +77,7 @@ namespace moraine
     // On a mesh that does not reset, places stay in their cells.
     if (changed || state.mesh_after_step() == MeshAfterStep::reset)
       for (auto &load : loads.carried)
-        load.find_cells(state.grid(), *cell_cache, reach);
+        load.find_cells(state.grid(), reach);
     if (changed)
       set_up_unknowns();
     find_empty_parts();

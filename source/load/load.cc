@@ -29,16 +29,18 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedLoad<dim>::find_cells(const GridSpace<dim>        &space,
-                               const GridTools::Cache<dim> &cache,
-                               const double                 reach)
+  CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
+                               const double          reach)
   {
     typename GridSpace<dim>::CellIterator hint;
     for (Place &place : load_places)
       {
         place.active_cell_index = GridSpace<dim>::no_cell;
         const auto cell =
-          GridTools::find_active_cell_around_point(cache, place.x, hint).first;
+          GridTools::find_active_cell_around_point(space.mesh().search_cache(),
+                                                   place.x,
+                                                   hint)
+            .first;
         if (cell.state() == IteratorState::valid)
           {
             hint             = cell;
@@ -51,10 +53,18 @@ namespace moraine
               }
           }
         std::ostringstream message;
+        if (!placed)
+          {
+            message << "section 'Loads/" << load_name << "': found the place ("
+                    << place.x
+                    << "), allowed: places on or in the material of a body";
+            throw InputError(message.str());
+          }
         message << "load '" << load_name << "': its place (" << place.x
-                << ") is not on any material";
+                << ") is no longer on any material";
         throw ComputationError(message.str());
       }
+    placed = true;
   }
 
 

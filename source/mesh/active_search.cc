@@ -4,8 +4,6 @@
 #include <moraine/mesh/active_search.h>
 #include <moraine/mesh/cell_shapes.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
 
 namespace moraine
@@ -59,12 +57,13 @@ namespace moraine
     if (space.is_active(cell))
       return cell;
 
+    const auto &cells_at_vertex =
+      space.mesh().search_cache().get_vertex_to_cell_map();
     typename GridSpace<dim>::CellIterator owner =
       space.mesh().triangulation().end();
     double nearest = reach;
     for (const unsigned int v : cell->vertex_indices())
-      for (const auto &neighbour : GridTools::find_cells_adjacent_to_vertex(
-             space.mesh().triangulation(), cell->vertex_index(v)))
+      for (const auto &neighbour : cells_at_vertex[cell->vertex_index(v)])
         if (space.is_active(neighbour))
           {
             const double distance = distance_to(neighbour->bounding_box(), x);

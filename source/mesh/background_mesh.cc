@@ -101,6 +101,7 @@ namespace moraine
            Triangulation<dim>::none,
            false,
            parallel::shared::Triangulation<dim>::partition_zorder)
+    , cache(tria, q1_mapping)
     , side_names(dim == 2 ?
                    std::vector<std::string>{"left", "right", "bottom", "top"} :
                    std::vector<std::string>{"left",

@@ -131,13 +131,11 @@ namespace moraine
                 const unsigned int    first_id,
                 PointSet<dim>        &points)
     {
-      const GridTools::Cache<dim>          cache(points.mesh().triangulation(),
-                                        points.mesh().mapping());
       typename PointSet<dim>::CellIterator hint;
       for (unsigned int i = 0; i < list.positions.size(); ++i)
         {
           const auto [cell, reference] =
-            GridTools::find_active_cell_around_point(cache,
+            GridTools::find_active_cell_around_point(points.mesh().search_cache(),
                                                      list.positions[i],
                                                      hint);
           if (cell.state() != IteratorState::valid)

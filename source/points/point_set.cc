@@ -86,12 +86,18 @@ namespace moraine
   void
   PointSet<dim>::find_cells()
   {
+    const auto n_points = handler.n_global_particles();
     lost_points.clear();
     handler.sort_particles_into_subdomains_and_cells();
     if (Utilities::MPI::sum<unsigned int>(
           lost_points.size(), background.triangulation().get_communicator()) >
         0)
       reinsert_lost_points();
+    if (handler.n_global_particles() != n_points)
+      throw ComputationError(
+        "the search for cells lost " +
+        std::to_string(n_points - handler.n_global_particles()) + " of " +
+        std::to_string(n_points) + " points");
     number_points();
   }
 
@@ -104,8 +110,6 @@ namespace moraine
     const MPI_Comm communicator = background.triangulation().get_communicator();
     const auto     everyones =
       Utilities::MPI::all_gather(communicator, lost_points);
-    const GridTools::Cache<dim> cache(background.triangulation(),
-                                      background.mapping());
 
     const LostPoint *outside = nullptr;
     for (const auto &of_one_rank : everyones)
@@ -113,7 +117,8 @@ namespace moraine
         {
           // Every rank knows every cell, so all ranks agree on what is outside.
           const auto [cell, reference] =
-            GridTools::find_active_cell_around_point(cache, lost.position);
+            GridTools::find_active_cell_around_point(background.search_cache(),
+                                                     lost.position);
           if (cell.state() != IteratorState::valid)
             outside = &lost;
           else if (cell->is_locally_owned())

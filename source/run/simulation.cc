@@ -79,6 +79,8 @@ namespace moraine
                 << n_nodes[c] << " nodes\n";
         effects.push_back("grid condition " + grid_conditions[c].name);
       }
+    for (const std::string &note : notes)
+      console << "  note        " << note << '\n';
     for (const auto &[name, load] : scene.loads)
       {
         console << "  load        " << name << ", " << load.type << '\n';

@@ -29,12 +29,12 @@ namespace moraine
     if (scene.method.method == "GIMP")
       GimpBasis<dim>::request_fields(fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);
-    const std::vector<Body<dim>> bodies = make_bodies(scene);
+    bodies = make_bodies(scene);
     for (const Body<dim> &body : bodies)
       body_names.push_back(body.name);
     materials    = make_materials(scene, bodies);
     body_volumes = seed_bodies(bodies, make_seeder<dim>(scene.method), *points);
-    make_basis(bodies);
+    make_basis();
     state = std::make_unique<State<dim>>(
       *space, *points, *basis, materials, scene.method.after_step());
     boundaries      = make_boundaries(scene);
@@ -57,7 +57,7 @@ namespace moraine
 
   template <int dim>
   void
-  Simulation<dim>::make_basis(const std::vector<Body<dim>> &bodies)
+  Simulation<dim>::make_basis()
   {
     std::vector<bool> is_seeded;
     for (const Body<dim> &body : bodies)
@@ -91,6 +91,70 @@ namespace moraine
 
 
 
+  /** A weight of nothing is a mistake, not a load. */
+  template <int dim>
+  void
+  Simulation<dim>::check_loads() const
+  {
+    for (const auto &force : loads.body_forces)
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (force.times_density && force.acts_on[b] &&
+            !(materials[b]->density() > 0))
+          throw InputError("section 'Loads/" + force.name +
+                           "': found gravity on body '" + bodies[b].name +
+                           "', whose material has no 'Density', allowed: "
+                           "bodies with a density > 0");
+  }
+
+
+
+  /**
+   * The body must lie on the inner side of a surface. Where there is none, a
+   * constraint makes little sense, and the flux of Nitsche's method is that of
+   * no material.
+   */
+  template <int dim>
+  void
+  Simulation<dim>::check_sides_of_boundaries()
+  {
+    const auto in_a_body = [this](const Point<dim> &x) {
+      return std::any_of(bodies.begin(), bodies.end(), [&x](const auto &body) {
+        return body.shape->contains(x);
+      });
+    };
+    if (std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
+          return !body.shape;
+        }))
+      return;
+    for (const auto &boundary : boundaries)
+      {
+        std::vector<double> area(3, 0.); // inside, behind, all
+        for (const auto &point : boundary.points())
+          {
+            const Tensor<1, dim> step = 1e-3 * point.h * point.normal;
+            area[0] += in_a_body(point.x - step) ? point.JxW : 0.;
+            area[1] += in_a_body(point.x + step) ? point.JxW : 0.;
+            area[2] += point.JxW;
+          }
+        Utilities::MPI::sum(area, communicator, area);
+        const std::string where = "Boundaries/" + boundary.name();
+        if (area[0] == 0 && area[1] > 0)
+          throw InputError(
+            "section '" + where +
+            "': found the body behind the surface, allowed: a surface whose "
+            "normal points out of the body (in 2D the body is on the left of a "
+            "line's points; reverse them)");
+        if (area[0] < 0.99 * area[2])
+          notes.push_back(
+            boundary.name() + ": " +
+            std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
+            " % of its surface in the body's cells has no body on its inner "
+            "side; end it with the body, or choose 'Enforcement = weighted'");
+      }
+  }
+
+
+
   template <int dim>
   void
   Simulation<dim>::begin_first_step()
@@ -103,6 +167,11 @@ namespace moraine
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
     check_prescribed_motion();
+    check_loads();
+    check_sides_of_boundaries();
+    const ExactSolution<dim> exact = scene.exact.solution();
+    if (exact.displacement || exact.stress)
+      error_norms(*points, exact, scene.time.end_time, false);
     system->set_target(scene.time.start_time);
     system->assemble(space->vector(), true);
     system->check_that_it_is_held(true);

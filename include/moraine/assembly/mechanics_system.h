@@ -212,9 +212,8 @@ namespace moraine
     const double                           empty_stiffness;
     /** Cells of this rank that points do not fill, and what is left of them. */
     std::vector<std::pair<typename GridSpace<dim>::CellIterator, double>>
-                                                   empty_volume;
-    std::unique_ptr<dealii::GridTools::Cache<dim>> cell_cache;
-    std::vector<std::unique_ptr<PointTerm<dim>>>   point_terms;
+                                                 empty_volume;
+    std::vector<std::unique_ptr<PointTerm<dim>>> point_terms;
     std::vector<unsigned int>                      body_of_cell;
     PrescribedNodes<dim>                           prescribed;
     dealii::AffineConstraints<double>              constraints;

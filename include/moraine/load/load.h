@@ -66,13 +66,11 @@ namespace moraine
 
     /**
      * Find the cells of the places.
-     * @throws ComputationError naming the load if a place is not on the
-     * material.
+     * @throws InputError naming the load if a place is not on the material the
+     * first time, ComputationError later.
      */
     void
-    find_cells(const GridSpace<dim>                &space,
-               const dealii::GridTools::Cache<dim> &cache,
-               const double                         reach);
+    find_cells(const GridSpace<dim> &space, const double reach);
 
     /** Carry the places along with the trial increments. Collective. */
     void
@@ -101,6 +99,7 @@ namespace moraine
     const std::string         load_name;
     const VectorFunction<dim> function;
     std::vector<Place>        load_places;
+    bool                      placed = false;
   };
 
   /** The places of a traction surface in a mesh, the same on all ranks. */

@@ -13,6 +13,8 @@
 
 #include <deal.II/fe/mapping_q1.h>
 
+#include <deal.II/grid/grid_tools_cache.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -80,6 +82,13 @@ namespace moraine
       return q1_mapping;
     }
 
+    /** Finds cells around places and vertices. */
+    const dealii::GridTools::Cache<dim> &
+    search_cache() const
+    {
+      return cache;
+    }
+
     /** Set if the mesh is a box of equal cells. */
     const std::optional<BoxGrid<dim>> &
     box_grid() const
@@ -106,6 +115,7 @@ namespace moraine
   private:
     dealii::parallel::shared::Triangulation<dim> tria;
     dealii::MappingQ1<dim>                       q1_mapping;
+    dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
     std::vector<std::string>                     side_names;
     double                                       largest_edge = 0;

@@ -61,7 +61,7 @@ namespace moraine
 
   private:
     void
-    make_basis(const std::vector<Body<dim>> &bodies);
+    make_basis();
 
     /**
      * Find cells and pieces for the first step; check that boundaries touch a
@@ -72,6 +72,12 @@ namespace moraine
 
     void
     check_prescribed_motion();
+
+    void
+    check_loads() const;
+
+    void
+    check_sides_of_boundaries();
 
     /** One step that must be accepted, with as many cuts as it takes. */
     void
@@ -114,6 +120,7 @@ namespace moraine
     std::ostringstream                           unused_timer_output;
     dealii::TimerOutput                          timer;
     std::vector<std::shared_ptr<const Material>> materials;
+    std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
     std::vector<double>                          body_volumes;
     std::unique_ptr<BackgroundMesh<dim>>         mesh;
@@ -128,6 +135,7 @@ namespace moraine
     std::unique_ptr<LinearSolver>                linear_solver;
     std::unique_ptr<Probes<dim>>                 probes;
     std::vector<std::string>                     effects;
+    std::vector<std::string>                     notes;
 
     std::optional<OutputDirectory>      directory;
     std::optional<History>              history;
