@@ -247,19 +247,23 @@ namespace moraine
     const double              part = shape.clip(whole).volume;
     if (part <= 1e-12 * whole.volume() || part >= (1. - 1e-13) * whole.volume())
       return false;
-    std::vector<SignedPiece<dim>> pieces;
-    shape.add_pieces(whole, 1., pieces);
-    auto fitted = moment_fitted_rule(pieces, shape, part, fitted_degree);
-    if (fitted.size() == 0)
+    // Pieces that are taken off leave few points to choose from in a large one.
+    for (const unsigned int n : {1, 3, 9})
       {
-        pieces.clear();
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          shape.add_pieces(ConvexPolytope<dim>(sub_cell(cell, q)), 1., pieces);
-        fitted = moment_fitted_rule(pieces, shape, part, fitted_degree);
+        std::vector<SignedPiece<dim>> pieces;
+        const CellSeeder<dim> grid(n, PointLayout::equal);
+        for (unsigned int q = 0; q < grid.rule.size(); ++q)
+          shape.add_pieces(ConvexPolytope<dim>(grid.sub_cell(cell, q)),
+                           1.,
+                           pieces);
+        const auto fitted =
+          moment_fitted_rule(pieces, shape, part, fitted_degree);
+        for (unsigned int q = 0; q < fitted.size(); ++q)
+          points.push_back({fitted.point(q), fitted.weight(q)});
+        if (fitted.size() > 0)
+          return true;
       }
-    for (unsigned int q = 0; q < fitted.size(); ++q)
-      points.push_back({fitted.point(q), fitted.weight(q)});
-    return fitted.size() > 0;
+    return false;
   }
 
 

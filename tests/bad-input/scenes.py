@@ -36,6 +36,13 @@ refused("boundary away from all bodies",
         {"Boundaries/far/Points": "7 1; 7 4"})
 refused("boundary outside the mesh",
         {"Boundaries/far/Points": "20 1; 20 4"})
+refused("boundary with the body behind it",
+        {"Boundaries/left/Points": "0.5 0.5; 0.5 4.5"})
+refused("gravity without density", {"Loads/weight/Type": "gravity"})
+refused("force beside the body", {"Loads/weight/Type": "point force",
+                                  "Loads/weight/Location": "6.5, 6.5"})
+refused("exact solution that is no number", {
+    "Exact solution/Displacement": "0; sqrt(-1-x^2)"}, "check")
 refused("free to move", {"Boundaries/left/Constraint": "roller"})
 refused("free to move, both ways", {
     "Boundaries/left/Constraint": "components",

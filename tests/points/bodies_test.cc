@@ -63,6 +63,27 @@ namespace
 
 
 
+TEST(SeedBodies, NoPointOfAFittedRuleIsLost)
+{
+  MeshParameters<3> parameters;
+  parameters.upper_corner = Point<3>(1, 1, 1);
+  parameters.cells        = {4, 4, 4};
+  const BackgroundMesh<3> mesh(parameters, MPI_COMM_WORLD);
+  PointSet<3>             points(mesh, {});
+  const auto              volumes =
+    seed_bodies<3>({{"box",
+                     std::make_shared<ConvexShape<3>>(
+                       ConvexShape<3>::box(Point<3>(0.07, 0.1, 0.23),
+                                           Point<3>(0.73, 0.85, 0.9)))}},
+                   CellSeeder<3>(3, PointLayout::gauss, 2),
+                   points);
+  EXPECT_NEAR(volumes[0], 0.66 * 0.75 * 0.67, 1e-14);
+  for (unsigned int p = 0; p < points.n_local(); ++p)
+    EXPECT_GT(points.volume(p), 0.);
+}
+
+
+
 TEST(SeedBodies, VolumesAndIds)
 {
   const BackgroundMesh<2> mesh(mesh_parameters(), MPI_COMM_WORLD);
