@@ -114,7 +114,7 @@ class Bench:
         time, memory = {}, {}
         for n in sizes:
             r = self.run("points", cells=n,
-                         repeats=max(1, self.repeats * 200 // (n + 200)))
+                         repeats=max(3, self.repeats * 200 // (n + 200)))
             time[n] = r["points step"]
             memory[n] = r["memory_peak_mib"] - r["memory_before_mib"]
             self.record("growth", f"step with {n}^2 cells", time[n], "s")
