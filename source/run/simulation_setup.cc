@@ -6,8 +6,14 @@
 #include <moraine/run/simulation.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/output/error_norms.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
