@@ -6,6 +6,8 @@
 
 #include <moraine/core/linear_algebra.h>
 
+#include <moraine/solver/linear_report.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,28 +45,6 @@ namespace moraine
 
     void
     add_parameters(dealii::ParameterHandler &prm);
-  };
-
-
-
-  /**
-   * What one linear solve did.
-   */
-  struct LinearReport
-  {
-    bool converged = false;
-
-    /** Iterations of CG or GMRES; for a direct solver 0. */
-    unsigned int iterations = 0;
-
-    /** Norm of b - A x over norm of b, recomputed from the solution. */
-    double relative_residual = 0.;
-
-    /** What solved it in the end, for example "direct (Mumps)". */
-    std::string solver;
-
-    /** Why it failed, or why auto fell back. Empty if all went well. */
-    std::string message;
   };
 
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_solver_direct_solver_h
+#define moraine_solver_direct_solver_h
+
+#include <moraine/core/linear_algebra.h>
+
+#include <moraine/solver/linear_report.h>
+
+#include <memory>
+#include <string>
+
+namespace moraine
+{
+  /**
+   * A factorisation by Amesos, kept for many right hand sides.
+   */
+  class DirectSolver
+  {
+  public:
+    /**
+     * Factorise. @p matrix must live as long as this; a failure is what solve()
+     * reports. @p transposed: solve with the transpose of the matrix.
+     */
+    explicit DirectSolver(const LA::SparseMatrix &matrix,
+                          const bool              transposed = false);
+
+    ~DirectSolver();
+
+    LinearReport
+    solve(LA::Vector &x, const LA::Vector &b);
+
+    /** See LinearSolver::condition_number(). */
+    double
+    condition_number();
+
+  private:
+    struct Factors;
+
+    const LA::SparseMatrix  &matrix;
+    const double             matrix_norm;
+    std::string              package;
+    std::unique_ptr<Factors> factors;
+    std::string              failure;
+
+    void
+    factorise();
+
+    bool
+    back_substitute(LA::Vector &x, const LA::Vector &b);
+
+    bool
+    singular();
+
+    LA::Vector
+    arbitrary_vector() const;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_solver_linear_report_h
+#define moraine_solver_linear_report_h
+
+#include <string>
+
+namespace moraine
+{
+  /**
+   * What one linear solve did.
+   */
+  struct LinearReport
+  {
+    bool converged = false;
+
+    /** Iterations of CG or GMRES; for a direct solver 0. */
+    unsigned int iterations = 0;
+
+    /** Norm of b - A x over norm of b, recomputed from the solution. */
+    double relative_residual = 0.;
+
+    /** What solved it in the end, for example "direct (Mumps)". */
+    std::string solver;
+
+    /** Why it failed, or why auto fell back. Empty if all went well. */
+    std::string message;
+  };
+
+
+
+  /** Of a residual's norm; the norm itself if the right hand side is zero. */
+  inline double
+  relative_to(const double value, const double reference)
+  {
+    return reference > 0. ? value / reference : value;
+  }
+} // namespace moraine
+
+#endif

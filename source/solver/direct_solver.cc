@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/solver/direct_solver.h>
+
+#include <Amesos.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <random>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * Refinement stops when the residual is this small relative to b, or no
+     * longer falls.
+     */
+    constexpr double       refinement_goal     = 1e-14;
+    constexpr unsigned int maximum_refinements = 3;
+
+    /**
+     * The backward error |b - A x| / (|A| |x| + |b|) that a stable
+     * factorisation keeps far below.
+     */
+    constexpr double backward_error_limit = 1e-11;
+
+    /**
+     * A matrix is singular to working precision if rounding changes a solution
+     * by this much relative to itself, up to sqrt(n).
+     */
+    constexpr double singular_change = 0.01;
+
+    /** Power iterations end when a step changes a singular value by less. */
+    constexpr double       power_tolerance          = 1e-4;
+    constexpr unsigned int maximum_power_iterations = 200;
+
+
+
+    /**
+     * Amesos writes its error codes to the terminal whatever its options say;
+     * ours are in the report.
+     */
+    class SilenceErrors
+    {
+    public:
+      SilenceErrors()
+        : buffer(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~SilenceErrors()
+      {
+        std::cerr.rdbuf(buffer);
+      }
+
+      SilenceErrors(const SilenceErrors &) = delete;
+
+    private:
+      std::streambuf *const buffer;
+    };
+
+
+
+    /**
+     * The largest singular value of an operator, by power iteration: apply(y,
+     * x) is y = A^T A x.
+     */
+    template <typename Apply>
+    double
+    largest_singular_value(LA::Vector x, const Apply &apply)
+    {
+      LA::Vector y(x);
+      double     value = 0, before;
+      x *= 1. / x.l2_norm();
+      for (unsigned int i = 0; i < maximum_power_iterations; ++i)
+        {
+          apply(y, x);
+          before = value;
+          value  = y.l2_norm();
+          if (!(value > 0.) ||
+              std::abs(value - before) < power_tolerance * value)
+            break;
+          x = y;
+          x *= 1. / value;
+        }
+      return std::sqrt(value);
+    }
+  } // namespace
+
+
+
+  struct DirectSolver::Factors
+  {
+    Epetra_LinearProblem               problem;
+    std::unique_ptr<Amesos_BaseSolver> solver;
+  };
+
+
+
+  DirectSolver::DirectSolver(const LA::SparseMatrix &matrix,
+                             const bool              transposed)
+    : matrix(matrix)
+    , matrix_norm(matrix.linfty_norm())
+    , factors(std::make_unique<Factors>())
+  {
+    // deal.II's SolverDirect throws where we want a status, and hands no
+    // options to Amesos; hence Amesos itself.
+    factors->problem.SetOperator(
+      const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+    Amesos                            factory;
+    const std::array<const char *, 3> choices{{"Mumps", "Umfpack", "Klu"}};
+    for (const char *choice : choices)
+      if (factory.Query(std::string("Amesos_") + choice))
+        {
+          package = choice;
+          factors->solver.reset(
+            factory.Create(std::string("Amesos_") + choice, factors->problem));
+          break;
+        }
+    // Before the factorisation: MUMPS looks at it there only.
+    factors->solver->SetUseTranspose(transposed);
+    factorise();
+    if (failure.empty() && !transposed && singular())
+      failure = "the matrix is singular to working precision";
+  }
+
+
+
+  DirectSolver::~DirectSolver() = default;
+
+
+
+  void
+  DirectSolver::factorise()
+  {
+    Teuchos::ParameterList options;
+    options.set("OutputLevel", 0);
+    options.set("PrintTiming", false);
+    options.set("PrintStatus", false);
+    factors->solver->SetParameters(options);
+    const SilenceErrors silence;
+    if (factors->solver->SymbolicFactorization() != 0 ||
+        factors->solver->NumericFactorization() != 0)
+      failure = "the factorisation failed; the matrix is singular";
+  }
+
+
+
+  bool
+  DirectSolver::back_substitute(LA::Vector &x, const LA::Vector &b)
+  {
+    const SilenceErrors silence;
+    factors->problem.SetLHS(&x.trilinos_vector());
+    factors->problem.SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
+    return factors->solver->Solve() == 0;
+  }
+
+
+
+  /**
+   * Solve for an arbitrary right hand side; then ask how much the answer x
+   * changes if every product in A x has a relative error of epsilon:
+   * A^-1 s A(s' x), s and s' arbitrary factors of each row and each unknown.
+   * For a singular matrix x is a null vector magnified to |A x| ~ epsilon |A|
+   * |x|, so that the change is of the size of x, but for the part 1/sqrt(n)
+   * of an arbitrary vector that lies along it. Bad scaling of rows alone, as
+   * from stiff boundary terms, does not raise it.
+   */
+  bool
+  DirectSolver::singular()
+  {
+    const LA::Vector probe = arbitrary_vector();
+    LA::Vector       x(probe), w(probe), change(probe);
+    if (!back_substitute(x, probe))
+      return true;
+    const double relative = matrix.residual(w, x, probe) / probe.l2_norm();
+    // The part of the probe along k null vectors of n cannot be balanced:
+    // sqrt(k/n) of it is left.
+    if (relative < 1e-6)
+      return false;
+    LA::Vector perturbed(x);
+    perturbed.scale(probe);
+    matrix.vmult(w, perturbed);
+    // Factors that do not follow the first ones.
+    LA::Vector other(probe);
+    other.scale(probe);
+    other.add(-1. / 3.);
+    w.scale(other);
+    if (!std::isfinite(relative) || !back_substitute(change, w))
+      return true;
+    const double epsilon = std::numeric_limits<double>::epsilon();
+    return !(epsilon * std::sqrt(1. * matrix.m()) * change.l2_norm() <
+             singular_change * x.l2_norm());
+  }
+
+
+
+  /** The same on any number of ranks. */
+  LA::Vector
+  DirectSolver::arbitrary_vector() const
+  {
+    LA::Vector vector(matrix.locally_owned_range_indices(),
+                      matrix.get_mpi_communicator());
+    for (const auto i : vector.locally_owned_elements())
+      {
+        std::minstd_rand generator(i + 1);
+        generator.discard(4);
+        vector(i) = 2. * std::generate_canonical<double, 32>(generator) - 1.;
+      }
+    vector.compress(VectorOperation::insert);
+    return vector;
+  }
+
+
+
+  double
+  DirectSolver::condition_number()
+  {
+    if (!failure.empty())
+      return std::numeric_limits<double>::infinity();
+    DirectSolver     adjoint(matrix, true);
+    const LA::Vector start = arbitrary_vector();
+    LA::Vector       between(start);
+    const double     largest =
+      largest_singular_value(start, [&](LA::Vector &y, const LA::Vector &x) {
+        matrix.vmult(between, x);
+        matrix.Tvmult(y, between);
+      });
+    const double of_inverse =
+      largest_singular_value(start, [&](LA::Vector &y, const LA::Vector &x) {
+        adjoint.back_substitute(between, x);
+        back_substitute(y, between);
+      });
+    return largest * of_inverse;
+  }
+
+
+
+  LinearReport
+  DirectSolver::solve(LA::Vector &x, const LA::Vector &b)
+  {
+    LinearReport report;
+    report.solver            = "direct (" + package + ")";
+    report.message           = failure;
+    const double norm_b      = b.l2_norm();
+    x                        = 0.;
+    report.relative_residual = relative_to(norm_b, norm_b);
+    if (!failure.empty())
+      return report;
+    if (!back_substitute(x, b))
+      {
+        report.message = "the back substitution failed";
+        return report;
+      }
+
+    LA::Vector residual(b), correction(b), better(b);
+    double     norm = matrix.residual(residual, x, b);
+    for (unsigned int i = 0;
+         i < maximum_refinements && norm > refinement_goal * norm_b;
+         ++i)
+      {
+        if (!back_substitute(correction, residual))
+          break;
+        better = x;
+        better += correction;
+        const double better_norm = matrix.residual(residual, better, b);
+        if (!(better_norm < norm))
+          break;
+        const bool worth_another = better_norm < 0.5 * norm;
+        x                        = better;
+        norm                     = better_norm;
+        if (!worth_another)
+          break;
+      }
+    report.relative_residual = relative_to(norm, norm_b);
+    report.converged =
+      std::isfinite(norm) &&
+      norm <= backward_error_limit * (matrix_norm * x.l2_norm() + norm_b);
+    if (!report.converged)
+      report.message = "the solution does not satisfy the equations";
+    return report;
+  }
+} // namespace moraine
