@@ -78,6 +78,11 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     return Run(process.returncode, output, folder)
 
 
+def plain(output):
+    """Text that a program printed, without folders that differ."""
+    return output.replace(f"{_folder}/", "").replace(f"{root}/", "")
+
+
 def text(name, value):
     printed.append(f"{name}: {value}")
 
@@ -105,7 +110,8 @@ def main():
     _folder = pathlib.Path(tempfile.mkdtemp(prefix="moraine-"))
     try:
         names = {n: globals()[n] for n in
-                 ("run", "text", "bound", "at_least", "number", "root")}
+                 ("run", "plain", "text", "bound", "at_least", "number",
+                  "root")}
         names["ranks"] = ranks
         names["program"] = program
         names["folder"] = _folder

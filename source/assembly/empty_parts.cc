@@ -7,8 +7,10 @@
 
 #include <moraine/mesh/active_search.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
 
 namespace moraine
 {
@@ -42,8 +44,30 @@ namespace moraine
 
   template <int dim>
   void
+  MechanicsSystem<dim>::stiffen_empty_parts(const double fraction)
+  {
+    empty_stiffness = fraction;
+    find_empty_parts();
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::share_of_empty_parts() const
+  {
+    const double squares =
+      Utilities::MPI::sum(empty_scale, state.grid().communicator());
+    return scale > 0 ? std::sqrt(squares) / scale : 0.;
+  }
+
+
+
+  template <int dim>
+  void
   MechanicsSystem<dim>::assemble_empty_parts(const bool tangent)
   {
+    const double                before  = local_scale;
     const GridSpace<dim>       &space   = state.grid();
     const unsigned int          n_nodes = space.nodes_per_cell();
     const QGauss<dim>           quadrature(space.degree() + 1);
@@ -79,16 +103,17 @@ namespace moraine
                 local.matrix(r, dim * b + j) * local.nodal_increments[b][j];
         add_to_system(local, tangent);
       }
+    empty_scale = local_scale - before;
   }
 
 
 
-  template void
-  MechanicsSystem<2>::find_empty_parts();
-  template void
-  MechanicsSystem<3>::find_empty_parts();
-  template void
-  MechanicsSystem<2>::assemble_empty_parts(const bool);
-  template void
-  MechanicsSystem<3>::assemble_empty_parts(const bool);
+#define INSTANTIATE(dim)                                                   \
+  template void   MechanicsSystem<dim>::find_empty_parts();                \
+  template void   MechanicsSystem<dim>::stiffen_empty_parts(const double); \
+  template double MechanicsSystem<dim>::share_of_empty_parts() const;      \
+  template void   MechanicsSystem<dim>::assemble_empty_parts(const bool);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -150,68 +150,8 @@ namespace moraine
 
 
 
-  template <int dim>
-  std::vector<BoundaryReport<dim>>
-  MechanicsSystem<dim>::report_grid_conditions(const LA::Vector &x)
-  {
-    std::vector<BoundaryReport<dim>> reports;
-    for (const auto &condition : conditions)
-      reports.push_back({condition.name, {}, 0., 0.});
-    if (conditions.empty())
-      return reports;
-
-    // The residual at x is known, unless x is not where Newton ended.
-    LA::Vector difference(x);
-    difference -= assembled_at;
-    if (!assembled || difference.linfty_norm() > 0)
-      assemble(x, false);
-
-    for (const auto &entry : prescribed.entries)
-      {
-        const auto dof = state.grid().node_dof(entry.node) + entry.component;
-        if (state.grid().locally_owned().is_element(dof))
-          reports[entry.condition].reaction[entry.component] -= unbalanced(dof);
-      }
-    for (auto &report : reports)
-      report.reaction =
-        Utilities::MPI::sum(report.reaction, state.grid().communicator());
-    return reports;
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  MechanicsSystem<dim>::n_prescribed_nodes() const
-  {
-    std::vector<unsigned int> n(conditions.size(), 0);
-    const auto               *before = prescribed.entries.data();
-    for (const auto &entry : prescribed.entries)
-      {
-        // The components of a node follow each other.
-        if (state.grid().locally_owned().is_element(
-              state.grid().node_dof(entry.node)) &&
-            (&entry == before || entry.node != before->node ||
-             entry.condition != before->condition))
-          ++n[entry.condition];
-        before = &entry;
-      }
-    Utilities::MPI::sum(n, state.grid().communicator(), n);
-    return n;
-  }
-
-
-
   template void
   MechanicsSystem<2>::assemble_external_forces();
-  template std::vector<unsigned int>
-  MechanicsSystem<2>::n_prescribed_nodes() const;
-  template std::vector<unsigned int>
-  MechanicsSystem<3>::n_prescribed_nodes() const;
-  template std::vector<BoundaryReport<2>>
-  MechanicsSystem<2>::report_grid_conditions(const LA::Vector &);
   template void
   MechanicsSystem<3>::assemble_external_forces();
-  template std::vector<BoundaryReport<3>>
-  MechanicsSystem<3>::report_grid_conditions(const LA::Vector &);
 } // namespace moraine

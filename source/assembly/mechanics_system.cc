@@ -141,19 +141,6 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::make_constraints()
-  {
-    constraints.clear();
-    constraints.reinit(state.grid().locally_relevant());
-    for (const auto &entry : prescribed.entries)
-      constraints.add_line(state.grid().node_dof(entry.node) + entry.component);
-    constraints.close();
-  }
-
-
-
-  template <int dim>
-  void
   MechanicsSystem<dim>::make_rigid_modes()
   {
     const GridSpace<dim> &space       = state.grid();
@@ -197,35 +184,6 @@ namespace moraine
       boundary.set_target(t_end);
     TimerOutput::Scope scope(timer, "external forces");
     assemble_external_forces();
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::initial_guess(LA::Vector &x) const
-  {
-    x.reinit(state.grid().locally_owned(), state.grid().communicator());
-    for (const auto &entry : prescribed.entries)
-      {
-        const auto dof = state.grid().node_dof(entry.node) + entry.component;
-        if (!state.grid().locally_owned().is_element(dof))
-          continue;
-        const Point<dim> &X     = state.grid().node_position(entry.node);
-        const auto       &value = conditions[entry.condition].value;
-        x(dof)                  = value(X, t_target)[entry.component] -
-                 value(X, t_start)[entry.component];
-      }
-    x.compress(VectorOperation::insert);
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::apply_constraints(LA::Vector &dx) const
-  {
-    constraints.set_zero(dx);
   }
 
 

@@ -67,7 +67,6 @@ namespace moraine
     const unsigned int n_modes  = rigid_modes.size();
 
     std::vector<unsigned int> part_of_node(space.n_nodes(), 0);
-    Point<dim>                centre;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (space.knows(cell))
@@ -75,9 +74,12 @@ namespace moraine
           part_of_node[space.cell_nodes(cell)[a]] =
             part[cell->active_cell_index()];
 
-    // Gram matrices of free rigid motions with 1 and with K, part by part.
+    // Gram matrices of free rigid motions with 1 and with K, part by part. The
+    // mean of K's diagonal says what round-off leaves of a free one: it grows
+    // with a stiff boundary's share of the part, as round-off does.
     const unsigned int      size = n_modes * n_modes;
     std::vector<double>     gram(2 * size * n_parts, 0.);
+    std::vector<double>     diagonal(n_parts, 0.), n_rows(n_parts, 0.);
     std::vector<LA::Vector> modes = rigid_modes, forces = rigid_modes;
     for (unsigned int m = 0; m < n_modes; ++m)
       {
@@ -88,18 +90,21 @@ namespace moraine
       for (unsigned int c = 0; c < dim; ++c)
         {
           const auto dof = space.node_dof(node) + c;
-          if (space.locally_owned().is_element(dof))
-            for (unsigned int i = 0; i < n_modes; ++i)
-              for (unsigned int j = 0; j < n_modes; ++j)
-                {
-                  const unsigned int entry =
-                    2 * size * part_of_node[node] + i * n_modes + j;
-                  gram[entry] += rigid_modes[i](dof) * rigid_modes[j](dof);
-                  gram[entry + size] += modes[i](dof) * forces[j](dof);
-                }
+          if (!space.locally_owned().is_element(dof))
+            continue;
+          const unsigned int k = part_of_node[node];
+          diagonal[k] += std::abs(matrix.diag_element(dof));
+          ++n_rows[k];
+          for (unsigned int i = 0; i < n_modes; ++i)
+            for (unsigned int j = 0; j < n_modes; ++j)
+              {
+                const unsigned int entry = 2 * size * k + i * n_modes + j;
+                gram[entry] += rigid_modes[i](dof) * rigid_modes[j](dof);
+                gram[entry + size] += modes[i](dof) * forces[j](dof);
+              }
         }
-    Utilities::MPI::sum(gram, space.communicator(), gram);
-    const double stiffness = matrix.linfty_norm();
+    for (auto *sums : {&gram, &diagonal, &n_rows})
+      Utilities::MPI::sum(*sums, space.communicator(), *sums);
 
     for (unsigned int k = 0; k < n_parts; ++k)
       {
@@ -117,7 +122,7 @@ namespace moraine
         K.compute_generalized_eigenvalues_symmetric(M, vectors, 1);
         std::vector<Vector<double>> free;
         for (unsigned int m = 0; m < n_modes; ++m)
-          if (K.eigenvalue(m).real() <= 1e-13 * stiffness)
+          if (K.eigenvalue(m).real() <= 1e-13 * diagonal[k] / n_rows[k])
             free.push_back(vectors[m]);
         if (!free.empty())
           report_free_part(part, k, free, first_step);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/boundary/cell_cut.h>
 #include <moraine/boundary/curved_surfaces.h>
+
+#include <moraine/boundary/cell_cut.h>
 #include <moraine/core/exceptions.h>
 
 #include <algorithm>
@@ -126,23 +127,11 @@ namespace moraine
 
   template <int dim>
   ExpressionSurface<dim>::ExpressionSurface(const std::string      &expression,
+                                            const std::string      &place,
                                             const BoundingBox<dim> &extent)
-    : function(1)
+    : function(expression, place, 1, {}, false)
     , box(extent)
   {
-    try
-      {
-        function.initialize(FunctionParser<dim>::default_variable_names(),
-                            expression,
-                            {{"pi", numbers::PI}});
-        function.value(Point<dim>());
-      }
-    catch (const ExceptionBase &error)
-      {
-        throw InputError("the expression '" + expression +
-                         "' cannot be read as a function of " +
-                         FunctionParser<dim>::default_variable_names());
-      }
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Tensor<1, dim> e = Point<dim>::unit_vector(d);

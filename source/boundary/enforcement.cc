@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/boundary/dirichlet_weight.h>
 #include <moraine/boundary/enforcement.h>
+
+#include <moraine/boundary/dirichlet_weight.h>
 
 namespace moraine
 {

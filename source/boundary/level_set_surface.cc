@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/boundary/cell_cut.h>
 #include <moraine/boundary/level_set_surface.h>
+
+#include <moraine/boundary/cell_cut.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/hp/q_collection.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/boundary/surface_library.h>
+
 #include <moraine/boundary/arc.h>
 #include <moraine/boundary/curved_surfaces.h>
 #include <moraine/boundary/straight_surfaces.h>
-#include <moraine/boundary/surface_library.h>
 #include <moraine/core/exceptions.h>
 
 #include <deal.II/base/patterns.h>
@@ -239,15 +240,21 @@ namespace moraine
 
     template <int dim>
     std::unique_ptr<Surface<dim>>
-    make(const std::string &kind, const Entries<dim> &entries, const bool flip)
+    make(const SurfaceParameters<dim> &parameters,
+         const std::string            &section,
+         const Entries<dim>           &entries)
     {
+      const std::string &kind = parameters.surface;
+      const bool         flip = parameters.flip;
       if (kind == "plane")
         return std::make_unique<Plane<dim>>(entries.place("Point"),
                                             (flip ? -1. : 1.) *
                                               entries.place("Normal"));
       if (kind == "expression")
         return std::make_unique<ExpressionSurface<dim>>(
-          entries.text("Expression"), extent<dim>(entries));
+          entries.text("Expression"),
+          moraine::place(section, "Expression"),
+          extent<dim>(entries));
       if constexpr (dim == 2)
         {
           if (kind == "polyline")
@@ -357,7 +364,7 @@ namespace moraine
     entries.check_keys();
     try
       {
-        return make<dim>(parameters.surface, entries, parameters.flip);
+        return make<dim>(parameters, section, entries);
       }
     catch (const InputError &error)
       {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+
+#include <moraine/core/exceptions.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
@@ -74,7 +75,7 @@ namespace moraine
             break;
           said += (said.empty() ? "" : " ") + line;
         }
-      return said;
+      return said.substr(0, said.find_last_not_of('.') + 1);
     }
 
 
@@ -125,10 +126,21 @@ namespace moraine
           }
         catch (const ExceptionBase &e)
           {
-            throw InputError(place + ": found '" + components[c] + "': " +
-                             parser_message(e.what()) + " Allowed: " + allowed);
+            throw InputError(place + ": found '" + components[c] +
+                             "': " + parser_message(e.what()) +
+                             ". Allowed: " + allowed);
           }
       return parser;
+    }
+
+
+
+    /** "a ? b : c" is muParser's choice, not a table. */
+    bool
+    is_table(const std::string &text)
+    {
+      return text.find(':') != std::string::npos &&
+             text.find('?') == std::string::npos;
     }
 
 
@@ -152,18 +164,21 @@ namespace moraine
   Expression<dim>::Expression(const std::string                   &text,
                               const std::string                   &place,
                               const unsigned int                   n_components,
-                              const std::map<std::string, double> &constants)
+                              const std::map<std::string, double> &constants,
+                              const bool                           with_time)
     : expression_text(Utilities::trim(text))
     , origin(place)
+    , with_time(with_time)
     , components(split_components(expression_text))
   {
     const std::string variables =
-      FunctionParser<dim>::default_variable_names() + ",t";
+      FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
     std::string allowed =
       (n_components == 1 ? std::string("an expression") :
                            std::to_string(n_components) +
                              " expressions, separated by ';' or ',',") +
-      " in " + variables + " with the constants pi";
+      " in " + variables +
+      (constants.empty() ? " with the constant pi" : " with the constants pi");
     for (const auto &constant : constants)
       allowed += ", " + constant.first;
 
@@ -180,8 +195,8 @@ namespace moraine
     if (numbers.size() != components.size())
       numbers.clear();
     if (numbers.empty())
-      parser =
-        compile<dim>(components, variables, constants, true, place, allowed);
+      parser = compile<dim>(
+        components, variables, constants, with_time, place, allowed);
   }
 
 
@@ -202,8 +217,10 @@ namespace moraine
       {
         std::ostringstream message;
         message << origin << ": '" << components[component] << "' is " << result
-                << ", not a finite number, at (" << p << ") and t = " << t
-                << ".";
+                << ", not a finite number, at (" << p << ')';
+        if (with_time)
+          message << " and t = " << t;
+        message << '.';
         throw InputError(message.str());
       }
     return result;
@@ -234,9 +251,7 @@ namespace moraine
     const auto components = split_components(curve_text);
     check_not_empty(components, curve_text, place, allowed);
 
-    // "a ? b : c" is muParser's choice, not a table.
-    if (curve_text.find(':') != std::string::npos &&
-        curve_text.find('?') == std::string::npos)
+    if (is_table(curve_text))
       {
         read_table();
         return;
@@ -307,6 +322,27 @@ namespace moraine
           return (1 - s) * f0 + s * f1;
         }
     return table.back().second;
+  }
+
+
+
+  std::vector<TimeCurve>
+  time_curves(const std::string &text,
+              const std::string &place,
+              const unsigned int n)
+  {
+    const auto parts = text.find(';') != std::string::npos || is_table(text) ?
+                         Utilities::split_string_list(text, ';') :
+                         split_components(text);
+    if (parts.size() != n)
+      throw InputError(place + ": found '" + text + "', which has " +
+                       std::to_string(parts.size()) +
+                       " components. Allowed: " + std::to_string(n) +
+                       " expressions in t or tables, separated by ';'");
+    std::vector<TimeCurve> curves;
+    for (const std::string &part : parts)
+      curves.emplace_back(part, place);
+    return curves;
   }
 
 

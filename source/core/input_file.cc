@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/exceptions.h>
 #include <moraine/core/input_file.h>
+
+#include <moraine/core/exceptions.h>
 #include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
 
@@ -497,6 +498,25 @@ namespace moraine
 
 
 
+  std::string
+  InputFile::located(const std::string &message) const
+  {
+    const auto begins = [&message](const std::string &text) {
+      return message.compare(0, text.size(), text) == 0;
+    };
+    if (!begins("section '") && !begins("key '"))
+      return message;
+    for (const Entry &entry : found_entries)
+      if (begins(place(entry.section, entry.key)))
+        return entry.origin + ": " + message;
+    for (const Line &section : sections)
+      if (begins("section '" + section.text + "'"))
+        return section.origin + ": " + message;
+    return file_name + ": " + message;
+  }
+
+
+
   const std::string &
   InputFile::name() const
   {
@@ -523,24 +543,24 @@ namespace moraine
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
     };
     std::string value = entry.value;
-    for (std::size_t at = value.find('$'); at != std::string::npos;
-         at             = value.find('$', at))
+    std::size_t at    = value.find('$');
+    while (at != std::string::npos)
       {
-                    std::size_t end = at + 1;
-                    while (end < value.size() && is_name(value[end]))
+        std::size_t end = at + 1;
+        while (end < value.size() && is_name(value[end]))
           ++end;
         const std::string        name     = value.substr(at + 1, end - at - 1);
-                    const Entry             *constant = nullptr;
-                    std::vector<std::string> known;
-                    for (const Entry &other : found_entries)
+        const Entry             *constant = nullptr;
+        std::vector<std::string> known;
+        for (const Entry &other : found_entries)
           {
-                        // A constant sees those before it only, so none needs itself.
+            // A constant sees those before it only, so none needs itself.
             if (&other == &entry)
               break;
             if (other.section == constants_section)
               {
-                            known.push_back("$" + other.key);
-                            if (other.key == name)
+                known.push_back("$" + other.key);
+                if (other.key == name)
                   constant = &other;
               }
           }
@@ -549,8 +569,8 @@ namespace moraine
                            place(entry.section, entry.key) + ": found '$" +
                            name + "'" + suggest("$" + name, known));
         const std::string text = with_constants(*constant);
-                    value.replace(at, end - at, text);
-                    at += text.size();
+        value.replace(at, end - at, text);
+        at = value.find('$', at + text.size());
       }
     return value;
   }

@@ -29,8 +29,7 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
-                               const double          reach)
+  CarriedLoad<dim>::find_cells(const GridSpace<dim> &space, const double reach)
   {
     typename GridSpace<dim>::CellIterator hint;
     for (Place &place : load_places)

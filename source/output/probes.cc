@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace moraine
 {
@@ -80,7 +82,8 @@ namespace moraine
   Probes<dim>::Probes(const std::vector<ProbeParameters<dim>> &parameters,
                       const PointSet<dim>                     &points,
                       const bool moves_through_mesh)
-    : moves_through_mesh(moves_through_mesh)
+    : cell_size(points.mesh().cell_size())
+    , moves_through_mesh(moves_through_mesh)
   {
     for (const auto &one : parameters)
       {
@@ -110,13 +113,40 @@ namespace moraine
       smallest = std::min(smallest, points.position(p).distance(probe.start));
     smallest = Utilities::MPI::min(smallest, communicator);
 
+    probe.distance = smallest;
     // Round-off must not choose between points that are equally near.
-    const double limit = smallest + 1e-10 * points.mesh().cell_size();
+    const double limit = smallest + 1e-10 * cell_size;
     unsigned int id    = numbers::invalid_unsigned_int;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (points.position(p).distance(probe.start) <= limit)
         id = std::min(id, points.id(p));
     probe.point_id = Utilities::MPI::min(id, communicator);
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::check_places(const PlaceFunction<dim> &on_material) const
+  {
+    for (const Probe &probe : probes)
+      {
+        Tensor<1, dim>     unused;
+        std::ostringstream found;
+        found << place("Probes/" + probe.parameters.name, "Location")
+              << ": found (" << probe.start << "), ";
+        if (probe.follows_point() && probe.distance > 2. * cell_size)
+          {
+            found << "which is " << std::setprecision(4) << probe.distance
+                  << " from the nearest point, allowed: a place on or beside a "
+                     "body, less than two cells away";
+            throw InputError(found.str());
+          }
+        if (!probe.follows_point() && !on_material(probe.start, unused))
+          throw InputError(found.str() +
+                           "where there is no material, allowed with 'Kind = "
+                           "interpolated': a place on a body");
+      }
   }
 
 

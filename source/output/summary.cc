@@ -43,11 +43,11 @@ namespace moraine
       json["linear_iterations"] = summary.linear_iterations;
       if (summary.condition_number)
         json["condition_number"] = *summary.condition_number;
-      json["bytes_per_point"]   = summary.bytes_per_point;
-      json["peak_memory_mib"]   = summary.peak_memory_mib;
-      json["wall_seconds"]      = summary.wall_seconds;
-      json["timings"]           = object_of(summary.timings);
-      json["effects"]           = summary.effects;
+      json["bytes_per_point"] = summary.bytes_per_point;
+      json["peak_memory_mib"] = summary.peak_memory_mib;
+      json["wall_seconds"]    = summary.wall_seconds;
+      json["timings"]         = object_of(summary.timings);
+      json["effects"]         = summary.effects;
       if (!summary.errors.empty())
         {
           Summary::List<Json> errors;

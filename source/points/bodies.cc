@@ -135,9 +135,8 @@ namespace moraine
       for (unsigned int i = 0; i < list.positions.size(); ++i)
         {
           const auto [cell, reference] =
-            GridTools::find_active_cell_around_point(points.mesh().search_cache(),
-                                                     list.positions[i],
-                                                     hint);
+            GridTools::find_active_cell_around_point(
+              points.mesh().search_cache(), list.positions[i], hint);
           if (cell.state() != IteratorState::valid)
             {
               std::ostringstream message;

@@ -191,7 +191,7 @@ namespace moraine
     const std::string           &expression,
     const std::string           &place,
     const CurveSubdivision<dim> &subdivision)
-    : expression(expression, place)
+    : expression(expression, place, 1, {}, false)
     , subdivision(subdivision)
   {}
 

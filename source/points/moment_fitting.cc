@@ -176,7 +176,7 @@ namespace moraine
         {
           if (residual.l2_norm() <= tolerance * b.l2_norm())
             return true;
-          unsigned int best    = 0;
+          unsigned int best     = 0;
           double       steepest = 0.;
           for (unsigned int j = 0; j < columns.size(); ++j)
             if (weights[j] == 0. && columns[j] * residual > steepest)
@@ -231,7 +231,7 @@ namespace moraine
     // Exact for the total degree of a product of dim polynomials.
     const Quadrature<dim> rule =
       QWitherdenVincentSimplex<dim>((dim * degree + 2) / 2);
-    const Polynomials<dim>      polynomials(BoundingBox<dim>(corners), degree);
+    const Polynomials<dim> polynomials(BoundingBox<dim>(corners), degree);
     // The tip lies in some of the faces.
     const double flat = 1e-14 * volume;
     // Enough candidates, of curved shapes with many pieces not all.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/points/moment_fitting.h>
 #include <moraine/points/seeding.h>
+
+#include <moraine/points/moment_fitting.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -251,7 +252,7 @@ namespace moraine
     for (const unsigned int n : {1, 3, 9})
       {
         std::vector<SignedPiece<dim>> pieces;
-        const CellSeeder<dim> grid(n, PointLayout::equal);
+        const CellSeeder<dim>         grid(n, PointLayout::equal);
         for (unsigned int q = 0; q < grid.rule.size(); ++q)
           shape.add_pieces(ConvexPolytope<dim>(grid.sub_cell(cell, q)),
                            1.,

@@ -147,6 +147,24 @@ namespace moraine
 
 
 
+    /** Run @p command with the input file, to which its mistakes belong. */
+    template <class Command>
+    int
+    with_input(const Arguments &arguments, const Command &command)
+    {
+      const InputFile input = read_input(arguments);
+      try
+        {
+          return command(input);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(input.located(error.what()));
+        }
+    }
+
+
+
     int
     run_study(const Arguments &arguments, const InputFile &input)
     {
@@ -206,13 +224,14 @@ namespace moraine
           return arguments.command.empty() ? wrong_input : done;
         }
       if (arguments.command == "run" || arguments.command == "check")
-        {
-          const InputFile input = read_input(arguments);
+        return with_input(arguments, [&](const InputFile &input) {
           return dimension_of(input) == 2 ? run_scene<2>(arguments, input) :
                                             run_scene<3>(arguments, input);
-        }
+        });
       if (arguments.command == "study")
-        return run_study(arguments, read_input(arguments));
+        return with_input(arguments, [&](const InputFile &input) {
+          return run_study(arguments, input);
+        });
       if (arguments.command == "parameters")
         {
           if (root)

@@ -91,7 +91,8 @@ namespace moraine
           << "Written by `moraine parameters --dimension " << dim
           << "`. A heading is the path of a section; `<name>` is any name "
              "you like.\nUnits are yours: length, stress, time and mass have "
-             "to fit each other.\n";
+             "to fit each other.\nSection `Constants` holds names of your own: "
+             "with `set h = 0.2` there, `$h` in any value stands for 0.2.\n";
       print_section(tree, "", out);
     }
   } // namespace

@@ -4,7 +4,6 @@
 #include <moraine/run/scene.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
 
 #include <algorithm>
@@ -51,7 +50,8 @@ namespace moraine
       empty_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
       "of the material's. It acts on the increment of a step and holds nodes "
-      "that too few points touch; 0: none, 1e-4: enough for most.",
+      "that too few points touch. 0: none, until a matrix is singular; then "
+      "1e-6 from that step on, and the run says so.",
       patterns::non_negative());
   }
 
@@ -112,11 +112,12 @@ namespace moraine
     prm.add_parameter("Translation",
                       translation,
                       "Motion of the surface and of the material it holds "
-                      "(length), dim expressions in t separated by ';'.");
+                      "(length), dim expressions in t or tables 't: d, t: d, "
+                      "...' separated by ';'.");
     prm.add_parameter(
       "Rotation angle",
       rotation_angle,
-      "Rotation of the surface (degrees), an expression in t. A "
+      "Rotation of the surface (degrees), an expression in t or a table. A "
       "constant places the surface; a change moves it.");
     prm.add_parameter("Rotation centre",
                       rotation_centre,
@@ -362,79 +363,6 @@ namespace moraine
         "choices {{a|b}} if wanted. A '*' stands for every name.");
     });
     prm.leave_subsection();
-  }
-
-
-
-  template <int dim>
-  void
-  Scene<dim>::check(const InputFile &input) const
-  {
-    for (const char *key : {"Lower corner", "Upper corner"})
-      input.require("Mesh", key);
-    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
-      throw InputError(place("Mesh", "Cell size") + ": found '" +
-                       input.get("Mesh", "Cell size", "") +
-                       "', allowed: a number > 0");
-    mesh.n_cells();
-    time.check();
-    const auto reject = [](const std::string &section,
-                           const std::string &key,
-                           const std::string &found,
-                           const std::string &allowed) {
-      throw InputError(place(section, key) + ": found '" + found +
-                       "', allowed: " + allowed);
-    };
-    if (bodies.empty())
-      throw InputError("section 'Bodies': found no body, allowed: at least one "
-                       "subsection with a shape");
-    if (materials.empty())
-      throw InputError("section 'Materials': found no material, allowed: at "
-                       "least one subsection");
-    std::vector<std::string> material_names;
-    for (const auto &material : materials)
-      {
-        material_names.push_back(material.first);
-        for (const char *key : {"Young modulus", "Poisson ratio"})
-          input.require("Materials/" + material.first, key);
-        make_material(material.second, "Materials/" + material.first);
-      }
-    for (const auto &[name, body] : bodies)
-      if (!body.point_grid.empty() &&
-          (body.shape.shape != "box" || body.point_grid.size() != dim))
-        reject("Bodies/" + name,
-               "Point grid",
-               input.get("Bodies/" + name, "Point grid", ""),
-               std::to_string(dim) + " numbers, of a box");
-    for (const auto &[name, body] : bodies)
-      if (body.material.empty() ?
-            materials.size() > 1 :
-            std::find(material_names.begin(),
-                      material_names.end(),
-                      body.material) == material_names.end())
-        reject("Bodies/" + name,
-               "Material",
-               body.material,
-               "the name of a material" +
-                 suggest(body.material, material_names));
-    if (method.degree == 2 && !method.is_finite_element())
-      reject("Method",
-             "Degree",
-             "2",
-             "1 with method '" + method.method + "'; 2 with 'finite element'");
-    if (method.is_finite_element() && method.mesh_after_step == "reset")
-      reject("Method",
-             "Mesh after step",
-             "reset",
-             "follow material or keep with finite elements, whose points stay "
-             "in their cells");
-    if (method.method == "GIMP" && method.mesh_after_step == "follow material")
-      reject("Method",
-             "Mesh after step",
-             "follow material",
-             "reset or keep with GIMP, which needs a regular mesh");
-    for (const auto &probe : probes)
-      probe.check();
   }
 
 

@@ -77,23 +77,19 @@ namespace moraine
       std::array<Curve, dim> translation;
       if (!parameters.translation.empty())
         {
-          const auto expression =
-            std::make_shared<Expression<dim>>(parameters.translation,
-                                              place(section, "Translation"),
-                                              dim);
+          const auto curves = time_curves(parameters.translation,
+                                          place(section, "Translation"),
+                                          dim);
           for (unsigned int d = 0; d < dim; ++d)
-            translation[d] = [expression, d](const double t) {
-              return expression->value(Point<dim>(), t, d);
+            translation[d] = [curve = curves[d]](const double t) {
+              return curve.value(t);
             };
         }
       Curve angle;
       if (!parameters.rotation_angle.empty())
-        {
-          const auto curve =
-            std::make_shared<TimeCurve>(parameters.rotation_angle,
-                                        place(section, "Rotation angle"));
-          angle = [curve](const double t) { return curve->value(t); };
-        }
+        angle = [curve = TimeCurve(parameters.rotation_angle,
+                                   place(section, "Rotation angle"))](
+                  const double t) { return curve.value(t); };
       Point<dim> centre;
       if (!parameters.rotation_centre.empty())
         centre = to_point<dim>(parameters.rotation_centre,

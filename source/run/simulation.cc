@@ -25,6 +25,17 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Holds nodes that too few points touch; changes nothing else. */
+    constexpr double automatic_empty_stiffness = 1e-6;
+
+    /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
+    constexpr double largest_empty_share = 1e-3;
+  } // namespace
+
+
+
   template <int dim>
   void
   Simulation<dim>::describe()
@@ -132,9 +143,10 @@ namespace moraine
       }
     catch (const InputError &error)
       {
-        end_if_alone(wrong_input, error.what());
-        keep_summary_of_failure(time, error.what());
-        throw;
+        const InputError located(input.located(error.what()));
+        end_if_alone(wrong_input, located.what());
+        keep_summary_of_failure(time, located.what());
+        throw located;
       }
     catch (const ComputationError &error)
       {
@@ -183,14 +195,20 @@ namespace moraine
         const NewtonReport report = newton.solve(*system, *linear_solver, x);
         newton_iterations += report.iterations;
         linear_iterations += report.linear_iterations;
-        condition_number   = std::max(condition_number, report.condition_number);
-        solver_name        = report.linear_solver;
+        condition_number = std::max(condition_number, report.condition_number);
+        solver_name      = report.linear_solver;
         std::string reason = report.message;
         bool        good   = report.converged();
         if (report.status == NewtonStatus::linear_solver_failed &&
-            scene.method.empty_stiffness == 0)
-          reason += " (nodes that too few points touch can be the cause; "
-                    "'Empty stiffness = 1e-6' in section 'Method' holds them)";
+            solver_name.rfind("direct", 0) == 0 && hold_empty_parts(reason))
+          continue;
+        if (good && holds_empty_parts &&
+            system->share_of_empty_parts() > largest_empty_share)
+          {
+            good   = false;
+            reason = "what points leave empty would carry the load: too few "
+                     "points in the cells, or a body that is not held";
+          }
         if (good && system->worst_penetration_over_limit(x) > 1)
           {
             good   = false;
@@ -214,6 +232,30 @@ namespace moraine
     last_increments = state->nodal_increments();
     reports         = system->accept(x);
     write_results(time, scene.output.times.due(time));
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::hold_empty_parts(const std::string &reason)
+  {
+    if (holds_empty_parts || scene.method.empty_stiffness > 0)
+      return false;
+    LA::Vector x;
+    system->initial_guess(x);
+    system->assemble(x, true);
+    system->check_that_it_is_held(false);
+    holds_empty_parts = true;
+    system->stiffen_empty_parts(automatic_empty_stiffness);
+    effects.push_back("stiffness of empty parts");
+    console << "  note: " << reason
+            << ": too few points touch some nodes; from here on empty parts of "
+               "cells have "
+            << automatic_empty_stiffness
+            << " of the material's stiffness (Method / Empty stiffness)"
+            << std::endl;
+    return true;
   }
 
 

@@ -7,6 +7,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
+#include <moraine/output/grid_evaluation.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
 
@@ -90,14 +91,18 @@ namespace moraine
   {
     const double size =
       (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
-    for (auto &boundary : boundaries)
-      for (unsigned int step = 1; step <= scene.time.n_steps; ++step)
-        boundary.set_target(scene.time.start_time + step * size);
+    for (unsigned int step = 1; step <= scene.time.n_steps; ++step)
+      {
+        const double t = scene.time.start_time + step * size;
+        for (auto &boundary : boundaries)
+          boundary.set_target(t);
+        system->check_prescribed_values(t);
+      }
   }
 
 
 
-  /** A weight of nothing is a mistake, not a load. */
+  /** A weight of nothing is a mistake, not a load; so is a push on nothing. */
   template <int dim>
   void
   Simulation<dim>::check_loads() const
@@ -110,6 +115,19 @@ namespace moraine
                            "': found gravity on body '" + bodies[b].name +
                            "', whose material has no 'Density', allowed: "
                            "bodies with a density > 0");
+    for (const auto &traction : loads.side_tractions)
+      {
+        unsigned int n_faces = 0;
+        for (const auto &cell : mesh->triangulation().active_cell_iterators())
+          if (cell->at_boundary() && space->is_active(cell))
+            for (const auto &face : cell->face_iterators())
+              n_faces +=
+                face->at_boundary() && face->boundary_id() == traction.side;
+        if (n_faces == 0)
+          throw InputError("section 'Loads/" + traction.name +
+                           "': found a side of the mesh without a body beside "
+                           "it, allowed: a side that a body touches");
+      }
   }
 
 
@@ -175,6 +193,8 @@ namespace moraine
     check_prescribed_motion();
     check_loads();
     check_sides_of_boundaries();
+    probes->check_places(
+      grid_evaluation<dim>(*space, state->nodal_increments()));
     const ExactSolution<dim> exact = scene.exact.solution();
     if (exact.displacement || exact.stress)
       error_norms(*points, exact, scene.time.end_time, false);

@@ -366,7 +366,7 @@ namespace moraine
     catch (const InputError &error)
       {
         summary.status  = "wrong input";
-        summary.message = error.what();
+        summary.message = study_case.input.located(error.what());
       }
     catch (const ComputationError &error)
       {
@@ -441,8 +441,8 @@ namespace moraine
   void
   Study::print_table() const
   {
-    const auto   paths = choice_paths(cases);
-    const bool   conditioned =
+    const auto paths = choice_paths(cases);
+    const bool conditioned =
       std::any_of(results.begin(), results.end(), [](const auto &result) {
         return result.summary.condition_number.has_value();
       });

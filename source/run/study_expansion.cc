@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/exceptions.h>
 #include <moraine/run/study_expansion.h>
+
+#include <moraine/core/exceptions.h>
 
 #include <deal.II/base/utilities.h>
 

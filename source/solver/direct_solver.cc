@@ -159,7 +159,8 @@ namespace moraine
   {
     const SilenceErrors silence;
     factors->problem.SetLHS(&x.trilinos_vector());
-    factors->problem.SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
+    factors->problem.SetRHS(
+      const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
     return factors->solver->Solve() == 0;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/solver/linear_solver.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <deal.II/base/timer.h>
@@ -10,7 +12,6 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <moraine/solver/direct_solver.h>
-#include <moraine/solver/linear_solver.h>
 
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
@@ -131,11 +132,11 @@ namespace moraine
 
     const LinearSolverParameters                       parameters;
     const unsigned int                                 dim;
-    unsigned int                                       n_set_ups      = 0;
-    double                                             set_up_seconds = 0;
-    double                                             solve_seconds  = 0;
+    unsigned int                                       n_set_ups         = 0;
+    double                                             set_up_seconds    = 0;
+    double                                             solve_seconds     = 0;
     double                                             condition_seconds = 0;
-    const LA::SparseMatrix                            *matrix         = nullptr;
+    const LA::SparseMatrix                            *matrix = nullptr;
     Method                                             method = Method::direct;
     bool                                               is_finite = true;
     std::string                                        fall_back_reason;

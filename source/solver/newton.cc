@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/solver/newton.h>
+
 #include <deal.II/base/parameter_handler.h>
 
-#include <moraine/solver/newton.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/time/time_control.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/time/time_control.h>
 
 #include <algorithm>
 #include <cmath>

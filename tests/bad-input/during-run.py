@@ -19,7 +19,7 @@ def message(output):
              if line.startswith("moraine: ") or "ended early" in line]
     # Which of several places comes first depends on the ranks.
     return re.sub(r"is -?nan, (.*) at \([^()]*\)", r"is nan, \1 at (...)",
-                  " | ".join(lines).replace(str(folder) + "/", ""))
+                  plain(" | ".join(lines)))
 
 
 def show(name, result):
@@ -41,6 +41,11 @@ def nothing_written(name, result):
 
 nothing_written("motion that is no number at t = 0.5", run(
     scene, {"Boundaries/left/Translation": "0.001/(t-0.5); 0"}, expect=2))
+nothing_written("grid condition that is no number later", run(
+    scene, {"Grid conditions/foot/Lower corner": "0, 0",
+            "Grid conditions/foot/Upper corner": "2, 2",
+            "Grid conditions/foot/Displacement": "0; sqrt(0.6-t)-sqrt(0.6)"},
+    expect=2))
 nothing_written("displacement that is no number at a place", run(
     scene, {"Boundaries/left/Displacement": "0; 0.001*t*log(t>0.6 ? y-100 : 1)"}, expect=2))
 show("load that is no number", run(

@@ -15,7 +15,7 @@ def message(result):
     """What is on stderr: the lines that begin with the program's name."""
     lines = [line for line in result.output.splitlines()
              if line.startswith("moraine: ")]
-    return " | ".join(lines).replace(str(folder) + "/", "")
+    return plain(" | ".join(lines))
 
 
 first = run(scene)

@@ -17,7 +17,7 @@ def refused(name, content):
         "Bodies/block/Lower corner": "", "Bodies/block/Upper corner": "",
         "Bodies/block/Point file": file}, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
-    text(name, " | ".join(lines).replace(str(folder) + "/", ""))
+    text(name, plain(" | ".join(lines)))
     if result.folder.exists():
         text(name, "NO, a folder was made")
 

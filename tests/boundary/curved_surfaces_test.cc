@@ -119,7 +119,7 @@ TEST(LevelSetSurface, CircleByTheGenerator)
 {
   // errors of the length with 2 and 3 points; they fall with the cell size
   const ExpressionSurface<2> circle(
-    "(3.3^2 - (x - 5.03)^2 - (y - 4.96)^2)/(2*3.3)");
+    "(3.3^2 - (x - 5.03)^2 - (y - 4.96)^2)/(2*3.3)", "here");
   const double exact  = 2. * pi * 3.3;
   const auto   coarse = box_cells<2>(10, 10., 0.),
              fine     = box_cells<2>(40, 10., 0.),
@@ -166,8 +166,8 @@ TEST(Cylinder, Area)
 TEST(ExpressionSurface, AgreesWithTheCircle)
 {
   const std::string          text = "3.3 - sqrt((x-5.03)^2 + (y-4.96)^2)";
-  const ExpressionSurface<2> circle(text),
-    half(text, BoundingBox<2>({{0., 4.96}, {10., 10.}}));
+  const ExpressionSurface<2> circle(text, "here"),
+    half(text, "here", BoundingBox<2>({{0., 4.96}, {10., 10.}}));
   const auto cells = box_cells<2>(10, 10., 0.);
   EXPECT_LT(relative_error<2>(circle, cells, 3, 2. * pi * 3.3), 2e-6);
   EXPECT_LT(relative_error<2>(half, cells, 3, pi * 3.3), 2e-6);
@@ -180,8 +180,11 @@ TEST(ExpressionSurface, AgreesWithTheCircle)
   EXPECT_NEAR(hessian[0][0], 0., 1e-7);
   EXPECT_NEAR(hessian[1][1], -1. / 3., 1e-7);
   EXPECT_NEAR(hessian[0][1], 0., 1e-7);
-  EXPECT_THROW(ExpressionSurface<2>("x + "), InputError);
-  EXPECT_THROW(ExpressionSurface<2>("x + z"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + ", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + z", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + t", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("sqrt(x)", "here").level({-1., 0.}),
+               InputError);
 }
 
 TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
@@ -190,7 +193,8 @@ TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
   for (const double sign : {-1., 1.})
     {
       const ExpressionSurface<2> line((sign > 0. ? "" : "-") +
-                                      std::string("(3*y - 1.5)"));
+                                        std::string("(3*y - 1.5)"),
+                                      "here");
       double                     sum = 0.;
       for (const auto &cell : box_cells<2>(4, 1., 0.))
         {

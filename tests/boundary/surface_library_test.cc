@@ -113,8 +113,9 @@ TEST(SurfaceLibrary, MistakesAreNamed)
     "a value, needed by a circle");
   EXPECT_EQ(
     complaint<2>("set Surface = expression\nset Expression = x +"),
-    "section 'Boundaries/left', the expression 'x +' cannot be read as a "
-    "function of x,y");
+    "section 'Boundaries/left', key 'Expression': found 'x +': Unexpected end "
+    "of expression at position 4. Allowed: an expression in x,y with the "
+    "constant pi");
   EXPECT_EQ(
     complaint<2>(
       "set Surface = expression\nset Expression = x\n"

@@ -74,7 +74,7 @@ TEST(Expression, Mistakes)
     << mistake("x; 3*", 2);
   EXPECT_EQ(mistake("1,5"),
             start + "'1,5', which has 2 components. Allowed: an expression in "
-                    "x,y,t with the constants pi");
+                    "x,y,t with the constant pi");
 }
 
 TEST(Expression, NotANumber)
@@ -109,6 +109,26 @@ TEST(TimeCurve, Tables)
   EXPECT_DOUBLE_EQ(f.value(2), 1.5);
   EXPECT_EQ(f.value(3), 0.5);
   EXPECT_EQ(f.value(9), 0.5);
+}
+
+TEST(TimeCurve, OneForEachComponent)
+{
+  const auto tables = moraine::time_curves("0: 0, 2: 4; 0: 1, 1: 3", here, 2);
+  EXPECT_DOUBLE_EQ(tables[0].value(1.), 2.);
+  EXPECT_DOUBLE_EQ(tables[1].value(0.5), 2.);
+  const auto mixed = moraine::time_curves("max(0, t) ; 0: 0, 1: 3", here, 2);
+  EXPECT_DOUBLE_EQ(mixed[0].value(-1.), 0.);
+  EXPECT_DOUBLE_EQ(mixed[1].value(0.5), 1.5);
+  EXPECT_DOUBLE_EQ(moraine::time_curves("t, 2*t", here, 2)[1].value(3.), 6.);
+  EXPECT_THROW(moraine::time_curves("t", here, 2), InputError);
+  EXPECT_THROW(moraine::time_curves("0: 0, 1: 3", here, 2), InputError);
+  EXPECT_THROW(moraine::time_curves("t; 1; 2", here, 2), InputError);
+}
+
+TEST(Expression, WithoutTime)
+{
+  EXPECT_EQ(Expression<2>("x - y", here, 1, {}, false).value({3, 1}), 2.);
+  EXPECT_THROW(Expression<2>("x - t", here, 1, {}, false), InputError);
 }
 
 TEST(TimeCurve, Mistakes)

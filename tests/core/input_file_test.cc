@@ -125,6 +125,22 @@ TEST(InputFile, Overrides)
     EXPECT_THROW(file.apply_override(bad), InputError) << bad;
 }
 
+TEST(InputFile, LocatesMessages)
+{
+  InputFile file = InputFile::from_text("f.prm", good);
+  EXPECT_EQ(file.located("section 'Mesh', key 'Cell size': is odd"),
+            "f.prm:4: section 'Mesh', key 'Cell size': is odd");
+  EXPECT_EQ(file.located("section 'Mesh', key 'Colour': is not there"),
+            "f.prm:3: section 'Mesh', key 'Colour': is not there");
+  EXPECT_EQ(file.located("section 'Loads': nothing"),
+            "f.prm: section 'Loads': nothing");
+  EXPECT_EQ(file.located("the disk is full"), "the disk is full");
+  file.apply_override("Mesh/Cell size = 7");
+  EXPECT_EQ(file.located("section 'Mesh', key 'Cell size': is odd"),
+            "--set 'Mesh/Cell size = 7': section 'Mesh', key 'Cell size': is "
+            "odd");
+}
+
 TEST(InputFile, WithValueKeepsTheLine)
 {
   const InputFile file = InputFile::from_text("f.prm", good).with_value(1, "x");

@@ -4,10 +4,9 @@
 
 """
 Every header below include/moraine has a guard named after its path and, if a
-source mirrors it, is included by that source; no header hides in source/.
-
-That headers need no other header before them is shown by the Debug build:
-see CMakeLists.txt beside this file.
+source mirrors it, is what that source includes first, which shows that it needs
+no other header before it; no header hides in source/. For headers without such a
+source see CMakeLists.txt beside this file.
 """
 
 import re
@@ -29,9 +28,10 @@ def check(root):
             complaints.append(f"{relative}: the guard must be {guard}")
         source = root / "source" / relative.relative_to("moraine")
         source = source.with_suffix(".cc")
-        if source.is_file() and name not in INCLUDE.findall(source.read_text()):
+        if source.is_file() and \
+                INCLUDE.findall(source.read_text())[:1] != [name]:
             complaints.append(f"{source.relative_to(root)}: does not include "
-                              f"{name}")
+                              f"{name} first")
     for path in meta.files(root, ["source"], {".h"}):
         if path.relative_to(root).as_posix() != "source/precompiled.h":
             complaints.append(f"{path.relative_to(root)}: headers belong below "
@@ -50,6 +50,8 @@ FAULTS = [
     {"include/moraine/core/b.h": GUARDED},
     {"include/moraine/core/b.h": "#pragma once\n"},
     {"source/core/a.cc": "#include <moraine/core/b.h>\n"},
+    {"source/core/a.cc": "#include <moraine/core/b.h>\n"
+                         "#include <moraine/core/a.h>\n"},
     {"source/core/hidden.h": GUARDED},
 ]
 

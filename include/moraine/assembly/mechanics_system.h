@@ -128,6 +128,18 @@ namespace moraine
     bool
     augment(const LA::Vector &x) override;
 
+    /**
+     * Give what points leave empty this fraction of the material's stiffness
+     * from this step on, after begin_step().
+     */
+    void
+    stiffen_empty_parts(const double fraction);
+
+    /** Norm of the forces of empty parts over that of all, as assembled last.
+     */
+    double
+    share_of_empty_parts() const;
+
     /** Whether cells or couplings changed at the last begin_step(). */
     bool
     coupling_changed() const
@@ -142,6 +154,13 @@ namespace moraine
     /** Number of nodes that each grid condition holds, over all ranks. */
     std::vector<unsigned int>
     n_prescribed_nodes() const;
+
+    /**
+     * Ask every grid condition for its value at @p t, at one of its nodes.
+     * @throws InputError if that is not a number.
+     */
+    void
+    check_prescribed_values(const double t) const;
 
   private:
     void
@@ -209,17 +228,17 @@ namespace moraine
     const std::vector<std::string>         body_names;
     dealii::TimerOutput                    unused_timer;
     dealii::TimerOutput                   &timer;
-    const double                           empty_stiffness;
+    double                                 empty_stiffness;
     /** Cells of this rank that points do not fill, and what is left of them. */
     std::vector<std::pair<typename GridSpace<dim>::CellIterator, double>>
                                                  empty_volume;
     std::vector<std::unique_ptr<PointTerm<dim>>> point_terms;
-    std::vector<unsigned int>                      body_of_cell;
-    PrescribedNodes<dim>                           prescribed;
-    dealii::AffineConstraints<double>              constraints;
-    LA::SparseMatrix                               matrix;
-    LA::Vector                                     residual_vector;
-    LA::Vector                                     external;
+    std::vector<unsigned int>                    body_of_cell;
+    PrescribedNodes<dim>                         prescribed;
+    dealii::AffineConstraints<double>            constraints;
+    LA::SparseMatrix                             matrix;
+    LA::Vector                                   residual_vector;
+    LA::Vector                                   external;
     /** The residual with the forces that grid conditions take. */
     LA::Vector unbalanced;
     /** Where residual and unbalanced forces were assembled last, if at all. */
@@ -230,6 +249,7 @@ namespace moraine
     double                              scale          = 0;
     double                              external_scale = 0;
     double                              local_scale    = 0;
+    double                              empty_scale    = 0;
     double                              t_start        = 0;
     double                              t_target       = 0;
     double                              reach          = 0;

@@ -5,8 +5,7 @@
 #define moraine_boundary_curved_surfaces_h
 
 #include <moraine/boundary/level_set_surface.h>
-
-#include <deal.II/base/function_parser.h>
+#include <moraine/core/expression.h>
 
 #include <string>
 
@@ -107,14 +106,17 @@ namespace moraine
    * if one is given. Gradient and Hessian are central differences (errors about
    * 1e-9 and 1e-7 relative to φ's variation over a cell).
    *
-   * Throws InputError if the text cannot be read.
+   * Throws InputError if the text cannot be read, and where φ is not a finite
+   * number.
    */
   template <int dim>
   class ExpressionSurface : public LevelSetSurface<dim>
   {
   public:
-    explicit ExpressionSurface(
+    /** @p place: where the text stands, for messages. */
+    ExpressionSurface(
       const std::string              &expression,
+      const std::string              &place,
       const dealii::BoundingBox<dim> &extent = unlimited_box<dim>());
 
     double
@@ -146,8 +148,8 @@ namespace moraine
     double
     length_near(const dealii::Point<dim> &x) const;
 
-    dealii::FunctionParser<dim> function;
-    dealii::BoundingBox<dim>    box;
+    Expression<dim>          function;
+    dealii::BoundingBox<dim> box;
   };
 } // namespace moraine
 

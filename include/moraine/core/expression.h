@@ -21,10 +21,10 @@ namespace dealii
 namespace moraine
 {
   /**
-   * A function of place and time given as text in muParser syntax, with the
-   * variables x, y (, z), t and the constant pi. Several components are
-   * separated by ';' or ',' outside brackets. Copies share the compiled text;
-   * not for use by several threads at once.
+   * A function of place, and time if wanted, given as text in muParser syntax,
+   * with the variables x, y (, z), t and the constant pi. Several components
+   * are separated by ';' or ',' outside brackets. Copies share the compiled
+   * text; not for use by several threads at once.
    */
   template <int dim>
   class Expression
@@ -36,12 +36,14 @@ namespace moraine
      * exceptions.h
      * @param n_components how many there must be
      * @param constants further names with their values
+     * @param with_time whether the text may name t
      * @throw InputError if the text cannot be understood
      */
     Expression(const std::string                   &text,
                const std::string                   &place,
                const unsigned int                   n_components = 1,
-               const std::map<std::string, double> &constants    = {});
+               const std::map<std::string, double> &constants    = {},
+               const bool                           with_time    = true);
 
     /**
      * One component at place @p p and time @p t.
@@ -59,6 +61,7 @@ namespace moraine
   private:
     std::string              expression_text;
     std::string              origin;
+    bool                     with_time;
     std::vector<std::string> components;
 
     /** Values of the components, if all are plain numbers; else empty. */
@@ -98,6 +101,17 @@ namespace moraine
     mutable double last_time  = std::numeric_limits<double>::quiet_NaN();
     mutable double last_value = 0;
   };
+
+
+  /**
+   * @p n curves separated by ';', or by ',' outside brackets if none of them
+   * is a table.
+   * @throw InputError as for one, and for another number of them.
+   */
+  std::vector<TimeCurve>
+  time_curves(const std::string &text,
+              const std::string &place,
+              const unsigned int n);
 } // namespace moraine
 
 #endif

@@ -54,6 +54,7 @@ namespace moraine
      * Apply `--set "Section/Sub/Key = value"`: replaces the value where the key
      * is set, else adds it. A section "*" stands for every name there is in its
      * place. Whether the key exists is judged by parse().
+     * @throw InputError for a text that is no setting.
      */
     void
     apply_override(const std::string &setting);
@@ -89,6 +90,14 @@ namespace moraine
     /** Names of the subsections directly in @p section, in order. */
     std::vector<std::string>
     names_in(const std::string &section) const;
+
+    /**
+     * A message that begins by naming a section or key, with its place in
+     * front: "scene.prm:12: ...", or the file alone if it does not stand there.
+     * Other messages stay as they are.
+     */
+    std::string
+    located(const std::string &message) const;
 
     /** Name given or path read. */
     const std::string &

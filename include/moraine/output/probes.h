@@ -65,6 +65,14 @@ namespace moraine
            const bool                               moves_through_mesh);
 
     /**
+     * @p on_material finds a place on the mesh that bodies cover. Collective.
+     * @throws InputError for an interpolated probe beside it, and for a point
+     * more than two cells away from the location.
+     */
+    void
+    check_places(const PlaceFunction<dim> &on_material) const;
+
+    /**
      * Add up the accepted step of the interpolated probes, to be called once
      * for each. Collective.
      *
@@ -89,6 +97,7 @@ namespace moraine
       ProbeParameters<dim>   parameters;
       dealii::Point<dim>     start;
       unsigned int           point_id = 0;
+      double                 distance = 0; ///< of the point that is followed
       dealii::Tensor<1, dim> displacement;
 
       bool
@@ -103,6 +112,7 @@ namespace moraine
     gather_points(const PointSet<dim> &points) const;
 
     std::vector<Probe> probes;
+    double             cell_size;
     bool               moves_through_mesh;
   };
 } // namespace moraine

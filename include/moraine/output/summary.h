@@ -37,9 +37,9 @@ namespace moraine
     unsigned int  linear_iterations = 0;
     /** Left out if not asked for. */
     std::optional<double> condition_number;
-    unsigned int  bytes_per_point   = 0;
-    double        peak_memory_mib   = 0;
-    double        wall_seconds      = 0;
+    unsigned int          bytes_per_point = 0;
+    double                peak_memory_mib = 0;
+    double                wall_seconds    = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */

@@ -188,6 +188,9 @@ namespace moraine
     void
     check(const InputFile &input) const;
 
+    void
+    check_bodies(const InputFile &input) const;
+
     unsigned int             dimension = dim;
     dealii::ParameterHandler prm;
   };

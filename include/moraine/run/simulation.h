@@ -83,6 +83,15 @@ namespace moraine
     void
     advance(TimeControl &time);
 
+    /**
+     * A matrix that cannot be factorised, because too few points touch some
+     * nodes: give empty parts of cells a stiffness from now on.
+     * @return whether that is new.
+     * @throw ComputationError if a body is not held.
+     */
+    bool
+    hold_empty_parts(const std::string &reason);
+
     /** A row of history.csv and the VTU files that are due. */
     void
     write_results(const TimeControl &time, const bool due);
@@ -149,7 +158,8 @@ namespace moraine
     unsigned int                        linear_iterations = 0;
     std::optional<double>               condition_number;
     std::string                         solver_name;
-    bool                                first_step = true;
+    bool                                first_step        = true;
+    bool                                holds_empty_parts = false;
   };
 
 } // namespace moraine

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// The part of Scene that finds what cannot be right, as far as the text tells.
+
+#include <moraine/run/scene.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/nearest.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    [[noreturn]] void
+    reject(const std::string &section,
+           const std::string &key,
+           const std::string &found,
+           const std::string &allowed)
+    {
+      throw InputError(place(section, key) + ": found '" + found +
+                       "', allowed: " + allowed);
+    }
+
+
+
+    bool
+    is_one_of(const std::string &word, const std::vector<std::string> &words)
+    {
+      return std::find(words.begin(), words.end(), word) != words.end();
+    }
+
+
+
+    /** Whether loads of this type look at the key. */
+    bool
+    load_uses(const std::string &type, const std::string &key)
+    {
+      const bool is_of_surface =
+        !is_one_of(key,
+                   {"Type", "Value", "Curve", "Bodies", "Side", "Location"});
+      return is_one_of(key, {"Type", "Value", "Curve"}) ||
+             (type == "body force" && key == "Bodies") ||
+             (type == "gravity" && key == "Bodies") ||
+             (type == "side traction" && key == "Side") ||
+             (type == "point force" && key == "Location") ||
+             (type == "surface traction" && is_of_surface);
+    }
+
+
+
+    void
+    check_method(const MethodParameters &method)
+    {
+      const std::string &after_step = method.mesh_after_step;
+      if (method.degree == 2 && !method.is_finite_element())
+        reject("Method",
+               "Degree",
+               "2",
+               "1 with method '" + method.method +
+                 "'; 2 with 'finite element'");
+      if (method.is_finite_element() && after_step == "reset")
+        reject("Method",
+               "Mesh after step",
+               after_step,
+               "follow material or keep with finite elements, whose points "
+               "stay in their cells");
+      if (method.method == "GIMP" && after_step == "follow material")
+        reject("Method",
+               "Mesh after step",
+               after_step,
+               "reset or keep with GIMP, which needs a regular mesh");
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check(const InputFile &input) const
+  {
+    for (const char *key : {"Lower corner", "Upper corner"})
+      input.require("Mesh", key);
+    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
+      reject("Mesh",
+             "Cell size",
+             input.get("Mesh", "Cell size", ""),
+             "a number > 0");
+    mesh.n_cells();
+    time.check();
+    check_bodies(input);
+    check_method(method);
+    for (const auto &[name, load] : loads)
+      for (const auto &entry : input.entries())
+        if (entry.section == "Loads/" + name && !entry.value.empty() &&
+            !load_uses(load.type, entry.key))
+          reject(entry.section,
+                 entry.key,
+                 entry.value,
+                 "nothing; a " + load.type + " has no such key");
+    for (const auto &[name, boundary] : boundaries)
+      if (!boundary.components.empty() && boundary.constraint != "components")
+        reject("Boundaries/" + name,
+               "Components",
+               boundary.components,
+               "nothing; key 'Constraint' is '" + boundary.constraint + "'");
+    for (const auto &probe : probes)
+      probe.check();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check_bodies(const InputFile &input) const
+  {
+    if (bodies.empty())
+      throw InputError("section 'Bodies': found no body, allowed: at least one "
+                       "subsection with a shape");
+    if (materials.empty())
+      throw InputError("section 'Materials': found no material, allowed: at "
+                       "least one subsection");
+    std::vector<std::string> material_names;
+    for (const auto &[name, material] : materials)
+      {
+        material_names.push_back(name);
+        for (const char *key : {"Young modulus", "Poisson ratio"})
+          input.require("Materials/" + name, key);
+        make_material(material, "Materials/" + name);
+      }
+    for (const auto &[name, body] : bodies)
+      {
+        const std::string section = "Bodies/" + name;
+        if (!body.point_grid.empty() &&
+            (body.shape.shape != "box" || body.point_grid.size() != dim))
+          reject(section,
+                 "Point grid",
+                 input.get(section, "Point grid", ""),
+                 std::to_string(dim) + " numbers, of a box");
+        if (body.material.empty() ? materials.size() > 1 :
+                                    !is_one_of(body.material, material_names))
+          reject(section,
+                 "Material",
+                 body.material,
+                 "the name of a material" +
+                   suggest(body.material, material_names));
+      }
+  }
+
+
+
+  template void
+  Scene<2>::check(const InputFile &) const;
+  template void
+  Scene<3>::check(const InputFile &) const;
+} // namespace moraine
