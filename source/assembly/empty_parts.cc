@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace moraine
@@ -43,11 +44,13 @@ namespace moraine
 
 
   template <int dim>
-  void
+  bool
   MechanicsSystem<dim>::stiffen_empty_parts(const double fraction)
   {
     empty_stiffness = fraction;
     find_empty_parts();
+    return Utilities::MPI::logical_or(!empty_volume.empty(),
+                                      state.grid().communicator());
   }
 
 
@@ -58,7 +61,9 @@ namespace moraine
   {
     const double squares =
       Utilities::MPI::sum(empty_scale, state.grid().communicator());
-    return scale > 0 ? std::sqrt(squares) / scale : 0.;
+    // A step may end without any force.
+    const double forces = std::max(scale, scale_at_start);
+    return forces > 0 ? std::sqrt(squares) / forces : 0.;
   }
 
 
@@ -110,7 +115,7 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                                   \
   template void   MechanicsSystem<dim>::find_empty_parts();                \
-  template void   MechanicsSystem<dim>::stiffen_empty_parts(const double); \
+  template bool   MechanicsSystem<dim>::stiffen_empty_parts(const double); \
   template double MechanicsSystem<dim>::share_of_empty_parts() const;      \
   template void   MechanicsSystem<dim>::assemble_empty_parts(const bool);
   INSTANTIATE(2)

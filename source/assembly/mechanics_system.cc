@@ -227,8 +227,9 @@ namespace moraine
   {
     TimerOutput::Scope scope(timer, tangent ? "assembly" : "residual");
     state.set_trial(x);
-    assembled_at = x;
-    assembled    = true;
+    assembled_at             = x;
+    const bool first_of_step = !assembled;
+    assembled                = true;
     if (tangent)
       matrix = 0;
     local_scale = 0;
@@ -245,6 +246,8 @@ namespace moraine
     scale =
       std::sqrt(Utilities::MPI::sum(local_scale, state.grid().communicator()) +
                 external_scale);
+    if (first_of_step)
+      scale_at_start = scale;
   }
 
 

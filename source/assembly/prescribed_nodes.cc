@@ -110,12 +110,15 @@ namespace moraine
   MechanicsSystem<dim>::check_prescribed_values(const double t) const
   {
     std::vector<bool> checked(conditions.size(), false);
+    std::size_t       n_checked = 0;
     for (const auto &entry : prescribed.entries)
       if (!checked[entry.condition])
         {
           conditions[entry.condition].value(
             state.grid().node_position(entry.node), t);
           checked[entry.condition] = true;
+          if (++n_checked == conditions.size())
+            break;
         }
   }
 

@@ -93,8 +93,11 @@ namespace moraine
           if (!space.locally_owned().is_element(dof))
             continue;
           const unsigned int k = part_of_node[node];
-          diagonal[k] += std::abs(matrix.diag_element(dof));
-          ++n_rows[k];
+          if (!constraints.is_constrained(dof))
+            {
+              diagonal[k] += std::abs(matrix.diag_element(dof));
+              ++n_rows[k];
+            }
           for (unsigned int i = 0; i < n_modes; ++i)
             for (unsigned int j = 0; j < n_modes; ++j)
               {
@@ -108,6 +111,8 @@ namespace moraine
 
     for (unsigned int k = 0; k < n_parts; ++k)
       {
+        if (n_rows[k] == 0) // every node is prescribed
+          continue;
         // Smallest Rayleigh quotient: K a = lambda M a with M > 0.
         LAPACKFullMatrix<double> K(n_modes), M(n_modes);
         for (unsigned int i = 0; i < n_modes; ++i)

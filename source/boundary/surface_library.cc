@@ -324,7 +324,8 @@ namespace moraine
     prm.add_parameter("Expression",
                       expression,
                       "A function of x, y and z in muParser syntax, zero on "
-                      "the surface and positive on the body's side.");
+                      "the surface and positive on the body's side. It must be "
+                      "a number wherever there are bodies.");
     prm.add_parameter("Extent lower corner",
                       lower_corner,
                       "Lower corner of the box that limits an expression "

@@ -4,13 +4,13 @@
 #include <moraine/core/expression.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/silent_errors.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
-#include <iostream>
 #include <sstream>
 
 namespace moraine
@@ -19,16 +19,16 @@ namespace moraine
 
   namespace
   {
-    /** Split at ';' and ',' that stand outside all brackets. */
+    /** Split at the separators that stand outside all brackets. */
     std::vector<std::string>
-    split_components(const std::string &text)
+    split(const std::string &text, const std::string &separators)
     {
       std::vector<std::string> parts(1);
       int                      depth = 0;
       for (const char c : text)
         {
           depth += (c == '(') - (c == ')');
-          if (depth == 0 && (c == ';' || c == ','))
+          if (depth == 0 && separators.find(c) != std::string::npos)
             parts.emplace_back();
           else
             parts.back() += c;
@@ -77,28 +77,6 @@ namespace moraine
         }
       return said.substr(0, said.find_last_not_of('.') + 1);
     }
-
-
-
-    /** Keeps deal.II's own lines about a mistake off the terminal. */
-    class SilentErrors
-    {
-    public:
-      SilentErrors()
-        : original(std::cerr.rdbuf(swallowed.rdbuf()))
-      {}
-
-      ~SilentErrors()
-      {
-        std::cerr.rdbuf(original);
-      }
-
-      SilentErrors(const SilentErrors &) = delete;
-
-    private:
-      std::ostringstream swallowed;
-      std::streambuf    *original;
-    };
 
 
 
@@ -169,7 +147,7 @@ namespace moraine
     : expression_text(Utilities::trim(text))
     , origin(place)
     , with_time(with_time)
-    , components(split_components(expression_text))
+    , components(split(expression_text, ";,"))
   {
     const std::string variables =
       FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
@@ -248,7 +226,7 @@ namespace moraine
     const std::string allowed =
       "an expression in t with the constant pi, or a table 'time: value, "
       "time: value, ...' with increasing times";
-    const auto components = split_components(curve_text);
+    const auto components = split(curve_text, ";,");
     check_not_empty(components, curve_text, place, allowed);
 
     if (is_table(curve_text))
@@ -272,7 +250,7 @@ namespace moraine
   void
   TimeCurve::read_table()
   {
-    for (const std::string &pair : split_components(curve_text))
+    for (const std::string &pair : split(curve_text, ";,"))
       {
         const auto colon = pair.find(':');
         double     time = 0, value = 0;
@@ -331,14 +309,15 @@ namespace moraine
               const std::string &place,
               const unsigned int n)
   {
-    const auto parts = text.find(';') != std::string::npos || is_table(text) ?
-                         Utilities::split_string_list(text, ';') :
-                         split_components(text);
+    // Commas separate the rows of a table.
+    const auto parts = is_table(text) ? split(text, ";") : split(text, ";,");
+    const std::string allowed =
+      std::to_string(n) + " expressions in t or tables, separated by ';'";
+    check_not_empty(parts, text, place, allowed);
     if (parts.size() != n)
       throw InputError(place + ": found '" + text + "', which has " +
                        std::to_string(parts.size()) +
-                       " components. Allowed: " + std::to_string(n) +
-                       " expressions in t or tables, separated by ';'");
+                       " components. Allowed: " + allowed);
     std::vector<TimeCurve> curves;
     for (const std::string &part : parts)
       curves.emplace_back(part, place);

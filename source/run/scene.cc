@@ -6,7 +6,6 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace moraine
@@ -50,8 +49,8 @@ namespace moraine
       empty_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
       "of the material's. It acts on the increment of a step and holds nodes "
-      "that too few points touch. 0: none, until a matrix is singular; then "
-      "1e-6 from that step on, and the run says so.",
+      "that too few points touch. 0: none, until the direct solver meets a "
+      "singular matrix; then 1e-6 from that step on, and the run says so.",
       patterns::non_negative());
   }
 

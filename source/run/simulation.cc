@@ -27,7 +27,7 @@ namespace moraine
 
   namespace
   {
-    /** Holds nodes that too few points touch; changes nothing else. */
+    /** Holds nodes that too few points touch. */
     constexpr double automatic_empty_stiffness = 1e-6;
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
@@ -195,13 +195,19 @@ namespace moraine
         const NewtonReport report = newton.solve(*system, *linear_solver, x);
         newton_iterations += report.iterations;
         linear_iterations += report.linear_iterations;
-        condition_number = std::max(condition_number, report.condition_number);
-        solver_name      = report.linear_solver;
+        solver_name        = report.linear_solver;
         std::string reason = report.message;
         bool        good   = report.converged();
-        if (report.status == NewtonStatus::linear_solver_failed &&
-            solver_name.rfind("direct", 0) == 0 && hold_empty_parts(reason))
-          continue;
+        if (report.status == NewtonStatus::linear_solver_failed)
+          {
+            if (solver_name.rfind("direct", 0) == 0 && hold_empty_parts(reason))
+              continue;
+            if (scene.method.empty_stiffness == 0 && !holds_empty_parts)
+              reason += " (nodes that too few points touch can be the cause; "
+                        "'Empty stiffness = 1e-6' in section 'Method' holds "
+                        "them)";
+          }
+        condition_number = std::max(condition_number, report.condition_number);
         if (good && holds_empty_parts &&
             system->share_of_empty_parts() > largest_empty_share)
           {
@@ -246,12 +252,16 @@ namespace moraine
     system->initial_guess(x);
     system->assemble(x, true);
     system->check_that_it_is_held(false);
+    if (!system->stiffen_empty_parts(automatic_empty_stiffness))
+      {
+        system->stiffen_empty_parts(0.);
+        return false;
+      }
     holds_empty_parts = true;
-    system->stiffen_empty_parts(automatic_empty_stiffness);
     effects.push_back("stiffness of empty parts");
     console << "  note: " << reason
-            << ": too few points touch some nodes; from here on empty parts of "
-               "cells have "
+            << ": probably too few points touch some nodes; from here on empty "
+               "parts of cells have "
             << automatic_empty_stiffness
             << " of the material's stiffness (Method / Empty stiffness)"
             << std::endl;

@@ -83,7 +83,7 @@ namespace moraine
 
   /**
    * A motion without a value at the end of a step is found here, before
-   * anything is computed or written.
+   * anything is computed or written; and a surface without a level at a body.
    */
   template <int dim>
   void
@@ -91,13 +91,16 @@ namespace moraine
   {
     const double size =
       (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
-    for (unsigned int step = 1; step <= scene.time.n_steps; ++step)
+    for (unsigned int step = 0; step <= scene.time.n_steps; ++step)
       {
         const double t = scene.time.start_time + step * size;
         for (auto &boundary : boundaries)
           boundary.set_target(t);
         system->check_prescribed_values(t);
       }
+    for (const auto &boundary : boundaries)
+      for (const auto &in_cell : points->cells())
+        boundary.is_far(points->position(in_cell.first), 0.);
   }
 
 

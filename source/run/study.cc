@@ -367,9 +367,11 @@ namespace moraine
       {
         summary.status  = "wrong input";
         summary.message = study_case.input.located(error.what());
+        end_if_alone(wrong_input, summary.message);
       }
     catch (const ComputationError &error)
       {
+        end_if_alone(not_converged, error.what());
         summary.status  = "not converged";
         summary.message = error.what();
       }

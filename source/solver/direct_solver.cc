@@ -3,6 +3,8 @@
 
 #include <moraine/solver/direct_solver.h>
 
+#include <moraine/core/silent_errors.h>
+
 #include <Amesos.h>
 #include <Epetra_LinearProblem.h>
 #include <Epetra_MultiVector.h>
@@ -10,7 +12,6 @@
 
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <random>
 
@@ -42,30 +43,6 @@ namespace moraine
     /** Power iterations end when a step changes a singular value by less. */
     constexpr double       power_tolerance          = 1e-4;
     constexpr unsigned int maximum_power_iterations = 200;
-
-
-
-    /**
-     * Amesos writes its error codes to the terminal whatever its options say;
-     * ours are in the report.
-     */
-    class SilenceErrors
-    {
-    public:
-      SilenceErrors()
-        : buffer(std::cerr.rdbuf(nullptr))
-      {}
-
-      ~SilenceErrors()
-      {
-        std::cerr.rdbuf(buffer);
-      }
-
-      SilenceErrors(const SilenceErrors &) = delete;
-
-    private:
-      std::streambuf *const buffer;
-    };
 
 
 
@@ -146,7 +123,8 @@ namespace moraine
     options.set("PrintTiming", false);
     options.set("PrintStatus", false);
     factors->solver->SetParameters(options);
-    const SilenceErrors silence;
+    // Amesos writes its error codes whatever its options say.
+    const SilentErrors silence;
     if (factors->solver->SymbolicFactorization() != 0 ||
         factors->solver->NumericFactorization() != 0)
       failure = "the factorisation failed; the matrix is singular";
@@ -157,7 +135,7 @@ namespace moraine
   bool
   DirectSolver::back_substitute(LA::Vector &x, const LA::Vector &b)
   {
-    const SilenceErrors silence;
+    const SilentErrors silence;
     factors->problem.SetLHS(&x.trilinos_vector());
     factors->problem.SetRHS(
       const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));

@@ -32,6 +32,8 @@ for name, settings in METHODS.items():
           run("prm/verification/patch-aligned.prm",
               {"Method/Method": "material point", **settings}))
 
-scattered = run("prm/verification/patch-random.prm")
-number("random points, MPM: r_u", scattered.errors["r_u"], 2)
-number("random points, MPM: l2_sigma", scattered.errors["l2_sigma"], 2)
+for method in ("MPM", "GIMP"):
+    scattered = run("prm/verification/patch-random.prm",
+                    {"Method/Method": "GIMP"} if method == "GIMP" else {})
+    number(f"random points, {method}: r_u", scattered.errors["r_u"], 2)
+    number(f"random points, {method}: l2_sigma", scattered.errors["l2_sigma"], 2)

@@ -130,12 +130,15 @@ namespace moraine
 
     /**
      * Give what points leave empty this fraction of the material's stiffness
-     * from this step on, after begin_step().
+     * from this step on, after begin_step(). Collective.
+     * @return whether any part is empty.
      */
-    void
+    bool
     stiffen_empty_parts(const double fraction);
 
-    /** Norm of the forces of empty parts over that of all, as assembled last.
+    /**
+     * Norm of the forces of empty parts, as assembled last, over that of all
+     * forces, then or at the start of the step. Collective.
      */
     double
     share_of_empty_parts() const;
@@ -157,7 +160,7 @@ namespace moraine
 
     /**
      * Ask every grid condition for its value at @p t, at one of its nodes.
-     * @throws InputError if that is not a number.
+     * @throws InputError, perhaps on one rank alone, if that is not a number.
      */
     void
     check_prescribed_values(const double t) const;
@@ -247,6 +250,7 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> node_forces;
     std::vector<LA::Vector>             rigid_modes;
     double                              scale          = 0;
+    double                              scale_at_start = 0;
     double                              external_scale = 0;
     double                              local_scale    = 0;
     double                              empty_scale    = 0;

@@ -28,6 +28,7 @@ namespace moraine
 
     ~DirectSolver();
 
+    /** Solve with iterative refinement; the report says how well. */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
 
