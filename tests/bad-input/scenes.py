@@ -74,3 +74,13 @@ refused("point grid with one number", {block + "Point grid": 4})
 refused("point grid with a zero", {block + "Point grid": "4, 0"})
 refused("point grid outside", {block + "Point grid": "4, 4",
                                block + "Translation": "100, 0"})
+
+# Each part is judged by its own stiffness: this one is held.
+soft = run(scene, {
+    "Materials/soil/Young modulus": 1e6, "Bodies/block/Material": "soil",
+    "Materials/soft/Young modulus": 0.01, "Materials/soft/Poisson ratio": 0.3,
+    "Bodies/second/Material": "soft", "Bodies/second/Shape": "box",
+    "Bodies/second/Lower corner": "6, 0.5", "Bodies/second/Upper corner": "7.5, 4.5",
+    "Boundaries/left/Enforcement": "weighted", "Boundaries/left/Band width": 1e-6,
+    "Boundaries/stop/Points": "6 4.5; 6 0.5", "Loads/weight/Value": "0; -1e-8*t"})
+text("soft body and a stiff band", soft.summary["status"])
