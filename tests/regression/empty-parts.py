@@ -35,6 +35,7 @@ unloaded = run(scene, {**at, "Loads/weight/Value": "0; -0.1",
                        "Loads/weight/Curve": "0: 0, 0.5: 1, 1: 0",
                        "Method/Mesh after step": "keep"})
 text("loaded and unloaded", unloaded.summary["status"])
+text("rejected steps", unloaded.summary["rejected_steps"])
 bound("displacement left over the largest",
       max(map(abs, unloaded.probes.values())) /
       max(abs(step["u_y at top"]) for step in unloaded.history()), 1e-6)

@@ -88,3 +88,12 @@ for settings in ({"Study/Error": "probe u_z at corner"},
                  {"Mesh/Cell size": "10", **settings}, command="study", expect=2)
     message = next(l for l in result.output.splitlines() if "moraine: " in l)
     text("wrong", plain(message[message.index("moraine: "):]))
+
+# A mistake that one of two ranks sees ends the study, whatever the other does.
+alone = run("tests/bad-input/base.prm", {
+    "Mesh/Cell size": "{{1|2}}", "Grid conditions/foot/Lower corner": "0, 0",
+    "Grid conditions/foot/Upper corner": "1, 1",
+    "Grid conditions/foot/Displacement": "0; sqrt(0.6-t)-sqrt(0.6)"},
+    command="study", expect=2)
+text("one rank's mistake is named",
+     "section 'Grid conditions/foot', key 'Displacement'" in alone.output)
