@@ -171,7 +171,10 @@ namespace moraine
             "': found the body behind the surface, allowed: a surface whose "
             "normal points out of the body (in 2D the body is on the left of a "
             "line's points; reverse them)");
-        if (area[0] < 0.99 * area[2])
+        if (area[0] == 0)
+          notes.push_back(boundary.name() +
+                          ": no body is beside it at the start");
+        else if (area[0] < 0.99 * area[2])
           notes.push_back(
             boundary.name() + ": " +
             std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +

@@ -84,3 +84,13 @@ soft = run(scene, {
     "Boundaries/left/Enforcement": "weighted", "Boundaries/left/Band width": 1e-6,
     "Boundaries/stop/Points": "6 4.5; 6 0.5", "Loads/weight/Value": "0; -1e-8*t"})
 text("soft body and a stiff band", soft.summary["status"])
+
+# Surfaces that are allowed, but worth a word.
+for name, file, settings in (
+        ("surface that ends with the body", scene, {}),
+        ("surface that runs on", scene, {"Boundaries/left/Points": "0.5 5.5; 0.5 0.5"}),
+        ("surface for later", "prm/cortis-2017/footing.prm", {})):
+    notes = [line.split(maxsplit=1)[1]
+             for line in run(file, settings, command="check").output.splitlines()
+             if line.startswith("  note ")]
+    text(name, " | ".join(notes) or "no note")
