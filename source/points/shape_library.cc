@@ -33,16 +33,6 @@ namespace moraine
       return out.str();
     }
 
-    [[noreturn]] void
-    refuse(const std::string &section,
-           const std::string &key,
-           const std::string &found,
-           const std::string &allowed)
-    {
-      throw InputError(place(section, key) + ": found '" + found +
-                       "'. Allowed: " + allowed);
-    }
-
     template <int dim>
     Point<dim>
     to_point(const std::vector<double> &list,
@@ -50,7 +40,7 @@ namespace moraine
              const std::string         &key)
     {
       if (list.size() != dim)
-        refuse(section, key, text(list), std::to_string(dim) + " numbers");
+        reject(section, key, text(list), std::to_string(dim) + " numbers");
       Point<dim> p;
       std::copy(list.begin(), list.end(), p.begin_raw());
       return p;
@@ -69,11 +59,11 @@ namespace moraine
           Point<2>           x;
           std::string        rest;
           if (!(in >> x[0] >> x[1]) || in >> rest || !std::isfinite(x.norm()))
-            refuse(section, "Vertices", vertex, allowed);
+            reject(section, "Vertices", vertex, allowed);
           vertices.push_back(x);
         }
       if (vertices.size() < 3)
-        refuse(section, "Vertices", list, allowed);
+        reject(section, "Vertices", list, allowed);
       const auto [i, j]    = first_crossing(vertices);
       const unsigned int n = vertices.size();
       if (i == n)
@@ -100,7 +90,7 @@ namespace moraine
       if constexpr (dim == 3)
         {
           if (p.extent.size() != 2 || !(p.extent[0] < p.extent[1]))
-            refuse(section, "Extent", text(p.extent), "lower z, upper z");
+            reject(section, "Extent", text(p.extent), "lower z, upper z");
           return std::make_shared<PolygonShape<3>>(vertices,
                                                    std::make_pair(p.extent[0],
                                                                   p.extent[1]));
@@ -114,9 +104,9 @@ namespace moraine
     check_radii(const ShapeParameters<dim> &p, const std::string &section)
     {
       if (!(p.radius > 0.))
-        refuse(section, "Radius", text({p.radius}), "a number > 0");
+        reject(section, "Radius", text({p.radius}), "a number > 0");
       if (!(p.inner_radius >= 0. && p.inner_radius < p.radius))
-        refuse(section,
+        reject(section,
                "Inner radius",
                text({p.inner_radius}),
                "from 0 to less than Radius (" + text({p.radius}) + ")");
@@ -145,7 +135,7 @@ namespace moraine
       const auto upper = to_point<dim>(p.upper_corner, section, "Upper corner");
       for (unsigned int d = 0; d < dim; ++d)
         if (!(lower[d] < upper[d]))
-          refuse(section,
+          reject(section,
                  "Upper corner",
                  text(p.upper_corner),
                  "more than Lower corner (" + text(p.lower_corner) +
@@ -161,7 +151,7 @@ namespace moraine
       const auto start = to_point<dim>(p.axis_start, section, "Axis start");
       const auto end   = to_point<dim>(p.axis_end, section, "Axis end");
       if (start == end)
-        refuse(section,
+        reject(section,
                "Axis end",
                text(p.axis_end),
                "another point than Axis "
@@ -183,7 +173,7 @@ namespace moraine
     {
       using Operation = typename CombinedShape<dim>::Operation;
       if (p.operands.size() < 2)
-        refuse(section, "Operands", p.operands[0], "two or more names");
+        reject(section, "Operands", p.operands[0], "two or more names");
       std::vector<std::string> names;
       for (const auto &shape : known)
         names.push_back(shape.first);
@@ -196,7 +186,7 @@ namespace moraine
                              "', which is not the name of a body" +
                              suggest(name, names));
           if (shape->second == nullptr)
-            refuse(section,
+            reject(section,
                    "Operands",
                    name,
                    "bodies with a shape; the points of this one come from a "
@@ -241,7 +231,7 @@ namespace moraine
         {
           const auto normal = to_point<dim>(p.normal, section, "Normal");
           if (normal.norm() == 0.)
-            refuse(section, "Normal", text(p.normal), "a vector that is not 0");
+            reject(section, "Normal", text(p.normal), "a vector that is not 0");
           return std::make_shared<ConvexShape<dim>>(
             ConvexShape<dim>::half_space(
               to_point<dim>(p.point, section, "Point"), normal));
@@ -277,7 +267,7 @@ namespace moraine
                              ": not set. A rotation in 3D needs it");
           axis = to_point<dim>(p.rotation_axis, section, "Rotation axis");
           if (axis.norm() == 0.)
-            refuse(section,
+            reject(section,
                    "Rotation axis",
                    text(p.rotation_axis),
                    "a vector that is not 0");
@@ -302,7 +292,7 @@ namespace moraine
         if (made.count(name) > 0)
           return;
         if (!under_way.insert(name).second)
-          refuse(asked_in,
+          reject(asked_in,
                  "Operands",
                  name,
                  "bodies that are not themselves made from this one");

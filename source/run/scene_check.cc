@@ -16,18 +16,6 @@ namespace moraine
 
   namespace
   {
-    [[noreturn]] void
-    reject(const std::string &section,
-           const std::string &key,
-           const std::string &found,
-           const std::string &allowed)
-    {
-      throw InputError(place(section, key) + ": found '" + found +
-                       "', allowed: " + allowed);
-    }
-
-
-
     bool
     is_one_of(const std::string &word, const std::vector<std::string> &words)
     {

@@ -174,7 +174,7 @@ TEST(ShapeLibrary, OperandsInAnyOrder)
   EXPECT_EQ(complaint_of({{"a", body("set Shape = union\nset Operands = b, c")},
                           {"b", body("set Shape = union\nset Operands = a, c")},
                           {"c", body(unit)}}),
-            "section 'Bodies/b', key 'Operands': found 'a'. Allowed: bodies "
+            "section 'Bodies/b', key 'Operands': found 'a', allowed: bodies "
             "that are not themselves made from this one");
   EXPECT_EQ(
     complaint_of({{"a", body("set Shape = union\nset Operands = slop, zz")},
@@ -187,7 +187,7 @@ TEST(ShapeLibrary, OperandsInAnyOrder)
       {{"a", body("set Shape = union\nset Operands = b, c")},
        {"b", body(unit)},
        {"c", body("set Shape = points-from-file\nset Point file = f")}}),
-    "section 'Bodies/a', key 'Operands': found 'c'. Allowed: bodies with a "
+    "section 'Bodies/a', key 'Operands': found 'c', allowed: bodies with a "
     "shape; the points of this one come from a file");
 }
 
@@ -203,21 +203,21 @@ TEST(ShapeLibrary, Mistakes)
             section + "key 'Radius': set, but the shape 'box' does not use "
                       "it. It uses: Lower corner, Upper corner");
   EXPECT_EQ(complaint<2>("set Lower corner = 0, 0\nset Upper corner = 1, 0"),
-            section + "key 'Upper corner': found '1, 0'. Allowed: more than "
+            section + "key 'Upper corner': found '1, 0', allowed: more than "
                       "Lower corner (0, 0) in each coordinate");
   EXPECT_EQ(complaint<2>("set Lower corner = 0\nset Upper corner = 1, 1"),
-            section + "key 'Lower corner': found '0'. Allowed: 2 numbers");
+            section + "key 'Lower corner': found '0', allowed: 2 numbers");
   EXPECT_EQ(complaint<2>("set Shape = ring\nset Centre = 0, 0\n"
                          "set Radius = 1\nset Inner radius = 1.5"),
-            section + "key 'Inner radius': found '1.5'. Allowed: from 0 to "
+            section + "key 'Inner radius': found '1.5', allowed: from 0 to "
                       "less than Radius (1)");
   EXPECT_EQ(complaint<2>("set Shape = half-space\nset Point = 0, 0\n"
                          "set Normal = 0, 0"),
-            section + "key 'Normal': found '0, 0'. Allowed: a vector that is "
+            section + "key 'Normal': found '0, 0', allowed: a vector that is "
                       "not 0");
   EXPECT_EQ(complaint<3>("set Shape = cylinder\nset Axis start = 0, 0, 1\n"
                          "set Axis end = 0, 0, 1\nset Radius = 1"),
-            section + "key 'Axis end': found '0, 0, 1'. Allowed: another "
+            section + "key 'Axis end': found '0, 0, 1', allowed: another "
                       "point than Axis start");
   EXPECT_EQ(complaint<3>("set Lower corner = 0, 0, 0\n"
                          "set Upper corner = 1, 1, 1\n"
@@ -225,7 +225,7 @@ TEST(ShapeLibrary, Mistakes)
             section + "key 'Rotation axis': not set. A rotation in 3D needs "
                       "it");
   EXPECT_EQ(complaint<2>("set Shape = union\nset Operands = p"),
-            section + "key 'Operands': found 'p'. Allowed: two or more names");
+            section + "key 'Operands': found 'p', allowed: two or more names");
   EXPECT_EQ(complaint<2>("set Shape = expression\nset Expression = 1 -* x")
               .rfind(section + "key 'Expression': found '1 -* x': Unexpected",
                      0),
@@ -255,10 +255,10 @@ TEST(ShapeLibrary, BadPolygons)
     return complaint<2>("set Shape = polygon\nset Vertices = " + vertices);
   };
   EXPECT_EQ(polygon("0 0; 1 0"),
-            section + "key 'Vertices': found '0 0; 1 0'. Allowed: at least "
+            section + "key 'Vertices': found '0 0; 1 0', allowed: at least "
                       "three 'x y' separated by ';'");
   EXPECT_EQ(polygon("0 0; 1 0; 1 a"),
-            section + "key 'Vertices': found '1 a'. Allowed: at least three "
+            section + "key 'Vertices': found '1 a', allowed: at least three "
                       "'x y' separated by ';'");
   const std::string allowed =
     ". Allowed: a polygon that does not touch itself, without the first vertex "

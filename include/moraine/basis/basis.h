@@ -8,6 +8,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
 
+#include <string>
 #include <vector>
 
 namespace moraine
@@ -65,6 +66,46 @@ namespace moraine
     /** Fill @p block with the stencils of group @p group. */
     virtual void
     evaluate(const unsigned int group, StencilBlock<dim> &block) const = 0;
+
+    /**
+     * Why the step that moves nodes by @p nodal_increments cannot be accepted,
+     * naming the point of this rank (a domain that turns inside out), or "".
+     */
+    virtual std::string
+    fault_of(const std::vector<dealii::Tensor<1, dim>> &) const
+    {
+      return "";
+    }
+
+    /**
+     * Let the domains of the points follow a step that is accepted. Positions
+     * of points and nodes are still those of the start of the step; fields of
+     * the state (deformation gradient, volume) are already those of its end.
+     *
+     * @param nodal_increments @f$\Delta u_a@f$ of the nodes
+     * @param gradients @f$\sum_a \Delta u_a \otimes \nabla N_a@f$ of the
+     * points, in the flat numbering
+     */
+    virtual void
+    move_domains(PointSet<dim> &,
+                 const std::vector<dealii::Tensor<1, dim>> &,
+                 const std::vector<dealii::Tensor<2, dim>> &) const
+    {}
+
+    /** Whether points have domains to look at, domain_corners(). */
+    virtual bool
+    has_domains() const
+    {
+      return false;
+    }
+
+    /** The corners of the domain of a point, lexicographic. */
+    virtual CellVertices<dim>
+    domain_corners(const unsigned int) const
+    {
+      Assert(false, dealii::ExcNotImplemented());
+      return {};
+    }
 
   protected:
     struct Group

@@ -40,6 +40,17 @@ namespace moraine
     return (section.empty() ? std::string() : "section '" + section + "', ") +
            "key '" + key + "'";
   }
+
+  /** @throw InputError about the text found in a key. */
+  [[noreturn]] inline void
+  reject(const std::string &section,
+         const std::string &key,
+         const std::string &found,
+         const std::string &allowed)
+  {
+    throw InputError(place(section, key) + ": found '" + found +
+                     "', allowed: " + allowed);
+  }
 } // namespace moraine
 
 #endif

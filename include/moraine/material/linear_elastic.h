@@ -6,27 +6,13 @@
 
 #include <moraine/material/material.h>
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <memory>
-#include <string>
-
 namespace moraine
 {
-  /** Section `Materials/<name>`. */
-  struct MaterialParameters
-  {
-    std::string model         = "linear elastic";
-    double      young_modulus = 0;
-    double      poisson_ratio = 0;
-    double      density       = 0;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-  };
-
-  /** Linear elasticity at small strain with Young's modulus and Poisson's
-   * ratio. */
+  /**
+   * Stress linear in strain: Hooke's law at small strain, Hencky's (Kirchhoff
+   * stress and logarithmic strain) at finite strain,
+   * @f$\tau = C : \varepsilon^e@f$.
+   */
   class LinearElastic : public Material
   {
   public:
@@ -35,10 +21,7 @@ namespace moraine
     LinearElastic(const double E, const double nu, const double rho);
 
     void
-    update_stress(const dealii::ArrayView<const dealii::SymmetricTensor<2, 3>>
-                    &strain_increment,
-                  const dealii::ArrayView<dealii::SymmetricTensor<2, 3>>
-                    &stress) const override;
+    respond(const dealii::ArrayView<PrincipalState> &points) const override;
 
     LameConstants
     elastic_stiffness() const override
@@ -52,19 +35,16 @@ namespace moraine
       return rho;
     }
 
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
   private:
     const LameConstants stiffness;
     const double        rho;
   };
-
-  /**
-   * The material of a section.
-   *
-   * @throws InputError naming the section for values a material cannot have.
-   */
-  std::shared_ptr<const Material>
-  make_material(const MaterialParameters &parameters,
-                const std::string        &section);
 } // namespace moraine
 
 #endif

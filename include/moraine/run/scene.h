@@ -7,7 +7,7 @@
 #include <moraine/boundary/enforcement.h>
 #include <moraine/boundary/surface_library.h>
 #include <moraine/core/input_file.h>
-#include <moraine/material/linear_elastic.h>
+#include <moraine/material/material_library.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
