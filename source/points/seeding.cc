@@ -212,6 +212,31 @@ namespace moraine
 
 
   template <int dim>
+  CellVertices<dim>
+  CellSeeder<dim>::sub_cell_around(const CellVertices<dim> &cell,
+                                   const Point<dim>        &xi) const
+  {
+    unsigned int best    = 0;
+    double       nearest = std::numeric_limits<double>::infinity();
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        double outside = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          outside = std::max({outside,
+                              lower[q][d] - xi[d],
+                              xi[d] - lower[q][d] - lengths[q][d]});
+        if (outside < nearest)
+          {
+            best    = q;
+            nearest = outside;
+          }
+      }
+    return sub_cell(cell, best);
+  }
+
+
+
+  template <int dim>
   void
   CellSeeder<dim>::seed_full_cell(const CellVertices<dim>       &cell,
                                   std::vector<SeededPoint<dim>> &points) const

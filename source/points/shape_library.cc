@@ -388,6 +388,15 @@ namespace moraine
         points.positions.push_back(placement.apply(x));
       }
     points.volumes.assign(n_points, volume);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        Point<dim> end = lower;
+        end[d] += length[d];
+        const Tensor<1, dim> edge =
+          placement.apply(end) - placement.apply(lower);
+        for (unsigned int i = 0; i < dim; ++i)
+          points.half_edges[i][d] = 0.5 * edge[i];
+      }
     points.origin = [section](const unsigned int) {
       return "section '" + section + "', key 'Point grid'";
     };

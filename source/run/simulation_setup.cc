@@ -5,6 +5,7 @@
 
 #include <moraine/run/simulation.h>
 
+#include <moraine/basis/gimp_basis.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>

@@ -78,6 +78,18 @@ namespace moraine
     unsigned int
     max_points() const;
 
+    /** Sub-cells of a cell. */
+    unsigned int
+    n_sub_cells() const
+    {
+      return rule.size();
+    }
+
+    /** The sub-cell of @p cell that holds its reference position @p xi. */
+    CellVertices<dim>
+    sub_cell_around(const CellVertices<dim>  &cell,
+                    const dealii::Point<dim> &xi) const;
+
   private:
     void
     seed_full_cell(const CellVertices<dim>       &cell,
