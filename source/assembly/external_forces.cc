@@ -31,15 +31,16 @@ namespace moraine
         {
           const unsigned int point = block.points[p];
           const unsigned int body  = points.body(point);
-          Tensor<1, dim>     b;
+          Tensor<1, dim>     f;
           for (const auto &force : body_forces)
             if (force.acts_on[body])
-              b += (force.times_density ? state.material(body).density() : 1.) *
+              f += (force.times_density ? state.material(body).density() *
+                                            state.initial_volume(point) :
+                                          points.volume(point)) *
                    force.value(points.position(point), t);
           for (unsigned int a = 0; a < block.n_nodes; ++a)
             for (unsigned int i = 0; i < dim; ++i)
-              local.force[dim * a + i] +=
-                points.volume(point) * block.N(p)[a] * b[i];
+              local.force[dim * a + i] += block.N(p)[a] * f[i];
         }
     }
 

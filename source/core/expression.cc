@@ -219,6 +219,62 @@ namespace moraine
 
 
 
+  LinearTable::LinearTable(const std::string &text,
+                           const std::string &place,
+                           const std::string &argument)
+  {
+    double number = 0;
+    if (is_number(Utilities::trim(text), number))
+      {
+        table.emplace_back(0., number);
+        return;
+      }
+
+    const std::string row     = "'" + argument + ": value'";
+    const std::string allowed = "a number, or a table '" + argument +
+                                ": value, " + argument +
+                                ": value, ...' with increasing " + argument;
+    const auto pairs = split(text, ";,");
+    check_not_empty(pairs, text, place, allowed);
+    if (!is_table(text))
+      throw InputError(place + ": found '" + text + "'. Allowed: " + allowed);
+    for (const std::string &pair : pairs)
+      {
+        const auto colon = pair.find(':');
+        double     x = 0, value = 0;
+        if (colon == std::string::npos ||
+            !is_number(Utilities::trim(pair.substr(0, colon)), x) ||
+            !is_number(Utilities::trim(pair.substr(colon + 1)), value))
+          throw InputError(place + ": found '" + pair +
+                           "' in a table; allowed: " + row + ", two numbers");
+        if (!table.empty() && x <= table.back().first)
+          throw InputError(place + ": found '" + pair + "' in a table, but " +
+                           argument + " must increase");
+        table.emplace_back(x, value);
+      }
+  }
+
+
+
+  double
+  LinearTable::value(const double x) const
+  {
+    if (x <= table.front().first)
+      return table.front().second;
+    for (std::size_t i = 1; i < table.size(); ++i)
+      if (x <= table[i].first)
+        {
+          const auto &[x0, f0] = table[i - 1];
+          const auto &[x1, f1] = table[i];
+          // Written so that the ends are met exactly.
+          const double s = (x - x0) / (x1 - x0);
+          return (1 - s) * f0 + s * f1;
+        }
+    return table.back().second;
+  }
+
+
+
   TimeCurve::TimeCurve(const std::string &text, const std::string &place)
     : curve_text(Utilities::trim(text))
     , origin(place)
@@ -229,41 +285,14 @@ namespace moraine
     const auto components = split(curve_text, ";,");
     check_not_empty(components, curve_text, place, allowed);
 
-    if (is_table(curve_text))
-      {
-        read_table();
-        return;
-      }
-
-    if (components.size() != 1)
+    double number;
+    if (is_table(curve_text) || is_number(curve_text, number))
+      table = LinearTable(curve_text, place, "time");
+    else if (components.size() == 1)
+      parser = compile<1>(components, "t", {}, false, place, allowed);
+    else
       throw InputError(place + ": found '" + curve_text +
                        "'. Allowed: " + allowed);
-    double number;
-    if (is_number(curve_text, number))
-      table.emplace_back(0., number);
-    else
-      parser = compile<1>(components, "t", {}, false, place, allowed);
-  }
-
-
-
-  void
-  TimeCurve::read_table()
-  {
-    for (const std::string &pair : split(curve_text, ";,"))
-      {
-        const auto colon = pair.find(':');
-        double     time = 0, value = 0;
-        if (colon == std::string::npos ||
-            !is_number(Utilities::trim(pair.substr(0, colon)), time) ||
-            !is_number(Utilities::trim(pair.substr(colon + 1)), value))
-          throw InputError(origin + ": found '" + pair +
-                           "' in a table; allowed: 'time: value', two numbers");
-        if (!table.empty() && time <= table.back().first)
-          throw InputError(origin + ": found '" + pair +
-                           "' in a table, but times must increase");
-        table.emplace_back(time, value);
-      }
   }
 
 
@@ -287,19 +316,7 @@ namespace moraine
                 << ", not a finite number, at t = " << t << ".";
         throw InputError(message.str());
       }
-
-    if (t <= table.front().first)
-      return table.front().second;
-    for (std::size_t i = 1; i < table.size(); ++i)
-      if (t <= table[i].first)
-        {
-          const auto &[t0, f0] = table[i - 1];
-          const auto &[t1, f1] = table[i];
-          // Written so that the ends are met exactly.
-          const double s = (t - t0) / (t1 - t0);
-          return (1 - s) * f0 + s * f1;
-        }
-    return table.back().second;
+    return table.value(t);
   }
 
 

@@ -10,7 +10,7 @@ namespace moraine
   LinearElastic::LinearElastic(const double E,
                                const double nu,
                                const double rho)
-    : stiffness{E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))}
+    : stiffness(lame_constants(E, nu))
     , rho(rho)
   {}
 

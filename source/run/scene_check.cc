@@ -57,6 +57,11 @@ namespace moraine
                after_step,
                "follow material or keep with finite elements, whose points "
                "stay in their cells");
+      if (method.strain == "finite" && after_step == "keep")
+        reject("Method",
+               "Mesh after step",
+               after_step,
+               "reset or follow material with finite strain");
       if (method.method == "GIMP" && after_step == "follow material")
         reject("Method",
                "Mesh after step",
@@ -126,7 +131,14 @@ namespace moraine
         material_names.push_back(name);
         for (const char *key : {"Young modulus", "Poisson ratio"})
           input.require("Materials/" + name, key);
-        make_material(material, "Materials/" + name);
+        if (!make_material(material, "Materials/" + name)
+               ->has_small_strain_limit() &&
+            method.strain == "small")
+          reject("Materials/" + name,
+                 "Model",
+                 material.model,
+                 "a model for small strain; key 'Strain' of section 'Method' "
+                 "is 'small'");
       }
     for (const auto &[name, body] : bodies)
       {

@@ -104,6 +104,11 @@ namespace moraine
       bool
       stop(const NewtonStatus status, const std::string &message);
 
+      /** The system's word on a residual that is not finite, or @p otherwise.
+       */
+      std::string
+      cause(const std::string &otherwise) const;
+
       bool
       correct(const bool line_search);
 
@@ -174,6 +179,15 @@ namespace moraine
 
 
 
+    std::string
+    Iteration::cause(const std::string &otherwise) const
+    {
+      const std::string fault = system.fault();
+      return fault.empty() ? otherwise : fault;
+    }
+
+
+
     /**
      * Solve for a correction with the factorisation at hand and take it.
      */
@@ -225,7 +239,7 @@ namespace moraine
         }
       if (!std::isfinite(norm))
         return stop(NewtonStatus::not_a_number,
-                    "the residual is not a number after a correction");
+                    cause("the residual is not a number after a correction"));
       return stop(NewtonStatus::diverged,
                   "no step along the correction reduces the residual");
     }
@@ -298,9 +312,12 @@ namespace moraine
       if (!std::isfinite(norm))
         {
           stop(NewtonStatus::not_a_number,
-               "the residual is not a number at the start of the step");
+               cause("the residual is not a number at the start of the step"));
           return report;
         }
+      // The first residual may be a linearised one.
+      if (small())
+        evaluate(false);
       const bool balanced   = iterate();
       report.observed_order = observed_order(report.residuals);
       if (balanced)

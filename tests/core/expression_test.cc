@@ -135,7 +135,7 @@ TEST(TimeCurve, Mistakes)
 {
   const std::string start = "section 'Loads/wind', key 'Traction': found ";
   EXPECT_EQ(curve_mistake("0: 0, 2: 1, 2: 3"),
-            start + "'2: 3' in a table, but times must increase");
+            start + "'2: 3' in a table, but time must increase");
   EXPECT_EQ(curve_mistake("0: 0, a: 1"),
             start + "'a: 1' in a table; allowed: 'time: value', two numbers");
   for (const char *bad : {"0: 0,", "0: nan", "0: 0, 1", "", "x", "t, t", "t +"})

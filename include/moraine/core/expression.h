@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dealii
@@ -72,6 +73,44 @@ namespace moraine
 
 
   /**
+   * A function of one number given by a table "0: 0, 1: 2.5, 2: 2.5" of
+   * arguments and values, linear in between and constant outside; or by one
+   * number, which is its value everywhere.
+   */
+  class LinearTable
+  {
+  public:
+    using Row = std::pair<double, double>;
+
+    /** No rows. */
+    LinearTable() = default;
+
+    /**
+     * @param text the table or the number
+     * @param place where the text stands, for messages
+     * @param argument what messages call the argument, like "time"
+     * @throw InputError if @p text is neither, or if arguments do not increase.
+     */
+    LinearTable(const std::string &text,
+                const std::string &place,
+                const std::string &argument);
+
+    /** Argument and value of each row; a number is the row 0: number. */
+    const std::vector<Row> &
+    rows() const
+    {
+      return table;
+    }
+
+    double
+    value(const double x) const;
+
+  private:
+    std::vector<Row> table;
+  };
+
+
+  /**
    * A number that changes with time: an expression in t ("min(t, 1)"), or a
    * table "0: 0, 1: 2.5, 2: 2.5" of times and values, linear in between and
    * constant outside.
@@ -89,12 +128,9 @@ namespace moraine
     value(const double t) const;
 
   private:
-    void
-    read_table();
-
     std::string                                curve_text;
     std::string                                origin;
-    std::vector<std::pair<double, double>>     table;
+    LinearTable                                table;
     std::shared_ptr<dealii::FunctionParser<1>> parser;
 
     /** Many points ask for one time in turn. */

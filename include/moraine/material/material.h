@@ -39,6 +39,13 @@ namespace moraine
     }
   };
 
+  /** Of Young's modulus @p E [stress] and Poisson's ratio @p nu. */
+  inline LameConstants
+  lame_constants(const double E, const double nu)
+  {
+    return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
+  }
+
   /**
    * What a material is asked at one point, and its answer, in the principal
    * directions of the trial elastic strain. All our materials are isotropic, so

@@ -21,6 +21,15 @@ namespace moraine
     double      poisson_ratio = 0;
     double      density       = 0;
 
+    /**
+     * The yield stress of von Mises: exactly one of these is set, and its name
+     * says what it means. Each is a number or a table over the accumulated
+     * plastic strain.
+     */
+    std::string uniaxial_yield_stress; ///< @f$\sigma_y@f$
+    std::string shear_yield_stress;    ///< k
+    std::string yield_radius;          ///< @f$\|s\| = \sqrt{2 J_2}@f$
+
     void
     add_parameters(dealii::ParameterHandler &prm);
   };

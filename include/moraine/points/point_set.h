@@ -135,6 +135,12 @@ namespace moraine
       return values(p)[volume_offset];
     }
 
+    void
+    set_volume(const unsigned int p, const double v)
+    {
+      values(p)[volume_offset] = v;
+    }
+
     unsigned int
     body(const unsigned int p) const
     {

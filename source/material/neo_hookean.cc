@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/material/neo_hookean.h>
+
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  NeoHookean::NeoHookean(const double E, const double nu, const double rho)
+    : stiffness(lame_constants(E, nu))
+    , rho(rho)
+  {}
+
+
+
+  void
+  NeoHookean::respond(const ArrayView<PrincipalState> &points) const
+  {
+    const auto [lambda, mu] = stiffness;
+    for (PrincipalState &point : points)
+      {
+        const Tensor<1, 3> &e        = point.strain;
+        const double        pressure = lambda * (e[0] + e[1] + e[2]);
+        for (unsigned int A = 0; A < 3; ++A)
+          {
+            // expm1 keeps the digits of small strains.
+            const double growth = std::expm1(2 * e[A]);
+            point.stress[A]     = mu * growth + pressure;
+            for (unsigned int B = 0; B < 3; ++B)
+              point.tangent[A][B] =
+                lambda + (A == B ? 2 * mu * (1 + growth) : 0.);
+          }
+      }
+  }
+} // namespace moraine
