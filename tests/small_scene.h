@@ -5,6 +5,7 @@
 #define moraine_tests_small_scene_h
 
 #include <moraine/basis/basis.h>
+#include <moraine/basis/gimp_basis.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>

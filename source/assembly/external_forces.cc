@@ -31,16 +31,35 @@ namespace moraine
         {
           const unsigned int point = block.points[p];
           const unsigned int body  = points.body(point);
-          Tensor<1, dim>     b;
+          Tensor<1, dim>     f;
           for (const auto &force : body_forces)
             if (force.acts_on[body])
-              b += (force.times_density ? state.material(body).density() : 1.) *
+              f += (force.times_density ? state.material(body).density() *
+                                            state.initial_volume(point) :
+                                          points.volume(point)) *
                    force.value(points.position(point), t);
           for (unsigned int a = 0; a < block.n_nodes; ++a)
             for (unsigned int i = 0; i < dim; ++i)
-              local.force[dim * a + i] +=
-                points.volume(point) * block.N(p)[a] * b[i];
+              local.force[dim * a + i] += block.N(p)[a] * f[i];
         }
+    }
+
+
+
+    /** Length or area of face @p f per unit of its reference face. */
+    template <int dim>
+    double
+    face_jacobian(const CellMap<dim> &map,
+                  const unsigned int  f,
+                  const Point<dim>   &xi)
+    {
+      const Tensor<2, dim> J  = transpose(map.jacobian(xi));
+      const unsigned int   d  = f / 2;
+      const Tensor<1, dim> t1 = J[(d + 1) % dim];
+      if constexpr (dim == 3)
+        return cross_product_3d(t1, J[(d + 2) % dim]).norm();
+      else
+        return t1.norm();
     }
 
 
@@ -62,6 +81,8 @@ namespace moraine
       Tensor<1, dim>         grad_N[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = state.grid().node_position(nodes[a]);
+      const CellVertices<dim> vertices = vertices_of<dim>(cell);
+      const CellMap<dim>      map(vertices);
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() &&
             cell->face(f)->boundary_id() == load.side)
@@ -74,9 +95,8 @@ namespace moraine
                                                   X,
                                                   N,
                                                   grad_N);
-                // |dx/dxi_face| from the face's share of a straight cell
-                const double JxW =
-                  quadrature.weight(q) * cell->face(f)->measure();
+                const double JxW = quadrature.weight(q) *
+                                   face_jacobian(map, f, on_face.point(q));
                 Point<dim> x;
                 for (unsigned int a = 0; a < n; ++a)
                   x += N[a] * X[a];

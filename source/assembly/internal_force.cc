@@ -3,6 +3,9 @@
 
 #include <moraine/assembly/term.h>
 
+#include <array>
+#include <sstream>
+
 namespace moraine
 {
   using namespace dealii;
@@ -42,34 +45,129 @@ namespace moraine
 
   namespace
   {
-    /**
-     * Add the force @f$-v\,\sigma \nabla N_a@f$ of a run of points of one body.
-     */
+    /** Add the force @f$-w\,\tau g_a@f$ of a run of points of one body. */
     template <int dim>
     void
-    add_stress_force(const State<dim>        &state,
-                     const StencilBlock<dim> &block,
-                     const unsigned int       begin,
-                     const unsigned int       end,
-                     LocalSystem<dim>        &local)
+    add_stress_force(const TrialPoints<dim> &points,
+                     const unsigned int      n_nodes,
+                     LocalSystem<dim>       &local)
     {
-      const PointSet<dim> &points   = state.material_points();
-      const auto          &stresses = local.trial_stresses.evaluate(
-        state, block, begin, end, local.nodal_increments.data());
-      for (unsigned int p = begin; p < end; ++p)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
         {
-          const double v      = points.volume(block.points[p]);
-          const auto  &sigma  = stresses[p - begin];
-          const auto  *grad_N = block.grad_N(p);
-          for (unsigned int a = 0; a < block.n_nodes; ++a)
+          const double w      = points.weight(p);
+          const auto  &stress = points.stress(p);
+          const auto  *grad_N = points.grad_N(p);
+          for (unsigned int a = 0; a < n_nodes; ++a)
             for (unsigned int i = 0; i < dim; ++i)
               {
                 double f = 0;
                 for (unsigned int j = 0; j < dim; ++j)
-                  f += sigma[i][j] * grad_N[a][j];
-                local.force[dim * a + i] -= v * f;
+                  f += stress[i][j] * grad_N[a][j];
+                local.force[dim * a + i] -= w * f;
               }
         }
+    }
+
+
+
+    /** Where v goes in the components of sym(e_i x v): the row of B^T. */
+    template <int dim>
+    std::array<double, n_voigt<dim>>
+    strain_of(const unsigned int i, const Tensor<1, dim> &v)
+    {
+      if constexpr (dim == 2)
+        return i == 0 ? std::array<double, 3>{{v[0], 0, v[1]}} :
+                        std::array<double, 3>{{0, v[1], v[0]}};
+      else
+        return i == 0 ? std::array<double, 6>{{v[0], 0, 0, v[1], v[2], 0}} :
+               i == 1 ? std::array<double, 6>{{0, v[1], 0, v[0], 0, v[2]}} :
+                        std::array<double, 6>{{0, 0, v[2], 0, v[0], v[1]}};
+    }
+
+
+
+    /** Add the tangent of one point to the upper triangle of node pairs. */
+    template <int dim>
+    void
+    add_tangent(const VoigtMatrix<dim>      &c,
+                const double                 w,
+                const SymmetricTensor<2, 3> *tau,
+                const Tensor<1, dim>        *g,
+                const unsigned int           n_nodes,
+                FullMatrix<double>          &matrix)
+    {
+      constexpr unsigned int                 n = n_voigt<dim>;
+      std::array<std::array<double, n>, dim> B_a, c_B_a;
+      Tensor<1, dim>                         tau_g;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              B_a[i] = strain_of<dim>(i, g[a]);
+              for (unsigned int I = 0; I < n; ++I)
+                {
+                  double sum = 0;
+                  for (unsigned int J = 0; J < n; ++J)
+                    sum += c[J][I] * B_a[i][J];
+                  c_B_a[i][I] = w * sum;
+                }
+            }
+          if (tau)
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                tau_g[i] = 0;
+                for (unsigned int j = 0; j < dim; ++j)
+                  tau_g[i] += w * (*tau)[i][j] * g[a][j];
+              }
+          for (unsigned int b = a; b < n_nodes; ++b)
+            {
+              const double initial = tau ? tau_g * g[b] : 0.;
+              for (unsigned int j = 0; j < dim; ++j)
+                {
+                  const auto B_b = strain_of<dim>(j, g[b]);
+                  for (unsigned int i = 0; i < dim; ++i)
+                    {
+                      double sum = i == j ? initial : 0.;
+                      for (unsigned int I = 0; I < n; ++I)
+                        sum += c_B_a[i][I] * B_b[I];
+                      matrix(dim * a + i, dim * b + j) += sum;
+                    }
+                }
+            }
+        }
+    }
+
+
+
+    /** Fill the lower triangle of node pairs with the upper one's transpose. */
+    template <int dim>
+    void
+    mirror(const unsigned int n_nodes, FullMatrix<double> &matrix)
+    {
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int b = a + 1; b < n_nodes; ++b)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              matrix(dim * b + j, dim * a + i) =
+                matrix(dim * a + i, dim * b + j);
+    }
+
+
+
+    template <int dim>
+    std::string
+    fault_of(const State<dim>       &state,
+             const TrialPoints<dim> &trial,
+             const Material         &material,
+             const unsigned int      point)
+    {
+      std::ostringstream text;
+      text << "point " << state.material_points().id(point) << " at ("
+           << state.material_points().position(point) << ") "
+           << (trial.inverted(trial.first_fault()) ?
+                 "would be turned inside out" :
+                 material.why_no_stress());
+      return text.str();
     }
 
 
@@ -157,18 +255,41 @@ namespace moraine
                           LocalSystem<dim>        &local) const
   {
     const PointSet<dim> &points = state.material_points();
+    TrialPoints<dim>    &trial  = local.trial_points;
     for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
       {
         end = state.end_of_body(block, begin);
-        add_stress_force(state, block, begin, end, local);
-        if (tangent)
+        trial.evaluate(state, block, begin, end, local.nodal_increments.data());
+        add_stress_force(trial, block.n_nodes, local);
+        const Material &material =
+          state.material(points.body(block.points[begin]));
+        if (trial.first_fault() < trial.n_points() && local.fault.empty())
+          local.fault = fault_of(state,
+                                 trial,
+                                 material,
+                                 block.points[begin + trial.first_fault()]);
+        if (!tangent || !local.fault.empty())
+          continue;
+        if (state.strain_measure() == StrainMeasure::small &&
+            material.is_linear())
           {
             sum_moments(points, block, begin, end, local.moments);
             add_stiffness<dim>(local.moments,
                                block.n_nodes,
-                               state.material(points.body(block.points[begin]))
-                                 .elastic_stiffness(),
+                               material.elastic_stiffness(),
                                local.matrix);
+          }
+        else
+          {
+            const bool finite = state.strain_measure() == StrainMeasure::finite;
+            for (unsigned int p = 0; p < trial.n_points(); ++p)
+              add_tangent<dim>(trial.tangent(p),
+                               trial.weight(p),
+                               finite ? &trial.stress(p) : nullptr,
+                               trial.grad_N(p),
+                               block.n_nodes,
+                               local.matrix);
+            mirror<dim>(block.n_nodes, local.matrix);
           }
       }
   }

@@ -208,10 +208,16 @@ namespace moraine
   MechanicsSystem<dim>::add_to_system(const LocalSystem<dim> &local,
                                       const bool              tangent)
   {
-    for (unsigned int a = 0; a < local.nodal_increments.size(); ++a)
+    const unsigned int n_nodes = local.nodal_increments.size();
+    for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const double f = local.force[dim * a + c];
+          double f = local.force[dim * a + c];
+          if (!predicted.empty())
+            for (unsigned int b = 0; b < n_nodes; ++b)
+              for (unsigned int d = 0; d < dim; ++d)
+                f -= local.matrix(dim * a + c, dim * b + d) *
+                     predicted[local.nodes[b]][d];
           local_scale += f * f;
           node_forces[local.nodes[a]][c] += f;
         }
@@ -230,9 +236,17 @@ namespace moraine
     assembled_at             = x;
     const bool first_of_step = !assembled;
     assembled                = true;
+    predicting = first_of_step && tangent && !prescribed.entries.empty() &&
+                 !state.is_linear();
+    if (predicting)
+      {
+        predicted = state.nodal_increments();
+        state.reject();
+      }
     if (tangent)
       matrix = 0;
     local_scale = 0;
+    local_fault.clear();
     node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
     assemble_points(tangent);
     assemble_boundaries(tangent);
@@ -248,6 +262,20 @@ namespace moraine
                 external_scale);
     if (first_of_step)
       scale_at_start = scale;
+    predicted.clear();
+  }
+
+
+
+  template <int dim>
+  std::string
+  MechanicsSystem<dim>::fault() const
+  {
+    for (const std::string &text :
+         Utilities::MPI::all_gather(state.grid().communicator(), local_fault))
+      if (!text.empty())
+        return text;
+    return "";
   }
 
 
@@ -265,8 +293,9 @@ namespace moraine
         local.reinit(state, block.nodes, block.n_nodes, tangent);
         for (const auto &term : point_terms)
           term->add(state, block, tangent, local);
-        add_to_system(local, tangent);
+        add_to_system(local, tangent && local.fault.empty());
       }
+    local_fault = local.fault;
   }
 
 
@@ -517,14 +546,20 @@ namespace moraine
     for (auto &boundary : boundaries)
       {
         boundary_state(boundary, tractions, violations);
-        BoundaryReport<dim> report{boundary.name(), {}, 0., 0.};
+        BoundaryReport<dim> report{boundary.name(), {}, 0., 0., 0., 0.};
         for (unsigned int q = 0; q < tractions.size(); ++q)
           {
-            report.reaction += boundary.points()[q].JxW * tractions[q];
+            const auto          &point = boundary.points()[q];
+            const Tensor<1, dim> force = point.JxW * tractions[q];
+            report.reaction += force;
+            report.force_magnitude += force.norm();
+            report.moment +=
+              boundary.rigid_motion().moment(point.x + point.prescribed,
+                                             force,
+                                             t_target);
             report.violation = std::max(report.violation, violations[q].norm());
           }
-        report.reaction =
-          Utilities::MPI::sum(report.reaction, state.grid().communicator());
+        sum_over_ranks(report, state.grid().communicator());
         report.violation =
           Utilities::MPI::max(report.violation, state.grid().communicator());
         boundary.accept(tractions, violations);

@@ -34,10 +34,11 @@ namespace moraine
         const auto dof = state.grid().node_dof(entry.node) + entry.component;
         if (!state.grid().locally_owned().is_element(dof))
           continue;
-        const Point<dim> &X     = state.grid().node_position(entry.node);
-        const auto       &value = conditions[entry.condition].value;
-        x(dof)                  = value(X, t_target)[entry.component] -
-                 value(X, t_start)[entry.component];
+        x(dof) =
+          conditions[entry.condition].increment(state.grid().node_position(
+                                                  entry.node),
+                                                t_start,
+                                                t_target)[entry.component];
       }
     x.compress(VectorOperation::insert);
   }
@@ -59,7 +60,7 @@ namespace moraine
   {
     std::vector<BoundaryReport<dim>> reports;
     for (const auto &condition : conditions)
-      reports.push_back({condition.name, {}, 0., 0.});
+      reports.push_back({condition.name, {}, 0., 0., 0., 0.});
     if (conditions.empty())
       return reports;
 
@@ -69,15 +70,32 @@ namespace moraine
     if (!assembled || difference.linfty_norm() > 0)
       assemble(x, false);
 
-    for (const auto &entry : prescribed.entries)
+    // Entries of a node that one condition prescribes follow each other.
+    const auto &entries = prescribed.entries;
+    for (unsigned int first = 0, last = 0; first < entries.size(); first = last)
       {
-        const auto dof = state.grid().node_dof(entry.node) + entry.component;
-        if (state.grid().locally_owned().is_element(dof))
-          reports[entry.condition].reaction[entry.component] -= unbalanced(dof);
+        const unsigned int node = entries[first].node;
+        Tensor<1, dim>     force;
+        for (last = first;
+             last < entries.size() && entries[last].node == node &&
+             entries[last].condition == entries[first].condition;
+             ++last)
+          {
+            const auto dof =
+              state.grid().node_dof(node) + entries[last].component;
+            if (state.grid().locally_owned().is_element(dof))
+              force[entries[last].component] = -unbalanced(dof);
+          }
+        auto &report = reports[entries[first].condition];
+        report.reaction += force;
+        report.force_magnitude += force.norm();
+        report.moment += conditions[entries[first].condition].motion.moment(
+          state.grid().node_position(node) + state.nodal_increments()[node],
+          force,
+          t_target);
       }
     for (auto &report : reports)
-      report.reaction =
-        Utilities::MPI::sum(report.reaction, state.grid().communicator());
+      sum_over_ranks(report, state.grid().communicator());
     return reports;
   }
 

@@ -12,7 +12,7 @@ namespace moraine
 
   template <int dim>
   void
-  Basis<dim>::mark_cells(std::vector<unsigned char> &active) const
+  Basis<dim>::mark_cells(std::vector<unsigned char> &active)
   {
     for (const auto &in_cell : points.cells())
       active[in_cell.cell->active_cell_index()] = 1;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/basis/basis.h>
+#include <moraine/basis/gimp_basis.h>
+
+#include <moraine/basis/domain_tools.h>
 #include <moraine/core/exceptions.h>
 
 #include <algorithm>
@@ -15,14 +17,13 @@ namespace moraine
   namespace
   {
     template <int dim>
-    const BoxGrid<dim> &
-    box_grid_or_throw(const GridSpace<dim> &space)
+    void
+    check_mesh(const GridSpace<dim> &space)
     {
       if (!space.mesh().box_grid() || space.degree() != 1)
         throw InputError("section 'Method', key 'Method': found 'GIMP' on a "
                          "mesh or with shape functions it cannot use, allowed: "
                          "a box of equal cells with degree 1");
-      return *space.mesh().box_grid();
     }
   } // namespace
 
@@ -32,38 +33,19 @@ namespace moraine
   GimpBasis<dim>::GimpBasis(const GridSpace<dim>    &space,
                             const PointSet<dim>     &points,
                             const unsigned int       points_per_direction,
-                            const std::vector<bool> &is_seeded)
+                            const std::vector<bool> &is_seeded,
+                            const DomainUpdate       update,
+                            const bool               split)
     : Basis<dim>(space, points)
-    , grid(box_grid_or_throw(space))
+    , neighbours((check_mesh(space), space.mesh()))
     , points_per_direction(points_per_direction)
     , is_seeded(is_seeded)
+    , update(DomainTools::finite_strain(points.fields()) ? update :
+                                                           DomainUpdate::frozen)
+    , split(split)
     , half_length_offset(
         PointFields(points.fields()).request("half_length", dim, ""))
-  {
-    const auto &tria = space.mesh().triangulation();
-    active_index_of_box_cell.resize(tria.n_active_cells());
-    for (const auto &cell : tria.active_cell_iterators())
-      {
-        std::array<unsigned int, dim> ijk;
-        const Point<dim>              center = cell->center();
-        for (unsigned int d = 0; d < dim; ++d)
-          ijk[d] = static_cast<unsigned int>(
-            (center[d] - grid.lower_corner[d]) / grid.cell_size[d]);
-        active_index_of_box_cell[cell_number(ijk)] = cell->active_cell_index();
-      }
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  GimpBasis<dim>::cell_number(const std::array<unsigned int, dim> &ijk) const
-  {
-    unsigned int number = 0;
-    for (int d = dim - 1; d >= 0; --d)
-      number = number * grid.n_cells[d] + ijk[d];
-    return number;
-  }
+  {}
 
 
 
@@ -71,7 +53,8 @@ namespace moraine
   void
   GimpBasis<dim>::initialise_points(PointSet<dim> &points) const
   {
-    double sub_cell_volume = 1;
+    const BoxGrid<dim> &grid            = this->grid();
+    double              sub_cell_volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       sub_cell_volume *= grid.cell_size[d] / points_per_direction;
     for (unsigned int p = 0; p < points.n_local(); ++p)
@@ -92,6 +75,12 @@ namespace moraine
           else
             half_length[d] = 0.5 * grid.cell_size[d] *
                              std::min(1., scale / points_per_direction);
+        if (update == DomainUpdate::stretch)
+          std::copy_n(half_length,
+                      dim,
+                      points.values(p) +
+                        *DomainTools::find_field(points.fields(),
+                                                 "initial_half_length"));
       }
   }
 
@@ -101,6 +90,7 @@ namespace moraine
   typename GimpBasis<dim>::Window
   GimpBasis<dim>::window_of(const unsigned int point) const
   {
+    const BoxGrid<dim> &grid = this->grid();
     // A cell touched with next to no overlap must not become active: its far
     // nodes would get no stiffness.
     static const double shrink =
@@ -125,17 +115,50 @@ namespace moraine
 
 
   template <int dim>
-  void
-  GimpBasis<dim>::mark_cells(std::vector<unsigned char> &active) const
+  unsigned int
+  GimpBasis<dim>::too_long_edge(const unsigned int point) const
   {
+    const double *l     = this->points.values(point) + half_length_offset;
+    unsigned int  edge  = dim;
+    double        worst = 1 + 1e-9;
+    for (unsigned int d = 0; d < dim; ++d)
+      // also true for what is not a number
+      if (!(l[d] <= worst * grid().cell_size[d]))
+        {
+          edge  = d;
+          worst = l[d] / grid().cell_size[d];
+        }
+    return edge;
+  }
+
+
+
+  template <int dim>
+  void
+  GimpBasis<dim>::mark_cells(std::vector<unsigned char> &active)
+  {
+    std::string fault;
     for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {
+        if (const unsigned int d = too_long_edge(p); d < dim)
+          {
+            if (fault.empty())
+              fault = DomainTools::name_of(this->points, p) +
+                      ": the half length of its box along " + "xyz"[d] +
+                      " is " +
+                      std::to_string(
+                        (this->points.values(p) + half_length_offset)[d] /
+                        grid().cell_size[d]) +
+                      " cell sizes, the limit of GIMP is 1; allowed: larger "
+                      "cells, or section 'Method', key 'Split domains' = true";
+            continue;
+          }
         const Window window = window_of(p);
         auto         ijk    = window.first;
         for (;;)
           {
-            active[active_index_of_box_cell[cell_number(ijk)]] = 1;
-            unsigned int d                                     = 0;
+            active[neighbours.box_cell(ijk)] = 1;
+            unsigned int d                   = 0;
             while (d < dim && ijk[d] == window.last[d])
               {
                 ijk[d] = window.first[d];
@@ -146,6 +169,7 @@ namespace moraine
             ++ijk[d];
           }
       }
+    DomainTools::throw_first(fault, this->space.communicator());
   }
 
 
@@ -170,8 +194,8 @@ namespace moraine
                 cell[d] = std::min(window.first[d] + node[d], window.last[d]);
                 corner += (window.first[d] + node[d] - cell[d]) << d;
               }
-            this->group_node_list.push_back(this->space.cell_nodes(
-              active_index_of_box_cell[cell_number(cell)])[corner]);
+            this->group_node_list.push_back(
+              this->space.cell_nodes(neighbours.box_cell(cell))[corner]);
           }
   }
 
@@ -273,14 +297,15 @@ namespace moraine
   GimpBasis<dim>::evaluate(const unsigned int group,
                            StencilBlock<dim> &block) const
   {
-    const auto   &g      = this->groups[group];
-    const Window &window = windows[group];
+    const BoxGrid<dim> &grid   = this->grid();
+    const auto         &g      = this->groups[group];
+    const Window       &window = windows[group];
     block.reinit(g.n_points,
                  &this->order[g.first_point],
                  g.n_nodes,
                  &this->group_node_list[g.first_node]);
 
-    // l <= h/2, so a box overlaps at most two cells, rounding a third.
+    // l <= h, so a box overlaps at most three cells.
     constexpr unsigned int max_nodes = 4;
     double                 S[3][max_nodes], dS[3][max_nodes];
     S[2][0] = 1;
@@ -313,6 +338,172 @@ namespace moraine
                   block.gradients[a][2] = S[0][i] * S[1][j] * dS[2][k];
               }
       }
+  }
+
+
+
+  template <int dim>
+  CellVertices<dim>
+  GimpBasis<dim>::domain_corners(const unsigned int p) const
+  {
+    const double  *l = this->points.values(p) + half_length_offset;
+    Tensor<2, dim> half_edges;
+    for (unsigned int d = 0; d < dim; ++d)
+      half_edges[d][d] = l[d];
+    return DomainTools::parallelepiped(this->points.position(p), half_edges);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  GimpBasis<dim>::tracked_half_length(
+    const unsigned int                 point,
+    const CellPatch<dim>              &patch,
+    const std::vector<Tensor<1, dim>> &nodal_increments) const
+  {
+    constexpr unsigned int n_corners = 1 << dim;
+    const double          *l = this->points.values(point) + half_length_offset;
+    Tensor<1, dim>         tracked;
+    for (unsigned int d = 0; d < dim; ++d)
+      tracked[d] = l[d];
+    const auto corners = domain_corners(point);
+    for (unsigned int c = 0; c < n_corners; ++c)
+      {
+        unsigned int cell = 0;
+        double       N[n_corners];
+        const bool   found =
+          patch.locate(this->points.position(point), corners[c], cell, N);
+        Assert(found, ExcInternalError());
+        (void)found;
+        const unsigned int *nodes = this->space.cell_nodes(cell);
+        Tensor<1, dim>      increment;
+        for (unsigned int a = 0; a < n_corners; ++a)
+          increment += N[a] * nodal_increments[nodes[a]];
+        for (unsigned int d = 0; d < dim; ++d)
+          tracked[d] += ((c >> d) & 1 ? 1. : -1.) * increment[d] / n_corners;
+      }
+    return tracked;
+  }
+
+
+
+  template <int dim>
+  std::string
+  GimpBasis<dim>::fault_of(
+    const std::vector<Tensor<1, dim>> &nodal_increments) const
+  {
+    if (update != DomainUpdate::corners)
+      return "";
+    CellPatch<dim> patch(neighbours);
+    for (const auto &in_cell : this->points.cells())
+      {
+        patch.reinit(in_cell.cell);
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          {
+            const Tensor<1, dim> l =
+              tracked_half_length(p, patch, nodal_increments);
+            for (unsigned int d = 0; d < dim; ++d)
+              if (!(l[d] > 0))
+                return DomainTools::name_of(this->points, p) +
+                       ": its box would have no length along " + "xyz"[d];
+          }
+      }
+    return "";
+  }
+
+
+
+  namespace
+  {
+    /** Diagonal of the right stretch of a deformation gradient. */
+    template <int dim>
+    Tensor<1, dim>
+    diagonal_of_stretch(const Tensor<2, dim> &F)
+    {
+      Tensor<1, dim> diagonal;
+      for (const auto &[square, direction] :
+           eigenvectors(symmetrize(transpose(F) * F)))
+        for (unsigned int d = 0; d < dim; ++d)
+          diagonal[d] +=
+            std::sqrt(std::max(square, 0.)) * direction[d] * direction[d];
+      return diagonal;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  GimpBasis<dim>::move_domains(
+    PointSet<dim>                     &points,
+    const std::vector<Tensor<1, dim>> &nodal_increments,
+    const std::vector<Tensor<2, dim>> &gradients) const
+  {
+    if (update == DomainUpdate::stretch)
+      {
+        const unsigned int F_offset =
+          *DomainTools::find_field(points.fields(), "deformation_gradient");
+        const unsigned int l0_offset =
+          *DomainTools::find_field(points.fields(), "initial_half_length");
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          {
+            double        *values = points.values(p);
+            Tensor<2, dim> F;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                F[i][j] = values[F_offset + i * dim + j];
+            const Tensor<1, dim> U = diagonal_of_stretch(F);
+            for (unsigned int d = 0; d < dim; ++d)
+              values[half_length_offset + d] = values[l0_offset + d] * U[d];
+          }
+      }
+    else if (update == DomainUpdate::corners)
+      {
+        CellPatch<dim> patch(neighbours);
+        for (const auto &in_cell : points.cells())
+          {
+            patch.reinit(in_cell.cell);
+            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+              {
+                const Tensor<1, dim> l =
+                  tracked_half_length(p, patch, nodal_increments);
+                double *half_length = points.values(p) + half_length_offset;
+                Tensor<2, dim> increment = gradients[p];
+                for (unsigned int d = 0; d < dim; ++d)
+                  increment[d][d] += 1;
+                double ratio = determinant(increment);
+                for (unsigned int d = 0; d < dim; ++d)
+                  ratio *= half_length[d] / l[d];
+                for (unsigned int d = 0; d < dim; ++d)
+                  half_length[d] = l[d] * std::pow(ratio, 1. / dim);
+              }
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  GimpBasis<dim>::split_domains(PointSet<dim> &points) const
+  {
+    if (!split)
+      return false;
+    const auto l0_offset =
+      DomainTools::find_field(points.fields(), "initial_half_length");
+    return DomainTools::split_points<dim>(
+      points,
+      [&](const unsigned int p) { return too_long_edge(p); },
+      [&](const unsigned int p, const unsigned int d) {
+        double *l = points.values(p) + half_length_offset;
+        l[d] *= 0.5;
+        if (l0_offset)
+          points.values(p)[*l0_offset + d] *= 0.5;
+        Tensor<1, dim> offset;
+        offset[d] = l[d];
+        return offset;
+      });
   }
 
 

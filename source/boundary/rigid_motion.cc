@@ -124,6 +124,19 @@ namespace moraine
   }
 
   template <int dim>
+  double
+  RigidMotion<dim>::moment(const Point<dim>     &x,
+                           const Tensor<1, dim> &f,
+                           const double          t) const
+  {
+    const Tensor<1, dim> arm = x - pose(t).map(centre);
+    if constexpr (dim == 2)
+      return arm[0] * f[1] - arm[1] * f[0];
+    else
+      return axis * cross_product_3d(arm, f);
+  }
+
+  template <int dim>
   MovedSurface<dim>::MovedSurface(std::shared_ptr<const Surface<dim>> reference,
                                   const Pose<dim>                    &pose)
     : reference(std::move(reference))

@@ -9,6 +9,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -83,6 +84,47 @@ namespace moraine
 
 
   template <int dim>
+  typename PointSet<dim>::CellIterator
+  PointSet<dim>::cell_of(const unsigned int p) const
+  {
+    const auto in_cell =
+      std::upper_bound(cell_points.begin(),
+                       cell_points.end(),
+                       p,
+                       [](const unsigned int p, const CellPoints &points) {
+                         return p < points.last;
+                       });
+    return in_cell != cell_points.end() ?
+             in_cell->cell :
+             cells_of_copies[p - (cell_points.empty() ?
+                                    0 :
+                                    cell_points.back().last)];
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::insert_copies(const std::vector<Copy> &copies)
+  {
+    for (const Copy &copy : copies)
+      {
+        const CellIterator        cell = cell_of(copy.of);
+        const std::vector<double> numbers(values(copy.of),
+                                          values(copy.of) + layout.n_values());
+        const Point<dim>          reference = reference_position(copy.of);
+        handles.push_back(
+          handler
+            .insert_particle(copy.position, reference, copy.id, cell, numbers)
+            ->get_local_index());
+        cells_of_copies.push_back(cell);
+      }
+    handler.update_cached_numbers();
+  }
+
+
+
+  template <int dim>
   void
   PointSet<dim>::find_cells()
   {
@@ -151,6 +193,7 @@ namespace moraine
     handles.clear();
     handles.reserve(handler.n_locally_owned_particles());
     cell_points.clear();
+    cells_of_copies.clear();
     for (auto particle = handler.begin(); particle != handler.end();)
       {
         const CellIterator cell  = particle->get_surrounding_cell();

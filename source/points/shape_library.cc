@@ -240,6 +240,8 @@ namespace moraine
         return std::make_shared<ExpressionShape<dim>>(p.expression,
                                                       place(section,
                                                             "Expression"));
+      if (p.shape == "mesh")
+        return std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space());
       return combine(p, known, section);
     }
 
@@ -337,6 +339,11 @@ namespace moraine
   {
     check_keys(p, section);
     const Placement<dim> placement = make_placement(p, section);
+    if (p.shape == "mesh" && (p.rotation_angle != 0. || !p.translation.empty()))
+      throw InputError(
+        place(section,
+              p.rotation_angle != 0. ? "Rotation angle" : "Translation") +
+        ": set, but the shape 'mesh' is all of the mesh and cannot move in it");
     if (p.is_point_file())
       return nullptr;
     const auto shape = make_unplaced(p, known, section);
@@ -388,6 +395,15 @@ namespace moraine
         points.positions.push_back(placement.apply(x));
       }
     points.volumes.assign(n_points, volume);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        Point<dim> end = lower;
+        end[d] += length[d];
+        const Tensor<1, dim> edge =
+          placement.apply(end) - placement.apply(lower);
+        for (unsigned int i = 0; i < dim; ++i)
+          points.half_edges[i][d] = 0.5 * edge[i];
+      }
     points.origin = [section](const unsigned int) {
       return "section '" + section + "', key 'Point grid'";
     };

@@ -4,6 +4,7 @@
 #include <moraine/run/scene.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/expression.h>
 #include <moraine/core/patterns.h>
 
 #include <filesystem>
@@ -37,6 +38,12 @@ namespace moraine
                       "Where the points of a full cell are. Finite elements "
                       "always use Gauss points.",
                       patterns::selection({"equally spaced", "Gauss"}));
+    prm.add_parameter(
+      "Strain",
+      strain,
+      "small: strains and rotations of a step and of the whole are small. "
+      "finite: updated Lagrangian, logarithmic strain; any deformation.",
+      patterns::selection({"small", "finite"}));
     prm.add_parameter(
       "Mesh after step",
       mesh_after_step,
@@ -90,6 +97,83 @@ namespace moraine
 
 
   template <int dim>
+  Point<dim>
+  point_from(const std::vector<double> &numbers, const std::string &place)
+  {
+    if (numbers.size() != dim)
+      throw InputError(place + ": found " + std::to_string(numbers.size()) +
+                       " numbers, allowed: " + std::to_string(dim));
+    Point<dim> point;
+    for (unsigned int d = 0; d < dim; ++d)
+      point[d] = numbers[d];
+    return point;
+  }
+
+
+
+  template <int dim>
+  void
+  MotionParameters<dim>::add_parameters(ParameterHandler  &prm,
+                                        const std::string &what)
+  {
+    prm.add_parameter("Translation",
+                      translation,
+                      "Motion of " + what +
+                        " and of the material it holds (length), dim "
+                        "expressions in t or tables 't: d, t: d, ...' "
+                        "separated by ';'.");
+    prm.add_parameter("Rotation angle",
+                      rotation_angle,
+                      "Rotation of " + what +
+                        " (degrees), an expression in t or a table; a change "
+                        "moves the material. history.csv then has the moment "
+                        "about the axis.");
+    prm.add_parameter("Rotation centre",
+                      rotation_centre,
+                      "Point of the axis of rotation; the origin if left out.",
+                      patterns::numbers(0, dim));
+    prm.add_parameter(
+      "Rotation axis",
+      rotation_axis,
+      "In 3D: direction of the axis of rotation; z if left out.",
+      patterns::numbers(0, 3));
+  }
+
+
+
+  template <int dim>
+  RigidMotion<dim>
+  MotionParameters<dim>::make_motion(const std::string &section) const
+  {
+    using Curve = typename RigidMotion<dim>::Curve;
+    std::array<Curve, dim> shift;
+    if (!translation.empty())
+      {
+        const auto curves =
+          time_curves(translation, place(section, "Translation"), dim);
+        for (unsigned int d = 0; d < dim; ++d)
+          shift[d] = [curve = curves[d]](const double t) {
+            return curve.value(t);
+          };
+      }
+    Curve angle;
+    if (!rotation_angle.empty())
+      angle = [curve =
+                 TimeCurve(rotation_angle, place(section, "Rotation angle"))](
+                const double t) { return curve.value(t); };
+    Point<dim> centre;
+    if (!rotation_centre.empty())
+      centre =
+        point_from<dim>(rotation_centre, place(section, "Rotation centre"));
+    Tensor<1, dim> axis = Point<dim>::unit_vector(dim - 1);
+    if (!rotation_axis.empty())
+      axis = point_from<dim>(rotation_axis, place(section, "Rotation axis"));
+    return RigidMotion<dim>(shift, angle, centre, axis);
+  }
+
+
+
+  template <int dim>
   void
   BoundaryParameters<dim>::add_parameters(ParameterHandler &prm)
   {
@@ -108,25 +192,7 @@ namespace moraine
       displacement,
       "Prescribed displacement of the material relative to the moving surface "
       "(length), dim expressions in x, y, z, t separated by ';'.");
-    prm.add_parameter("Translation",
-                      translation,
-                      "Motion of the surface and of the material it holds "
-                      "(length), dim expressions in t or tables 't: d, t: d, "
-                      "...' separated by ';'.");
-    prm.add_parameter(
-      "Rotation angle",
-      rotation_angle,
-      "Rotation of the surface (degrees), an expression in t or a table. A "
-      "constant places the surface; a change moves it.");
-    prm.add_parameter("Rotation centre",
-                      rotation_centre,
-                      "Point of the axis of rotation; the origin if left out.",
-                      patterns::numbers(0, dim));
-    prm.add_parameter(
-      "Rotation axis",
-      rotation_axis,
-      "In 3D: direction of the axis of rotation; z if left out.",
-      patterns::numbers(0, 3));
+    motion.add_parameters(prm, "the surface");
     prm.add_parameter(
       "Penetration limit",
       penetration_limit,
@@ -140,14 +206,17 @@ namespace moraine
 
   template <int dim>
   void
-  GridConditionParameters::add_parameters(ParameterHandler &prm)
+  GridConditionParameters<dim>::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Side",
                       side,
                       dim == 2 ?
-                        "A side of the mesh: left, right, bottom, top." :
+                        "A side of the mesh: left, right, bottom, top of a "
+                        "box; else a name of 'Side names' or a number." :
                         "A side of the mesh: left, right (x), front, back (y), "
-                        "bottom, top (z).");
+                        "bottom, top (z) of a box; else a name of 'Side "
+                        "names', a number, or bottom and top of what is "
+                        "extruded.");
     prm.add_parameter(
       "Lower corner",
       lower_corner,
@@ -167,6 +236,7 @@ namespace moraine
                       displacement,
                       "Prescribed displacement (length), dim expressions in x, "
                       "y, z, t separated by ';'; zero if left out.");
+    motion.add_parameters(prm, "the nodes");
   }
 
 
@@ -218,6 +288,10 @@ namespace moraine
                       "left out.");
     prm.add_parameter("Points", points, "Write the points as VTU.");
     prm.add_parameter("Mesh", mesh, "Write the active cells as VTU.");
+    prm.add_parameter("Residuals",
+                      residuals,
+                      "Print the residual at the start of each step and after "
+                      "each Newton iteration (relative to the forces).");
     times.add_parameters(prm);
   }
 
@@ -286,12 +360,12 @@ namespace moraine
     declare();
     input.parse(prm);
     // Files are named as seen from the folder of the scene.
+    const auto folder = std::filesystem::path(input.name()).parent_path();
     for (auto &[name, body] : bodies)
       if (body.shape.is_point_file())
-        body.shape.point_file =
-          (std::filesystem::path(input.name()).parent_path() /
-           body.shape.point_file)
-            .string();
+        body.shape.point_file = (folder / body.shape.point_file).string();
+    if (!mesh.file.empty())
+      mesh.file = (folder / mesh.file).string();
     check(input);
   }
 
@@ -304,7 +378,7 @@ namespace moraine
     materials.emplace_back(name, MaterialParameters());
     bodies.emplace_back(name, BodyParameters<dim>());
     boundaries.emplace_back(name, BoundaryParameters<dim>());
-    grid_conditions.emplace_back(name, GridConditionParameters());
+    grid_conditions.emplace_back(name, GridConditionParameters<dim>());
     loads.emplace_back(name, LoadParameters<dim>());
     probes.emplace_back();
     probes.back().name = name;
@@ -337,9 +411,7 @@ namespace moraine
     in_subsections(prm, "Materials", materials, add_all);
     in_subsections(prm, "Bodies", bodies, add_all);
     in_subsections(prm, "Boundaries", boundaries, add_all);
-    in_subsections(prm, "Grid conditions", grid_conditions, [this](auto &c) {
-      c.template add_parameters<dim>(prm);
-    });
+    in_subsections(prm, "Grid conditions", grid_conditions, add_all);
     in_subsections(prm, "Loads", loads, add_all);
     section("Time", time);
     prm.enter_subsection("Solver");
@@ -368,8 +440,16 @@ namespace moraine
 
   template struct BodyParameters<2>;
   template struct BodyParameters<3>;
+  template Point<2>
+  point_from(const std::vector<double> &, const std::string &);
+  template Point<3>
+  point_from(const std::vector<double> &, const std::string &);
+  template struct MotionParameters<2>;
+  template struct MotionParameters<3>;
   template struct BoundaryParameters<2>;
   template struct BoundaryParameters<3>;
+  template struct GridConditionParameters<2>;
+  template struct GridConditionParameters<3>;
   template struct LoadParameters<2>;
   template struct LoadParameters<3>;
   template class Scene<2>;

@@ -57,6 +57,11 @@ namespace moraine
                after_step,
                "follow material or keep with finite elements, whose points "
                "stay in their cells");
+      if (method.strain == "finite" && after_step == "keep")
+        reject("Method",
+               "Mesh after step",
+               after_step,
+               "reset or follow material with finite strain");
       if (method.method == "GIMP" && after_step == "follow material")
         reject("Method",
                "Mesh after step",
@@ -71,14 +76,22 @@ namespace moraine
   void
   Scene<dim>::check(const InputFile &input) const
   {
-    for (const char *key : {"Lower corner", "Upper corner"})
-      input.require("Mesh", key);
-    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
+    for (const auto &entry : input.entries())
+      if (entry.section == "Mesh" && !entry.value.empty() &&
+          !mesh.uses(entry.key))
+        reject("Mesh",
+               entry.key,
+               entry.value,
+               "nothing; a mesh of type '" + mesh.type + "' has no such key");
+    if (mesh.is_box())
+      for (const char *key : {"Lower corner", "Upper corner"})
+        input.require("Mesh", key);
+    if (mesh.is_box() && input.has("Mesh", "Cell size") && mesh.cell_size == 0)
       reject("Mesh",
              "Cell size",
              input.get("Mesh", "Cell size", ""),
              "a number > 0");
-    mesh.n_cells();
+    mesh.check();
     time.check();
     check_bodies(input);
     check_method(method);
@@ -118,7 +131,14 @@ namespace moraine
         material_names.push_back(name);
         for (const char *key : {"Young modulus", "Poisson ratio"})
           input.require("Materials/" + name, key);
-        make_material(material, "Materials/" + name);
+        if (!make_material(material, "Materials/" + name)
+               ->has_small_strain_limit() &&
+            method.strain == "small")
+          reject("Materials/" + name,
+                 "Model",
+                 material.model,
+                 "a model for small strain; key 'Strain' of section 'Method' "
+                 "is 'small'");
       }
     for (const auto &[name, body] : bodies)
       {

@@ -15,22 +15,6 @@ namespace moraine
 
   namespace
   {
-    /** dim numbers of a key as a point. */
-    template <int dim>
-    Point<dim>
-    to_point(const std::vector<double> &numbers, const std::string &place)
-    {
-      if (numbers.size() != dim)
-        throw InputError(place + ": found " + std::to_string(numbers.size()) +
-                         " numbers, allowed: " + std::to_string(dim));
-      Point<dim> point;
-      for (unsigned int d = 0; d < dim; ++d)
-        point[d] = numbers[d];
-      return point;
-    }
-
-
-
     /** A vector function from text; zero if the text is empty. */
     template <int dim>
     VectorFunction<dim>
@@ -66,40 +50,6 @@ namespace moraine
       return flags;
     }
 
-
-
-    template <int dim>
-    RigidMotion<dim>
-    make_motion(const BoundaryParameters<dim> &parameters,
-                const std::string             &section)
-    {
-      using Curve = typename RigidMotion<dim>::Curve;
-      std::array<Curve, dim> translation;
-      if (!parameters.translation.empty())
-        {
-          const auto curves = time_curves(parameters.translation,
-                                          place(section, "Translation"),
-                                          dim);
-          for (unsigned int d = 0; d < dim; ++d)
-            translation[d] = [curve = curves[d]](const double t) {
-              return curve.value(t);
-            };
-        }
-      Curve angle;
-      if (!parameters.rotation_angle.empty())
-        angle = [curve = TimeCurve(parameters.rotation_angle,
-                                   place(section, "Rotation angle"))](
-                  const double t) { return curve.value(t); };
-      Point<dim> centre;
-      if (!parameters.rotation_centre.empty())
-        centre = to_point<dim>(parameters.rotation_centre,
-                               place(section, "Rotation centre"));
-      Tensor<1, dim> axis = Point<dim>::unit_vector(dim - 1);
-      if (!parameters.rotation_axis.empty())
-        axis = to_point<dim>(parameters.rotation_axis,
-                             place(section, "Rotation axis"));
-      return RigidMotion<dim>(translation, angle, centre, axis);
-    }
 
 
     template <int dim>
@@ -182,7 +132,7 @@ namespace moraine
         const std::string section = "Boundaries/" + name;
         boundaries.emplace_back(name,
                                 make_surface<dim>(parameters.surface, section),
-                                make_motion<dim>(parameters, section),
+                                parameters.motion.make_motion(section),
                                 vector_function<dim>(parameters.displacement,
                                                      place(section,
                                                            "Displacement")),
@@ -211,10 +161,10 @@ namespace moraine
         if (!parameters.lower_corner.empty() ||
             !parameters.upper_corner.empty())
           condition.region = BoundingBox<dim>(
-            std::make_pair(to_point<dim>(parameters.lower_corner,
-                                         place(section, "Lower corner")),
-                           to_point<dim>(parameters.upper_corner,
-                                         place(section, "Upper corner"))));
+            std::make_pair(point_from<dim>(parameters.lower_corner,
+                                           place(section, "Lower corner")),
+                           point_from<dim>(parameters.upper_corner,
+                                           place(section, "Upper corner"))));
         if (!condition.side && !condition.region)
           throw InputError("section '" + section +
                            "': found neither 'Side' nor 'Lower corner' and "
@@ -222,8 +172,10 @@ namespace moraine
         condition.component =
           component_flags<dim>(parameters.components,
                                place(section, "Components"));
-        condition.value = vector_function<dim>(parameters.displacement,
-                                               place(section, "Displacement"));
+        condition.displacement =
+          vector_function<dim>(parameters.displacement,
+                               place(section, "Displacement"));
+        condition.motion = parameters.motion.make_motion(section);
         conditions.push_back(condition);
       }
     return conditions;
@@ -263,7 +215,7 @@ namespace moraine
           {
             Place at;
             at.x =
-              to_point<dim>(parameters.location, place(section, "Location"));
+              point_from<dim>(parameters.location, place(section, "Location"));
             at.weight = 1;
             loads.carried.emplace_back(name, value, std::vector<Place>{at});
           }

@@ -191,6 +191,7 @@ namespace moraine
           {
             system->assemble(x, true);
             system->check_that_it_is_held(false);
+            system->start_over();
           }
         const NewtonReport report = newton.solve(*system, *linear_solver, x);
         newton_iterations += report.iterations;
@@ -318,6 +319,19 @@ namespace moraine
           {std::string("reaction_") + "xyz"[d] + " of " + report.name,
            "force",
            report.reaction[d]});
+    for (unsigned int b = 0; b < reports.size(); ++b)
+      {
+        const RigidMotion<dim> &motion =
+          b < boundaries.size() ? boundaries[b].rigid_motion() :
+                                  grid_conditions[b - boundaries.size()].motion;
+        if (!motion.turns())
+          continue;
+        row.push_back(
+          {"moment of " + reports[b].name, "force length", reports[b].moment});
+        row.push_back({"force magnitude of " + reports[b].name,
+                       "force",
+                       reports[b].force_magnitude});
+      }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       {
         row.push_back(
@@ -375,15 +389,24 @@ namespace moraine
   Simulation<dim>::print_step(const TimeControl  &time,
                               const NewtonReport &report)
   {
-    console << "  step " << std::setw(4) << time.n_accepted()
-            << "  t = " << std::setw(10) << std::left << std::setprecision(6)
-            << time.time() << std::right << "  iterations "
-            << report.iterations;
+    std::ostringstream line;
+    line << "  step " << std::setw(4) << time.n_accepted()
+         << "  t = " << std::setw(10) << std::left << std::setprecision(6)
+         << time.time() << std::right << "  iterations " << report.iterations;
     if (report.linear_iterations > 0)
-      console << " (linear " << report.linear_iterations << ")";
-    console << "  residual " << std::scientific << std::setprecision(1)
-            << (report.residuals.empty() ? 0. : report.residuals.back())
-            << std::defaultfloat << std::endl;
+      line << " (linear " << report.linear_iterations << ")";
+    line << "  residual " << std::scientific << std::setprecision(1)
+         << (report.residuals.empty() ? 0. : report.residuals.back());
+    if (report.observed_order > 0)
+      line << "  order " << std::fixed << std::setprecision(2)
+           << report.observed_order;
+    if (scene.output.residuals)
+      {
+        line << std::scientific << std::setprecision(2) << "\n      residuals";
+        for (const double residual : report.residuals)
+          line << ' ' << residual;
+      }
+    console << line.str() << std::endl;
   }
 
 

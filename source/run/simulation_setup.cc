@@ -5,6 +5,7 @@
 
 #include <moraine/run/simulation.h>
 
+#include <moraine/basis/gimp_basis.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
@@ -30,20 +31,32 @@ namespace moraine
     , timer(unused_timer_output, TimerOutput::never, TimerOutput::wall_times)
   {
     TimerOutput::Scope scope(timer, "set up");
-    mesh  = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
-    space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
-    PointFields fields;
-    if (scene.method.method == "GIMP")
-      GimpBasis<dim>::request_fields(fields);
-    points = std::make_unique<PointSet<dim>>(*mesh, fields);
+    mesh   = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
+    space  = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
     bodies = make_bodies(scene);
     for (const Body<dim> &body : bodies)
       body_names.push_back(body.name);
-    materials    = make_materials(scene, bodies);
+    materials = make_materials(scene, bodies);
+
+    PointFields fields;
+    if (scene.method.method == "GIMP")
+      GimpBasis<dim>::request_fields(fields);
+    StateFields<dim>(fields,
+                     scene.method.strain_measure(),
+                     std::any_of(materials.begin(),
+                                 materials.end(),
+                                 [](const auto &m) {
+                                   return m->is_plastic();
+                                 }));
+    points       = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes = seed_bodies(bodies, make_seeder<dim>(scene.method), *points);
     make_basis();
-    state = std::make_unique<State<dim>>(
-      *space, *points, *basis, materials, scene.method.after_step());
+    state           = std::make_unique<State<dim>>(*space,
+                                         *points,
+                                         *basis,
+                                         materials,
+                                         scene.method.after_step(),
+                                         scene.method.strain_measure());
     boundaries      = make_boundaries(scene);
     grid_conditions = make_grid_conditions(scene, *mesh);
     loads           = make_loads(scene, *mesh, body_names);

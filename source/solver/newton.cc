@@ -104,6 +104,11 @@ namespace moraine
       bool
       stop(const NewtonStatus status, const std::string &message);
 
+      /** The system's word on a residual that is not finite, or @p otherwise.
+       */
+      std::string
+      cause(const std::string &otherwise) const;
+
       bool
       correct(const bool line_search);
 
@@ -174,6 +179,15 @@ namespace moraine
 
 
 
+    std::string
+    Iteration::cause(const std::string &otherwise) const
+    {
+      const std::string fault = system.fault();
+      return fault.empty() ? otherwise : fault;
+    }
+
+
+
     /**
      * Solve for a correction with the factorisation at hand and take it.
      */
@@ -209,7 +223,9 @@ namespace moraine
     bool
     Iteration::take_step(const LA::Vector &dx, const bool line_search)
     {
-      const double       start = norm;
+      // A linearised residual is no measure for the true one.
+      const double start =
+        system.linearised() ? std::numeric_limits<double>::max() : norm;
       const LA::Vector   x_start(x);
       const unsigned int n_trials = line_search ? 1 + maximum_halvings : 1;
       double             factor   = 1.;
@@ -225,7 +241,7 @@ namespace moraine
         }
       if (!std::isfinite(norm))
         return stop(NewtonStatus::not_a_number,
-                    "the residual is not a number after a correction");
+                    cause("the residual is not a number after a correction"));
       return stop(NewtonStatus::diverged,
                   "no step along the correction reduces the residual");
     }
@@ -298,9 +314,12 @@ namespace moraine
       if (!std::isfinite(norm))
         {
           stop(NewtonStatus::not_a_number,
-               "the residual is not a number at the start of the step");
+               cause("the residual is not a number at the start of the step"));
           return report;
         }
+      // The first residual may be a linearised one.
+      if (system.linearised() && small())
+        evaluate(false);
       const bool balanced   = iterate();
       report.observed_order = observed_order(report.residuals);
       if (balanced)

@@ -3,22 +3,95 @@
 
 #include <moraine/state/state.h>
 
+#include <algorithm>
+
 namespace moraine
 {
   using namespace dealii;
+
+  namespace
+  {
+    bool
+    any_plastic(const std::vector<std::shared_ptr<const Material>> &materials)
+    {
+      return std::any_of(materials.begin(), materials.end(), [](const auto &m) {
+        return m->is_plastic();
+      });
+    }
+
+
+
+    /** The fields, all of which points must have. */
+    template <int dim>
+    StateFields<dim>
+    find_fields(const PointSet<dim> &points,
+                const StrainMeasure  measure,
+                const bool           plastic)
+    {
+      PointFields            layout = points.fields();
+      const StateFields<dim> fields(layout, measure, plastic);
+      AssertThrow(layout.n_values() == points.fields().n_values(),
+                  ExcMessage("The points lack fields of the state."));
+      return fields;
+    }
+  } // namespace
+
+
 
   template <int dim>
   State<dim>::State(GridSpace<dim>                              &space,
                     PointSet<dim>                               &points,
                     Basis<dim>                                  &basis,
-                    std::vector<std::shared_ptr<const Material>> materials,
-                    const MeshAfterStep mesh_after_step)
+                    std::vector<std::shared_ptr<const Material>> materials_,
+                    const MeshAfterStep mesh_after_step,
+                    const StrainMeasure measure)
     : space(space)
     , points(points)
     , basis(basis)
-    , materials(std::move(materials))
+    , materials(std::move(materials_))
     , after_step(mesh_after_step)
-  {}
+    , measure(measure)
+    , offsets(find_fields(points, measure, any_plastic(materials)))
+  {
+    if (measure == StrainMeasure::finite)
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          double *values = points.values(p);
+          for (unsigned int d = 0; d < dim; ++d)
+            values[offsets.F + d * dim + d] = 1;
+          store_symmetric<dim>(unit_symmetric_tensor<3>(), values + offsets.b);
+          values[offsets.v_0] = points.volume(p);
+        }
+  }
+
+
+
+  template <int dim>
+  double
+  State<dim>::volume_ratio(const unsigned int p) const
+  {
+    if (measure == StrainMeasure::small)
+      return 1.;
+    const double *F = points.values(p) + offsets.F;
+    if constexpr (dim == 2)
+      return F[0] * F[3] - F[1] * F[2];
+    else
+      return F[0] * (F[4] * F[8] - F[5] * F[7]) -
+             F[1] * (F[3] * F[8] - F[5] * F[6]) +
+             F[2] * (F[3] * F[7] - F[4] * F[6]);
+  }
+
+
+
+  template <int dim>
+  bool
+  State<dim>::is_linear() const
+  {
+    return measure == StrainMeasure::small &&
+           std::all_of(materials.begin(), materials.end(), [](const auto &m) {
+             return m->is_linear();
+           });
+  }
 
 
 
@@ -62,11 +135,41 @@ namespace moraine
 
   template <int dim>
   void
+  State<dim>::commit(const TrialPoints<dim> &trial_points,
+                     const unsigned int      i,
+                     const unsigned int      p)
+  {
+    double               *values = points.values(p);
+    SymmetricTensor<2, 3> stress = trial_points.stress(i);
+    if (measure == StrainMeasure::finite)
+      {
+        Tensor<2, dim> F_n, dF = trial_points.increment_gradient(i);
+        for (unsigned int d = 0; d < dim; ++d)
+          dF[d][d] += 1;
+        std::copy_n(values + offsets.F, dim * dim, F_n.begin_raw());
+        const Tensor<2, dim> F = dF * F_n;
+        std::copy_n(F.begin_raw(), dim * dim, values + offsets.F);
+        store_symmetric<dim>(trial_points.elastic_left_cauchy_green(i),
+                             values + offsets.b);
+        stress /= determinant(F);
+        points.set_volume(p, determinant(dF) * points.volume(p));
+      }
+    if (offsets.kappa != StateFields<dim>::none)
+      values[offsets.kappa] = trial_points.plastic_strain(i);
+    store_symmetric<dim>(stress, values + points.stress_offset());
+  }
+
+
+
+  template <int dim>
+  void
   State<dim>::accept()
   {
     StencilBlock<dim>           block;
     std::vector<Tensor<1, dim>> nodal;
-    TrialStresses<dim>          trial_stresses;
+    TrialPoints<dim>            trial_points;
+    std::vector<Tensor<1, dim>> moves(points.n_local());
+    std::vector<Tensor<2, dim>> gradients(points.n_local());
     for (unsigned int g = 0; g < basis.n_groups(); ++g)
       {
         basis.evaluate(g, block);
@@ -77,32 +180,33 @@ namespace moraine
              begin = end)
           {
             end = end_of_body(block, begin);
-            const auto &stresses =
-              trial_stresses.evaluate(*this, block, begin, end, nodal.data());
+            trial_points.evaluate(*this, block, begin, end, nodal.data());
             for (unsigned int p = begin; p < end; ++p)
               {
-                double *sigma =
-                  points.values(block.points[p]) + points.stress_offset();
-                for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-                  sigma[c] = stresses[p - begin].access_raw_entry(c);
+                commit(trial_points, p - begin, block.points[p]);
+                gradients[block.points[p]] =
+                  trial_points.increment_gradient(p - begin);
               }
           }
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
             const unsigned int point = block.points[p];
-            double *u = points.values(point) + points.displacement_offset();
-            Tensor<1, dim> du;
+            Tensor<1, dim>    &du    = moves[point];
             for (unsigned int a = 0; a < block.n_nodes; ++a)
               du += block.N(p)[a] * nodal[a];
+            double *u = points.values(point) + points.displacement_offset();
             for (unsigned int d = 0; d < dim; ++d)
               u[d] += du[d];
-            if (after_step != MeshAfterStep::keep)
-              points.set_position(point, points.position(point) + du);
           }
       }
+    if (after_step == MeshAfterStep::keep)
+      return;
+    basis.move_domains(points, trial, gradients);
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      points.set_position(p, points.position(p) + moves[p]);
     if (after_step == MeshAfterStep::follow_material)
       space.move_nodes(trial);
-    else if (after_step == MeshAfterStep::reset)
+    else
       points.find_cells();
   }
 
@@ -118,31 +222,6 @@ namespace moraine
     while (end < block.n_points && points.body(block.points[end]) == body)
       ++end;
     return end;
-  }
-
-
-
-  template <int dim>
-  const std::vector<SymmetricTensor<2, 3>> &
-  TrialStresses<dim>::evaluate(const State<dim>        &state,
-                               const StencilBlock<dim> &block,
-                               const unsigned int       begin,
-                               const unsigned int       end,
-                               const Tensor<1, dim>    *nodal_increments)
-  {
-    const PointSet<dim> &points = state.material_points();
-    strains.resize(end - begin);
-    stresses.resize(end - begin);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        strains[p - begin] =
-          strain_increment(nodal_increments, block.grad_N(p), block.n_nodes);
-        stresses[p - begin] = load_stress<dim>(points.values(block.points[p]) +
-                                               points.stress_offset());
-      }
-    state.material(points.body(block.points[begin]))
-      .update_stress(make_array_view(strains), make_array_view(stresses));
-    return stresses;
   }
 
 
@@ -166,8 +245,6 @@ namespace moraine
 
 
 
-  template class TrialStresses<2>;
-  template class TrialStresses<3>;
   template class State<2>;
   template class State<3>;
 } // namespace moraine

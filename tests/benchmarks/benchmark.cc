@@ -208,7 +208,7 @@ namespace
           roller.name                = "side";
           roller.side                = side;
           roller.component[side / 2] = true;
-          roller.value               = [](const Point<dim> &, const double) {
+          roller.displacement        = [](const Point<dim> &, const double) {
             return Tensor<1, dim>();
           };
           conditions.push_back(roller);

@@ -58,7 +58,7 @@ make_supports(const BackgroundMesh<dim> &mesh)
       supports[i].name         = i == 0 ? "left" : "bottom";
       supports[i].side         = mesh.boundary_id(supports[i].name, "step-1");
       supports[i].component[i] = true;
-      supports[i].value        = [](const Point<dim> &, const double) {
+      supports[i].displacement = [](const Point<dim> &, const double) {
         return Tensor<1, dim>();
       };
     }

@@ -11,6 +11,7 @@
 #include <moraine/solver/nonlinear_system.h>
 #include <moraine/state/state.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -29,7 +30,24 @@ namespace moraine
     dealii::Tensor<1, dim> reaction;    ///< force on the body
     double                 violation;   ///< largest |M(u - g)| of the step
     double                 penetration; ///< largest depth of a point behind it
+    /** Moment on the body about the axis its motion turns about, else about the
+     * origin; in 3D the component along the axis. */
+    double moment;
+    /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
+     */
+    double force_magnitude;
   };
+
+  /** Add up what the ranks know of the forces of a boundary. */
+  template <int dim>
+  void
+  sum_over_ranks(BoundaryReport<dim> &report, const MPI_Comm &communicator)
+  {
+    namespace MPI          = dealii::Utilities::MPI;
+    report.reaction        = MPI::sum(report.reaction, communicator);
+    report.moment          = MPI::sum(report.moment, communicator);
+    report.force_magnitude = MPI::sum(report.force_magnitude, communicator);
+  }
 
   /**
    * Quasi-static equilibrium of one step, in the increment @f$\Delta u@f$:
@@ -88,6 +106,22 @@ namespace moraine
      */
     void
     check_that_it_is_held(const bool first_step) const;
+
+    /** Let the next assemble() be the first of the step again. */
+    void
+    start_over()
+    {
+      assembled = false;
+    }
+
+    bool
+    linearised() const override
+    {
+      return predicting;
+    }
+
+    std::string
+    fault() const override;
 
     void
     initial_guess(LA::Vector &x) const override;
@@ -248,6 +282,10 @@ namespace moraine
     LA::Vector                          assembled_at;
     bool                                assembled = false;
     std::vector<dealii::Tensor<1, dim>> node_forces;
+    /** Prescribed increments, while assemble() linearises about their start. */
+    std::vector<dealii::Tensor<1, dim>> predicted;
+    bool                                predicting = false;
+    std::string                         local_fault;
     std::vector<LA::Vector>             rigid_modes;
     double                              scale          = 0;
     double                              scale_at_start = 0;

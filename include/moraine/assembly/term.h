@@ -10,6 +10,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <string>
 #include <vector>
 
 namespace moraine
@@ -28,7 +29,9 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>>          nodal_increments;
     /** Moments of gradients. */
     std::vector<double> moments;
-    TrialStresses<dim>  trial_stresses;
+    TrialPoints<dim>    trial_points;
+    /** Why a point has no stress, if one has none since reset. */
+    std::string fault;
     /** Boundary fluxes of unit displacements of the unknowns. */
     std::vector<dealii::Tensor<1, dim>> fluxes;
 
@@ -68,6 +71,13 @@ namespace moraine
    * @f$K_{ai,bj} = \lambda G_{ai,bj} + \mu G_{aj,bi}
    *  + \mu\, \delta_{ij} \sum_k G_{ak,bk}@f$, so that many points in a cell
    * cost little more than few.
+   *
+   * Otherwise, with TrialPoints' weights w and gradients g and the spatial
+   * tangent c,
+   * @f$f_{ai} = -\sum_p w\, \tau_{ij} g_{aj}@f$ and
+   * @f$K_{ai,bj} = \sum_p w\, (g_{ak} c_{ikjl}\, g_{bl}
+   *  + \delta_{ij}\, g_a \cdot \tau g_b)@f$, the second term at finite strain
+   * only. It is the exact derivative, and symmetric.
    */
   template <int dim>
   class InternalForce : public PointTerm<dim>

@@ -37,12 +37,15 @@ namespace moraine
     /**
      * Flag the cells that carry unknowns for the points of this rank.
      * @param active one flag per active_cell_index().
+     * @throws ComputationError naming a point whose domain is too large for
+     * the basis. Collective.
      */
     virtual void
-    mark_cells(std::vector<unsigned char> &active) const;
+    mark_cells(std::vector<unsigned char> &active);
 
     /**
-     * Group the points, after they were found and cells were activated.
+     * Group the points, after they were found and the cells mark_cells()
+     * flagged were activated.
      * @return whether the nodes that occur together changed, so that the
      * sparsity pattern has to follow.
      */
@@ -91,6 +94,19 @@ namespace moraine
                  const std::vector<dealii::Tensor<1, dim>> &,
                  const std::vector<dealii::Tensor<2, dim>> &) const
     {}
+
+    /**
+     * Split points whose domains became too large for the basis, if it was
+     * told to. Called after points were moved and before their cells are
+     * searched. Sums over points of volume, mass, momentum and the like stay.
+     * @return whether any rank split a point. Collective.
+     * @throws ComputationError naming a point that cannot be split enough.
+     */
+    virtual bool
+    split_domains(PointSet<dim> &) const
+    {
+      return false;
+    }
 
     /** Whether points have domains to look at, domain_corners(). */
     virtual bool
@@ -142,87 +158,6 @@ namespace moraine
 
     void
     evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
-  };
-
-
-
-  /**
-   * Generalised interpolation (GIMP): the point is a box with half lengths
-   * @f$l_p@f$ that do not change with small strain, and its functions are the
-   * averages of the Q1 functions over the box,
-   * @f$S_{ip} = \frac{1}{V_p}\int_{\Omega_p} N_i \,dx@f$ (Bardenhagen and
-   * Kober 2004). Needs a mesh of equal boxes.
-   */
-  template <int dim>
-  class GimpBasis : public Basis<dim>
-  {
-  public:
-    /** Ask for what the basis stores with a point: `half_length`. */
-    static void
-    request_fields(PointFields &fields)
-    {
-      fields.request("half_length", dim, "length");
-    }
-
-    /**
-     * The divisions of a cell at seeding, @p points_per_direction, give the
-     * boxes their shape. @p is_seeded says which bodies were seeded that way;
-     * the others, all if left out, have points of their own (a file).
-     * @throws InputError if the mesh is not a box of equal cells.
-     */
-    GimpBasis(const GridSpace<dim>    &space,
-              const PointSet<dim>     &points,
-              const unsigned int       points_per_direction,
-              const std::vector<bool> &is_seeded = {});
-
-    /**
-     * Half lengths. Of a seeded point: its distance to the nearer face of its
-     * sub-cell, so that the box never leaves the sub-cell and boxes tile a body
-     * whose faces follow the mesh; averages over a box within one cell are the
-     * values at its centre, so at the start GIMP integrates what points do. Of
-     * other points: a box of the point's volume, at most half a cell.
-     */
-    void
-    initialise_points(PointSet<dim> &points) const override;
-
-    void
-    mark_cells(std::vector<unsigned char> &active) const override;
-
-    bool
-    group_points() override;
-
-    void
-    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
-
-  private:
-    /** First and last cell the box overlaps, by direction. */
-    struct Window
-    {
-      std::array<unsigned int, dim> first;
-      std::array<unsigned int, dim> last;
-
-      bool
-      operator<(const Window &other) const
-      {
-        return std::tie(first, last) < std::tie(other.first, other.last);
-      }
-    };
-
-    Window
-    window_of(const unsigned int point) const;
-
-    unsigned int
-    cell_number(const std::array<unsigned int, dim> &ijk) const;
-
-    void
-    append_nodes(const Window &window);
-
-    const BoxGrid<dim>        grid;
-    const unsigned int        points_per_direction;
-    const std::vector<bool>   is_seeded;
-    const unsigned int        half_length_offset;
-    std::vector<unsigned int> active_index_of_box_cell;
-    std::vector<Window>       windows;
   };
 } // namespace moraine
 

@@ -4,6 +4,7 @@
 #ifndef moraine_boundary_grid_condition_h
 #define moraine_boundary_grid_condition_h
 
+#include <moraine/boundary/rigid_motion.h>
 #include <moraine/mesh/grid_space.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -25,9 +26,29 @@ namespace moraine
     std::optional<dealii::types::boundary_id> side;
     std::optional<dealii::BoundingBox<dim>>   region;
     std::array<bool, dim>                     component{};
+    /** Prescribed displacement at a place and time; on top of the motion. */
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
                                          const double)>
-      value;
+                     displacement;
+    RigidMotion<dim> motion;
+
+    /** Displacement since the start of material that is at @p x at @p t. */
+    dealii::Tensor<1, dim>
+    value(const dealii::Point<dim> &x, const double t) const
+    {
+      return displacement(x, t) + (x - motion.pose(t).inverse(x));
+    }
+
+    /** Displacement from @p t_start to @p t_end of what is at @p x at
+     * @p t_start. */
+    dealii::Tensor<1, dim>
+    increment(const dealii::Point<dim> &x,
+              const double              t_start,
+              const double              t_end) const
+    {
+      return displacement(x, t_end) - displacement(x, t_start) +
+             (motion.pose(t_end).map(motion.pose(t_start).inverse(x)) - x);
+    }
   };
 
   /** The unknowns of this rank that grid conditions prescribe. */

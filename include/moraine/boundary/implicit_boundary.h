@@ -153,6 +153,12 @@ namespace moraine
       return boundary_name;
     }
 
+    const RigidMotion<dim> &
+    rigid_motion() const
+    {
+      return motion;
+    }
+
     const Enforcement &
     enforcement() const
     {

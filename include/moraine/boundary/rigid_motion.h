@@ -76,6 +76,22 @@ namespace moraine
     bool
     moves() const;
 
+    /** Whether a rotation was, be its angle zero. */
+    bool
+    turns() const
+    {
+      return static_cast<bool>(angle);
+    }
+
+    /**
+     * The moment of a force @p f at @p x about the axis of rotation where it is
+     * at @p t [force length].
+     */
+    double
+    moment(const dealii::Point<dim>     &x,
+           const dealii::Tensor<1, dim> &f,
+           const double                  t) const;
+
   private:
     std::array<Curve, dim> translation;
     Curve                  angle;

@@ -5,6 +5,7 @@
 #define moraine_points_point_list_h
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <functional>
 #include <string>
@@ -18,6 +19,12 @@ namespace moraine
   {
     std::vector<dealii::Point<dim>> positions;
     std::vector<double>             volumes;
+
+    /**
+     * Half the edges of the parallelepiped each point stands for, as columns
+     * [length]; zero if nothing is known of it but its volume.
+     */
+    dealii::Tensor<2, dim> half_edges;
 
     /** What point i is for the user, for messages. */
     std::function<std::string(const unsigned int i)> origin;

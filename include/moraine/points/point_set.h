@@ -63,6 +63,21 @@ namespace moraine
     void
     finish_insertion();
 
+    /** A point like the local point @p of at another place. */
+    struct Copy
+    {
+      unsigned int       of;
+      unsigned int       id;
+      dealii::Point<dim> position;
+    };
+
+    /**
+     * Add points. Until find_cells() they have the numbers after the last one
+     * and do not occur in cells(). Collective.
+     */
+    void
+    insert_copies(const std::vector<Copy> &copies);
+
     /**
      * Find the cell of every point after positions changed and hand points
      * over to the rank that owns it. Collective.
@@ -78,6 +93,10 @@ namespace moraine
     {
       return cell_points;
     }
+
+    /** The cell the point was in when cells were searched last. */
+    CellIterator
+    cell_of(const unsigned int p) const;
 
     unsigned int
     n_local() const
@@ -133,6 +152,12 @@ namespace moraine
     volume(const unsigned int p) const
     {
       return values(p)[volume_offset];
+    }
+
+    void
+    set_volume(const unsigned int p, const double v)
+    {
+      values(p)[volume_offset] = v;
     }
 
     unsigned int
@@ -210,6 +235,7 @@ namespace moraine
     dealii::Particles::PropertyPool<dim>   *pool;
     std::vector<unsigned int>               handles;
     std::vector<CellPoints>                 cell_points;
+    std::vector<CellIterator>               cells_of_copies;
     std::vector<LostPoint>                  lost_points;
   };
 } // namespace moraine

@@ -5,6 +5,7 @@
 #define moraine_run_scene_h
 
 #include <moraine/boundary/enforcement.h>
+#include <moraine/boundary/rigid_motion.h>
 #include <moraine/boundary/surface_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
@@ -39,6 +40,7 @@ namespace moraine
     unsigned int degree               = 1;
     unsigned int points_per_direction = 2;
     std::string  point_layout         = "equally spaced";
+    std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
     double       empty_stiffness      = 0.;
 
@@ -53,6 +55,12 @@ namespace moraine
 
     MeshAfterStep
     after_step() const;
+
+    StrainMeasure
+    strain_measure() const
+    {
+      return strain == "finite" ? StrainMeasure::finite : StrainMeasure::small;
+    }
   };
 
   /** Section `Bodies/<name>`. */
@@ -74,6 +82,29 @@ namespace moraine
     add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /** The dim numbers of a key, named by @p place, as a point. */
+  template <int dim>
+  dealii::Point<dim>
+  point_from(const std::vector<double> &numbers, const std::string &place);
+
+  /** How a boundary or a grid condition moves as a rigid body. */
+  template <int dim>
+  struct MotionParameters
+  {
+    std::string         translation;
+    std::string         rotation_angle;
+    std::vector<double> rotation_centre;
+    std::vector<double> rotation_axis;
+
+    /** @p what moves, in the words of the key texts. */
+    void
+    add_parameters(dealii::ParameterHandler &prm, const std::string &what);
+
+    /** @throw InputError for what is no motion in section @p section. */
+    RigidMotion<dim>
+    make_motion(const std::string &section) const;
+  };
+
   /** Section `Boundaries/<name>`. */
   template <int dim>
   struct BoundaryParameters
@@ -83,10 +114,7 @@ namespace moraine
     std::string            constraint = "fixed";
     std::string            components;
     std::string            displacement;
-    std::string            translation;
-    std::string            rotation_angle;
-    std::vector<double>    rotation_centre;
-    std::vector<double>    rotation_axis;
+    MotionParameters<dim>  motion;
     double                 penetration_limit = 0;
 
     void
@@ -94,15 +122,16 @@ namespace moraine
   };
 
   /** Section `Grid conditions/<name>`. */
+  template <int dim>
   struct GridConditionParameters
   {
-    std::string         side;
-    std::vector<double> lower_corner;
-    std::vector<double> upper_corner;
-    std::string         components;
-    std::string         displacement;
+    std::string           side;
+    std::vector<double>   lower_corner;
+    std::vector<double>   upper_corner;
+    std::string           components;
+    std::string           displacement;
+    MotionParameters<dim> motion;
 
-    template <int dim>
     void
     add_parameters(dealii::ParameterHandler &prm);
   };
@@ -127,8 +156,9 @@ namespace moraine
   struct OutputParameters
   {
     std::string directory;
-    bool        points = true;
-    bool        mesh   = true;
+    bool        points    = true;
+    bool        mesh      = true;
+    bool        residuals = false;
     OutputTimes times;
 
     void
@@ -164,22 +194,22 @@ namespace moraine
       return prm;
     }
 
-    std::string                       title;
-    MeshParameters<dim>               mesh;
-    MethodParameters                  method;
-    Named<MaterialParameters>         materials;
-    Named<BodyParameters<dim>>        bodies;
-    Named<BoundaryParameters<dim>>    boundaries;
-    Named<GridConditionParameters>    grid_conditions;
-    Named<LoadParameters<dim>>        loads;
-    TimeParameters                    time;
-    NewtonParameters                  newton;
-    LinearSolverParameters            linear_solver;
-    OutputParameters                  output;
-    std::vector<ProbeParameters<dim>> probes;
-    ExactSolutionParameters<dim>      exact;
-    StudyParameters                   study;
-    Named<std::string>                series;
+    std::string                         title;
+    MeshParameters<dim>                 mesh;
+    MethodParameters                    method;
+    Named<MaterialParameters>           materials;
+    Named<BodyParameters<dim>>          bodies;
+    Named<BoundaryParameters<dim>>      boundaries;
+    Named<GridConditionParameters<dim>> grid_conditions;
+    Named<LoadParameters<dim>>          loads;
+    TimeParameters                      time;
+    NewtonParameters                    newton;
+    LinearSolverParameters              linear_solver;
+    OutputParameters                    output;
+    std::vector<ProbeParameters<dim>>   probes;
+    ExactSolutionParameters<dim>        exact;
+    StudyParameters                     study;
+    Named<std::string>                  series;
 
   private:
     void

@@ -6,6 +6,7 @@
 
 #include <moraine/core/linear_algebra.h>
 
+#include <string>
 #include <vector>
 
 namespace moraine
@@ -36,9 +37,29 @@ namespace moraine
      * Compute the residual at @p x and, if asked, the tangent. Entries that
      * are not finite say that the state at @p x does not exist (an inverted
      * point, say); Newton then takes a shorter step.
+     *
+     * The first residual and tangent after initial_guess() may be those
+     * linearised about the start of the step, so that prescribed values reach
+     * the whole body at once instead of the cells beside them.
      */
     virtual void
     assemble(const LA::Vector &x, const bool tangent) = 0;
+
+    /** Whether those of the last assemble() were linearised. */
+    virtual bool
+    linearised() const
+    {
+      return false;
+    }
+
+    /**
+     * Why the residual of the last assemble() is not finite, or "". Collective.
+     */
+    virtual std::string
+    fault() const
+    {
+      return "";
+    }
 
     /**
      * The tangent of the last assemble(x, true).

@@ -9,6 +9,7 @@
 #include <moraine/material/material.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
+#include <moraine/state/trial_points.h>
 
 #include <memory>
 #include <vector>
@@ -26,61 +27,6 @@ namespace moraine
     keep
   };
 
-  /** Engineering view of @f$\mathrm{sym} \sum_a \Delta u_a \otimes \nabla
-   * N_a@f$. */
-  template <int dim>
-  inline dealii::SymmetricTensor<2, 3>
-  strain_increment(const dealii::Tensor<1, dim> *nodal_increments,
-                   const dealii::Tensor<1, dim> *grad_N,
-                   const unsigned int            n_nodes)
-  {
-    dealii::Tensor<2, dim> gradient;
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          gradient[i][j] += nodal_increments[a][i] * grad_N[a][j];
-    dealii::SymmetricTensor<2, 3> strain;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = i; j < dim; ++j)
-        strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
-    return strain;
-  }
-
-  /** The stress stored at a point: xx, yy, zz, xy[, xz, yz]. */
-  template <int dim>
-  inline dealii::SymmetricTensor<2, 3>
-  load_stress(const double *components)
-  {
-    dealii::SymmetricTensor<2, 3> stress;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      stress.access_raw_entry(c) = components[c];
-    return stress;
-  }
-
-  template <int dim>
-  class State;
-
-  /** Trial stresses of points of one body that share their nodes. */
-  template <int dim>
-  class TrialStresses
-  {
-  public:
-    /**
-     * The stresses of the points [begin, end) of a block, valid until the next
-     * call.
-     */
-    const std::vector<dealii::SymmetricTensor<2, 3>> &
-    evaluate(const State<dim>             &state,
-             const StencilBlock<dim>      &block,
-             const unsigned int            begin,
-             const unsigned int            end,
-             const dealii::Tensor<1, dim> *nodal_increments);
-
-  private:
-    std::vector<dealii::SymmetricTensor<2, 3>> strains;
-    std::vector<dealii::SymmetricTensor<2, 3>> stresses;
-  };
-
   /**
    * The state of a step. Committed values live at the points; the trial state
    * is the nodal increment @f$\Delta u@f$ alone, because trial stresses and
@@ -91,12 +37,16 @@ namespace moraine
   class State
   {
   public:
-    /** @p materials holds the material of each body. */
+    /**
+     * @p materials holds the material of each body. The fields of StateFields
+     * are in the layout of @p points and get the values of a body at rest.
+     */
     State(GridSpace<dim>                              &space,
           PointSet<dim>                               &points,
           Basis<dim>                                  &basis,
           std::vector<std::shared_ptr<const Material>> materials,
-          const MeshAfterStep                          mesh_after_step);
+          const MeshAfterStep                          mesh_after_step,
+          const StrainMeasure measure = StrainMeasure::small);
 
     /**
      * Bring cells, unknowns and groups up to date with the points.
@@ -117,9 +67,11 @@ namespace moraine
     }
 
     /**
-     * Commit the trial state: @f$\sigma_n@f$, displacement and, by
-     * MeshAfterStep, positions @f$x_n = x_{n-1} + \sum_a N_a \Delta u_a@f$
-     * (Cortis et al. 2017, eqs. 10 and 11).
+     * Commit the trial state: stress, displacement and, by MeshAfterStep,
+     * positions @f$x_n = x_{n-1} + \sum_a N_a \Delta u_a@f$ (Cortis et al.
+     * 2017, eqs. 10 and 11); at finite strain @f$F = \Delta F F_n@f$,
+     * @f$b^e@f$ and @f$v = \det(\Delta F)\, v_n@f$ too, and the stress is
+     * Cauchy's @f$\sigma = \tau/J@f$.
      *
      * @throws ComputationError if a point leaves the mesh. Collective.
      */
@@ -174,12 +126,49 @@ namespace moraine
       return after_step;
     }
 
+    StrainMeasure
+    strain_measure() const
+    {
+      return measure;
+    }
+
+    const StateFields<dim> &
+    fields() const
+    {
+      return offsets;
+    }
+
+    /** @f$J_n = \det F_n@f$ of a point; 1 at small strain. */
+    double
+    volume_ratio(const unsigned int p) const;
+
+    /** The volume by which the density gives the mass of a point. */
+    double
+    initial_volume(const unsigned int p) const
+    {
+      return measure == StrainMeasure::finite ? points.values(p)[offsets.v_0] :
+                                                points.volume(p);
+    }
+
+    /** Whether the tangent is that of the elastic stiffness everywhere. */
+    bool
+    is_linear() const;
+
   private:
+    /** Write what the i-th trial point, @p p, carries at the end of the step.
+     */
+    void
+    commit(const TrialPoints<dim> &trial_points,
+           const unsigned int      i,
+           const unsigned int      p);
+
     GridSpace<dim>                                    &space;
     PointSet<dim>                                     &points;
     Basis<dim>                                        &basis;
     const std::vector<std::shared_ptr<const Material>> materials;
     const MeshAfterStep                                after_step;
+    const StrainMeasure                                measure;
+    const StateFields<dim>                             offsets;
     bool                                               first_step = true;
     std::vector<dealii::Tensor<1, dim>>                trial;
   };

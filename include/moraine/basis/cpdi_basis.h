@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_basis_cpdi_basis_h
+#define moraine_basis_cpdi_basis_h
+
+#include <moraine/basis/basis.h>
+#include <moraine/basis/cell_patch.h>
+#include <moraine/points/bodies.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Convected particle domain interpolation (Sadeghirad, Brannon and Burghardt
+   * 2011): the point is a quadrilateral or hexahedron, and its functions are
+   * averages over it of the Q1 functions' interpolants between its corners
+   * @f$x_c@f$,
+   * @f[ S_{ip} = \sum_c w_c N_i(x_c), \qquad
+   *     \nabla S_{ip} = \sum_c g_c N_i(x_c) . @f]
+   * Works on any mesh of quadrilaterals or hexahedra with functions of
+   * degree 1. The corners have to be in the point's cell or in cells that touch
+   * it. Where a corner is outside the mesh, the functions of the nearest cell
+   * are continued linearly (CellPatch::locate()), so that @f$\sum_i S_{ip}
+   * x_i@f$ is the centroid and @f$\sum_i x_i \otimes \nabla S_{ip} = 1@f$
+   * whatever the domain.
+   *
+   * Corners are searched once per step, in mark_cells(). The stencils combine
+   * stored numbers: no search, no memory is asked for between two steps.
+   */
+  template <int dim>
+  class CpdiBasis : public Basis<dim>
+  {
+  public:
+    static constexpr unsigned int n_corners = 1u << dim;
+
+    /** @throws ComputationError if a corner lies beyond the limit. */
+    void
+    mark_cells(std::vector<unsigned char> &active) override;
+
+    bool
+    group_points() override;
+
+    void
+    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+
+    bool
+    has_domains() const override
+    {
+      return true;
+    }
+
+  protected:
+    /**
+     * @p seeder made the points of those @p bodies that have a shape; the name
+     * of the method, its value of the key 'Method', is for messages.
+     * @throws InputError if the functions are not of degree 1.
+     */
+    CpdiBasis(const GridSpace<dim>         &space,
+              const PointSet<dim>          &points,
+              const CellSeeder<dim>        &seeder,
+              const std::vector<Body<dim>> &bodies,
+              const std::string            &name);
+
+    /** @f$w_c@f$ and @f$g_c@f$ of a point. */
+    virtual void
+    weights(const unsigned int      p,
+            double                 *w,
+            dealii::Tensor<1, dim> *g) const = 0;
+
+    /** What the user can do about a domain that is too large. */
+    virtual std::string
+    remedy() const = 0;
+
+    /** DomainTools::initial_domains() of the points. */
+    std::vector<CellVertices<dim>>
+    initial_domains(const PointSet<dim> &points) const;
+
+    /** @f$\sum_i N_i(x_c) \Delta u_i@f$ of a corner, as found last. */
+    dealii::Tensor<1, dim>
+    corner_increment(
+      const unsigned int                         p,
+      const unsigned int                         c,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments) const;
+
+    double
+    function_weight(const unsigned int p, const unsigned int c) const
+    {
+      return function_weights[p * n_corners + c];
+    }
+
+    const CellNeighbours<dim> &
+    mesh_neighbours() const
+    {
+      return neighbours;
+    }
+
+  private:
+    /** Cells of the corners, sorted, each once, the rest filled up. */
+    using Key = std::array<unsigned int, n_corners>;
+
+    Key
+    key_of(const unsigned int p) const;
+
+    void
+    append_group(const Key &key);
+
+    const CellSeeder<dim>               seeder;
+    const std::string                   name;
+    std::vector<bool>                   is_seeded;
+    std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
+    CellNeighbours<dim>                 neighbours;
+
+    // Of corner c of point p, at p * n_corners + c.
+    std::vector<unsigned int>           corner_cells;
+    std::vector<double>                 corner_values; ///< n_corners for each
+    std::vector<double>                 function_weights;
+    std::vector<dealii::Tensor<1, dim>> gradient_weights;
+    /** Place of the corner's cell among those of the group. */
+    std::vector<unsigned char> cell_in_group;
+    /** Where the nodes of the cells of a group stand among its nodes. */
+    std::vector<unsigned char> places_of_nodes;
+    std::vector<unsigned int>  first_place; ///< of a group
+  };
+
+
+
+  /**
+   * CPDI1: the domain is a parallelogram or parallelepiped
+   * @f$x_p + \sum_i \pm r_i@f$ whose half edges follow the deformation,
+   * @f$r_i \leftarrow \Delta F r_i@f$, at finite strain; at small strain they
+   * stay as they are. With @f$R = (r_1, r_2[, r_3])@f$ and the signs
+   * @f$s_c = \pm 1@f$ of a corner
+   * @f[ w_c = 2^{-dim}, \qquad g_c = 2^{-dim} R^{-T} s_c . @f]
+   * The domains of neighbours do not stay conforming: there are gaps and
+   * overlaps.
+   */
+  template <int dim>
+  class Cpdi1Basis : public CpdiBasis<dim>
+  {
+  public:
+    using CpdiBasis<dim>::n_corners;
+
+    /** Ask for `half_edge_1`, ..., the vectors @f$r_i@f$. */
+    static void
+    request_fields(PointFields &fields);
+
+    /**
+     * See CpdiBasis. With @p split, points whose corners lie beyond the limit
+     * are halved along their longest edge, see split_domains().
+     */
+    Cpdi1Basis(const GridSpace<dim>         &space,
+               const PointSet<dim>          &points,
+               const CellSeeder<dim>        &seeder,
+               const std::vector<Body<dim>> &bodies,
+               const bool                    split = false);
+
+    /**
+     * Of DomainTools::initial_domains(): vectors from the point to the middles
+     * of its sides, scaled so that the volume is the point's.
+     */
+    void
+    initialise_points(PointSet<dim> &points) const override;
+
+    void
+    move_domains(
+      PointSet<dim>                             &points,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments,
+      const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
+
+    bool
+    split_domains(PointSet<dim> &points) const override;
+
+    CellVertices<dim>
+    domain_corners(const unsigned int p) const override;
+
+  private:
+    void
+    weights(const unsigned int      p,
+            double                 *w,
+            dealii::Tensor<1, dim> *g) const override;
+
+    std::string
+    remedy() const override;
+
+    /** @f$R@f$ */
+    dealii::Tensor<2, dim>
+    half_edges(const unsigned int p) const;
+
+    const bool                    split;
+    std::array<unsigned int, dim> offsets;
+  };
+
+
+
+  /**
+   * CPDI2 (Sadeghirad, Brannon and Guilkey 2013): the domain is a quadrilateral
+   * or hexahedron whose corners move with the grid at finite strain,
+   * @f$x_c \leftarrow x_c + \sum_i N_i(x_c) \Delta u_i@f$, and the volume of a
+   * point is that of its domain. Corners that two domains share stay
+   * together, inside the mesh. At small strain, where volumes and domains do
+   * not change, they are shifted with their point.
+   * @f[ w_c = \frac{1}{V} \int M_c \, dV, \qquad
+   *     g_c = \frac{1}{V} \int \nabla M_c \, dV , @f]
+   * with the multilinear functions @f$M_c@f$ of the corners. The place of a
+   * point is moved by the average displacement and differs from the centroid
+   * of its domain by the change of the weights in a step.
+   */
+  template <int dim>
+  class Cpdi2Basis : public CpdiBasis<dim>
+  {
+  public:
+    using CpdiBasis<dim>::n_corners;
+
+    /** Ask for `corner_1`, ..., the vectors @f$x_c@f$, lexicographic. */
+    static void
+    request_fields(PointFields &fields);
+
+    /** See CpdiBasis. */
+    Cpdi2Basis(const GridSpace<dim>         &space,
+               const PointSet<dim>          &points,
+               const CellSeeder<dim>        &seeder,
+               const std::vector<Body<dim>> &bodies);
+
+    /**
+     * DomainTools::initial_domains(). Volumes become those of the domains
+     * (they differ for Gauss points of full cells that are askew; the sum over
+     * a cell is the same).
+     */
+    void
+    initialise_points(PointSet<dim> &points) const override;
+
+    /** A domain would turn inside out at a corner. */
+    std::string
+    fault_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
+      const override;
+
+    void
+    move_domains(
+      PointSet<dim>                             &points,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments,
+      const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
+
+    CellVertices<dim>
+    domain_corners(const unsigned int p) const override;
+
+  private:
+    void
+    weights(const unsigned int      p,
+            double                 *w,
+            dealii::Tensor<1, dim> *g) const override;
+
+    std::string
+    remedy() const override;
+
+    /** The corners at the end of a step. */
+    CellVertices<dim>
+    moved_corners(
+      const unsigned int                         p,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments) const;
+
+    void
+    store_corners(PointSet<dim>           &points,
+                  const unsigned int       p,
+                  const CellVertices<dim> &corners) const;
+
+    const bool                          finite_strain;
+    std::array<unsigned int, n_corners> offsets;
+  };
+} // namespace moraine
+
+#endif

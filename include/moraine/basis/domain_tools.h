@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_basis_domain_tools_h
+#define moraine_basis_domain_tools_h
+
+#include <moraine/points/bodies.h>
+#include <moraine/points/point_set.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** What bases whose points have domains have in common. */
+  namespace DomainTools
+  {
+    /** "point 7 at (1.5, 2)". */
+    template <int dim>
+    std::string
+    name_of(const PointSet<dim> &points, const unsigned int p);
+
+    /** Offset of the field @p name if there is one. */
+    std::optional<unsigned int>
+    find_field(const PointFields &fields, const std::string &name);
+
+    /** Whether deformations are finite: a point carries its gradient. */
+    inline bool
+    finite_strain(const PointFields &fields)
+    {
+      return find_field(fields, "deformation_gradient").has_value();
+    }
+
+    /**
+     * Throw the @p message of the first rank that has one. Collective.
+     * @throws ComputationError
+     */
+    void
+    throw_first(const std::string &message, const MPI_Comm &communicator);
+
+    /**
+     * What the corners of a quadrilateral or hexahedron contribute to averages
+     * over it, with its multilinear functions @f$M_c@f$,
+     * @f[ w_c = \frac{1}{V} \int M_c \, dV, \qquad
+     *     g_c = \frac{1}{V} \int \nabla M_c \, dV
+     *         = \frac{1}{V} \frac{\partial V}{\partial x_c} , @f]
+     * exactly by @f$2^{dim}@f$ Gauss points. Arrays hold 2^dim entries.
+     * @return the volume @f$V@f$.
+     */
+    template <int dim>
+    double
+    average_weights(const CellVertices<dim> &corners,
+                    double                  *w,
+                    dealii::Tensor<1, dim>  *g);
+
+    /** The corners @f$x + \sum_i \pm r_i@f$, @f$r_i@f$ the columns. */
+    template <int dim>
+    CellVertices<dim>
+    parallelepiped(const dealii::Point<dim>     &x,
+                   const dealii::Tensor<2, dim> &half_edges);
+
+    /**
+     * The domains of points that were just made, in the order of the flat
+     * numbering. A seeded point has the sub-cell of the cell it was made for,
+     * or that sub-cell's shape, with its centroid at the point and the point's
+     * volume, where the body cuts it. Listed points have the parallelepiped of
+     * PointList::half_edges or, if that is zero, a square or cube along the
+     * axes with the volume of the point.
+     */
+    template <int dim>
+    std::vector<CellVertices<dim>>
+    initial_domains(const PointSet<dim>                       &points,
+                    const CellSeeder<dim>                     &seeder,
+                    const std::vector<bool>                   &is_seeded,
+                    const std::vector<dealii::Tensor<2, dim>> &half_edges);
+
+    /**
+     * Split points in halves until none is too large. Halves have half of
+     * `volume` and `initial_volume` and the other values of the whole. The
+     * lower half keeps the id; ids of the others follow the highest, in the
+     * order of the ids of the wholes over all ranks, so they do not depend on
+     * the number of ranks.
+     *
+     * @param split_direction the edge of point p that has to be halved, dim if
+     * none
+     * @param halve shortens edge d of point p and returns the vector from the
+     * old centre to that of the upper half
+     * @return whether any rank split a point. Collective.
+     */
+    template <int dim>
+    bool
+    split_points(
+      PointSet<dim>                                           &points,
+      const std::function<unsigned int(const unsigned int p)> &split_direction,
+      const std::function<dealii::Tensor<1, dim>(const unsigned int p,
+                                                 const unsigned int d)> &halve);
+  } // namespace DomainTools
+} // namespace moraine
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_basis_gimp_basis_h
+#define moraine_basis_gimp_basis_h
+
+#include <moraine/basis/basis.h>
+#include <moraine/basis/cell_patch.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace moraine
+{
+  /** How the boxes of GIMP follow a finite deformation. */
+  enum class DomainUpdate
+  {
+    /** Not at all. */
+    frozen,
+    /**
+     * @f$l_i = l_{0,i} U_{ii}@f$, @f$U = \sqrt{F^T F}@f$ (Charlton, Coombs and
+     * Augarde 2017).
+     */
+    stretch,
+    /**
+     * The corners move with the grid; @f$l_i@f$ is half the distance in
+     * direction i of the middles of two faces, and all are scaled so that the
+     * volume of the box changes as the point's,
+     * @f$\prod l_i = \det\Delta F \prod l_{n,i}@f$ (Coombs and Augarde 2020).
+     */
+    corners
+  };
+
+  /**
+   * Generalised interpolation (GIMP): the point is a box with half lengths
+   * @f$l_p@f$, and its functions are the averages of the Q1 functions over the
+   * box, @f$S_{ip} = \frac{1}{V_p}\int_{\Omega_p} N_i \,dx@f$ (Bardenhagen and
+   * Kober 2004). Needs a mesh of equal boxes. At small strain boxes keep their
+   * size. A half length may be one cell size at most, so that a box stays in
+   * the cells that touch the point's; the part of a box outside the mesh is
+   * cut off.
+   */
+  template <int dim>
+  class GimpBasis : public Basis<dim>
+  {
+  public:
+    /**
+     * Ask for what the basis stores with a point: `half_length`, and
+     * `initial_half_length` if boxes are stretched.
+     */
+    static void
+    request_fields(PointFields       &fields,
+                   const DomainUpdate update = DomainUpdate::frozen)
+    {
+      fields.request("half_length", dim, "length");
+      if (update == DomainUpdate::stretch)
+        fields.request("initial_half_length", dim, "length");
+    }
+
+    /**
+     * The divisions of a cell at seeding, @p points_per_direction, give the
+     * boxes their shape. @p is_seeded says which bodies were seeded that way;
+     * the others, all if left out, have points of their own (a file). With
+     * @p split, boxes longer than the limit are halved, see split_domains().
+     * @throws InputError if the mesh is not a box of equal cells.
+     */
+    GimpBasis(const GridSpace<dim>    &space,
+              const PointSet<dim>     &points,
+              const unsigned int       points_per_direction,
+              const std::vector<bool> &is_seeded = {},
+              const DomainUpdate       update    = DomainUpdate::frozen,
+              const bool               split     = false);
+
+    /**
+     * Half lengths. Of a seeded point: its distance to the nearer face of its
+     * sub-cell, so that the box never leaves the sub-cell and boxes tile a body
+     * whose faces follow the mesh; averages over a box within one cell are the
+     * values at its centre, so at the start GIMP integrates what points do. Of
+     * other points: a box of the point's volume, at most half a cell.
+     */
+    void
+    initialise_points(PointSet<dim> &points) const override;
+
+    /** @throws ComputationError if a box is longer than the limit. */
+    void
+    mark_cells(std::vector<unsigned char> &active) override;
+
+    bool
+    group_points() override;
+
+    void
+    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+
+    /** If corners are tracked: a half length would not be positive. */
+    std::string
+    fault_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
+      const override;
+
+    void
+    move_domains(
+      PointSet<dim>                             &points,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments,
+      const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
+
+    /**
+     * Halve boxes with a half length above the cell size, along the edge that
+     * is longest in cell sizes.
+     */
+    bool
+    split_domains(PointSet<dim> &points) const override;
+
+    bool
+    has_domains() const override
+    {
+      return true;
+    }
+
+    CellVertices<dim>
+    domain_corners(const unsigned int p) const override;
+
+  private:
+    /** First and last cell the box overlaps, by direction. */
+    struct Window
+    {
+      std::array<unsigned int, dim> first;
+      std::array<unsigned int, dim> last;
+
+      bool
+      operator<(const Window &other) const
+      {
+        return std::tie(first, last) < std::tie(other.first, other.last);
+      }
+    };
+
+    const BoxGrid<dim> &
+    grid() const
+    {
+      return *this->space.mesh().box_grid();
+    }
+
+    /** The edge that is longest in cell sizes, dim if none is too long. */
+    unsigned int
+    too_long_edge(const unsigned int point) const;
+
+    /**
+     * Half lengths between middles of faces that moved with the grid; @p patch
+     * is that of the point's cell.
+     */
+    dealii::Tensor<1, dim>
+    tracked_half_length(
+      const unsigned int                         point,
+      const CellPatch<dim>                      &patch,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments) const;
+
+    Window
+    window_of(const unsigned int point) const;
+
+    void
+    append_nodes(const Window &window);
+
+    const CellNeighbours<dim> neighbours;
+    const unsigned int        points_per_direction;
+    const std::vector<bool>   is_seeded;
+    const DomainUpdate        update;
+    const bool                split;
+    const unsigned int        half_length_offset;
+    std::vector<Window>       windows;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/state/trial_points.h>
+
+#include <moraine/state/state.h>
+
+#include <cmath>
+#include <limits>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    SymmetricTensor<2, 3>
+    symmetric_part(const Tensor<2, dim> &gradient)
+    {
+      SymmetricTensor<2, 3> strain;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
+      return strain;
+    }
+
+
+
+    /** @f$\Delta F\, b\, \Delta F^T@f$; in plane strain zz stays. */
+    template <int dim>
+    SymmetricTensor<2, 3>
+    push_forward(const Tensor<2, dim> &dF, const SymmetricTensor<2, 3> &b)
+    {
+      Tensor<2, dim> dF_b;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int l = 0; l < dim; ++l)
+            dF_b[i][k] += dF[i][l] * b[l][k];
+      SymmetricTensor<2, 3> result;
+      result[2][2] = b[2][2];
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          {
+            double sum = 0;
+            for (unsigned int k = 0; k < dim; ++k)
+              sum += dF_b[i][k] * dF[j][k];
+            result[i][j] = sum;
+          }
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StateFields<dim>::StateFields(PointFields        &fields,
+                                const StrainMeasure measure,
+                                const bool          plastic)
+  {
+    if (measure == StrainMeasure::finite)
+      {
+        F   = fields.request("deformation_gradient", dim * dim, "-");
+        b   = fields.request("elastic_left_cauchy_green",
+                           n_stress_components<dim>,
+                           "-");
+        v_0 = fields.request("initial_volume",
+                             1,
+                             dim == 2 ? "length^2" : "length^3");
+      }
+    if (plastic)
+      kappa = fields.request("plastic_strain", 1, "-");
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::evaluate(const State<dim>        &state,
+                             const StencilBlock<dim> &block,
+                             const unsigned int       begin,
+                             const unsigned int       end,
+                             const Tensor<1, dim>    *nodal_increments)
+  {
+    measure         = state.strain_measure();
+    n_nodes         = block.n_nodes;
+    block_gradients = block.grad_N(begin);
+    moved_gradients = nullptr;
+    points.resize(end - begin);
+    answers.resize(end - begin);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const Tensor<1, dim> *grad = block.grad_N(begin + i);
+        Tensor<2, dim>        gradient;
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = 0; l < dim; ++l)
+              gradient[k][l] += nodal_increments[a][k] * grad[a][l];
+        points[i].gradient = gradient;
+      }
+    const Material &material =
+      state.material(state.material_points().body(block.points[begin]));
+    if (measure == StrainMeasure::finite)
+      ask_finite(state, block, begin);
+    else if (material.is_linear())
+      {
+        ask_linear(state, block, begin);
+        return;
+      }
+    else
+      ask_small(state, block, begin);
+    answer(state, block, begin);
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::ask_linear(const State<dim>        &state,
+                               const StencilBlock<dim> &block,
+                               const unsigned int       begin)
+  {
+    const auto         &set = state.material_points();
+    const LameConstants C =
+      state.material(set.body(block.points[begin])).elastic_stiffness();
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const unsigned int p  = block.points[begin + i];
+        points[i].J_increment = 1;
+        points[i].weight      = set.volume(p);
+        points[i].stress =
+          load_symmetric<dim>(set.values(p) + set.stress_offset()) +
+          C * symmetric_part(points[i].gradient);
+      }
+    fault = points.size();
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::ask_small(const State<dim>        &state,
+                              const StencilBlock<dim> &block,
+                              const unsigned int       begin)
+  {
+    const auto         &set = state.material_points();
+    const LameConstants C =
+      state.material(set.body(block.points[begin])).elastic_stiffness();
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const unsigned int p  = block.points[begin + i];
+        TrialPoint        &at = points[i];
+        at.J_increment        = 1;
+        at.weight             = set.volume(p);
+        at.principal          = spectrum<dim>(C.strain_of(load_symmetric<dim>(
+                                       set.values(p) + set.stress_offset())) +
+                                     symmetric_part(at.gradient));
+        at.trial_strain       = at.principal.values;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::ask_finite(const State<dim>        &state,
+                               const StencilBlock<dim> &block,
+                               const unsigned int       begin)
+  {
+    const auto             &set    = state.material_points();
+    const StateFields<dim> &fields = state.fields();
+    if (moved.size() < points.size() * n_nodes)
+      moved.resize(points.size() * n_nodes);
+    moved_gradients = moved.data();
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const unsigned int p      = block.points[begin + i];
+        const double      *values = set.values(p);
+        TrialPoint        &at     = points[i];
+
+        Tensor<2, dim> dF = at.gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          dF[d][d] += 1;
+        at.J_increment                  = determinant(dF);
+        const Tensor<2, dim>  inverse   = invert(dF);
+        const Tensor<1, dim> *gradients = block.grad_N(begin + i);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          moved[i * n_nodes + a] = gradients[a] * inverse;
+
+        at.weight    = set.volume(p) / state.volume_ratio(p);
+        at.principal = spectrum<dim>(
+          push_forward(dF, load_symmetric<dim>(values + fields.b)));
+        for (unsigned int A = 0; A < 3; ++A)
+          at.trial_strain[A] = 0.5 * std::log(at.principal.values[A]);
+        if (!(at.J_increment > 0))
+          at.trial_strain[0] = std::numeric_limits<double>::quiet_NaN();
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::answer(const State<dim>        &state,
+                           const StencilBlock<dim> &block,
+                           const unsigned int       begin)
+  {
+    const auto        &set      = state.material_points();
+    const Material    &material = state.material(set.body(block.points[begin]));
+    const unsigned int kappa    = state.fields().kappa;
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        answers[i].strain = points[i].trial_strain;
+        answers[i].plastic_strain =
+          kappa == StateFields<dim>::none ?
+            0. :
+            set.values(block.points[begin + i])[kappa];
+      }
+    material.respond(make_array_view(answers));
+    fault = points.size();
+    for (unsigned int i = points.size(); i-- > 0;)
+      {
+        points[i].stress = points[i].principal.tensor(answers[i].stress);
+        if (!std::isfinite(answers[i].stress[0]))
+          fault = i;
+      }
+  }
+
+
+
+  template <int dim>
+  SymmetricTensor<2, 3>
+  TrialPoints<dim>::elastic_left_cauchy_green(const unsigned int i) const
+  {
+    Tensor<1, 3> values;
+    for (unsigned int A = 0; A < 3; ++A)
+      values[A] = std::exp(2 * answers[i].strain[A]);
+    return points[i].principal.tensor(values);
+  }
+
+
+
+  template struct StateFields<2>;
+  template struct StateFields<3>;
+  template class TrialPoints<2>;
+  template class TrialPoints<3>;
+} // namespace moraine

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_tests_domain_scene_h
+#define moraine_tests_domain_scene_h
+
+#include <moraine/basis/basis.h>
+#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/gimp_basis.h>
+#include <moraine/points/straight_shapes.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace moraine
+{
+  enum class Method
+  {
+    mpm,
+    gimp,
+    gimp_stretch,
+    gimp_corners,
+    cpdi1,
+    cpdi2
+  };
+
+  struct DomainSceneOptions
+  {
+    Method      method        = Method::cpdi2;
+    bool        distorted     = false; ///< vertices inside are moved
+    bool        box           = true;  ///< false: the mesh forgets it is one
+    bool        finite_strain = true;
+    bool        split         = false;
+    double      lower         = 0; ///< of the body
+    double      upper         = 4;
+    PointLayout layout        = PointLayout::equal;
+  };
+
+  /** A mesh of 4^dim cells from 0 to 4 with a body of 2^dim points per cell. */
+  template <int dim>
+  struct DomainScene
+  {
+    using Options = DomainSceneOptions;
+
+    static MeshParameters<dim>
+    mesh_parameters()
+    {
+      MeshParameters<dim> parameters;
+      for (unsigned int d = 0; d < dim; ++d)
+        parameters.upper_corner[d] = 4;
+      parameters.cell_size = 1;
+      return parameters;
+    }
+
+    static PointFields
+    fields(const Options &options)
+    {
+      PointFields layout;
+      if (options.method == Method::gimp_stretch)
+        GimpBasis<dim>::request_fields(layout, DomainUpdate::stretch);
+      else if (options.method == Method::gimp ||
+               options.method == Method::gimp_corners)
+        GimpBasis<dim>::request_fields(layout);
+      else if (options.method == Method::cpdi1)
+        Cpdi1Basis<dim>::request_fields(layout);
+      else if (options.method == Method::cpdi2)
+        Cpdi2Basis<dim>::request_fields(layout);
+      if (options.finite_strain)
+        {
+          layout.request("deformation_gradient", dim * dim, "-");
+          layout.request("initial_volume", 1, "length^dim");
+        }
+      return layout;
+    }
+
+    /** A number in [-1, 1] that looks random and is the same on all ranks. */
+    static double
+    noise(const unsigned int i, const unsigned int j)
+    {
+      const double x = 1e4 * std::sin(12.9898 * i + 78.233 * j + 1);
+      return 2 * (x - std::floor(x)) - 1;
+    }
+
+    static bool
+    distort(BackgroundMesh<dim> &mesh, const Options &options)
+    {
+      if (options.distorted)
+        dealii::GridTools::transform(
+          [](const dealii::Point<dim> &x) {
+            dealii::Point<dim> y      = x;
+            unsigned int       number = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              number = 7 * number + std::lround(x[d]);
+            for (unsigned int d = 0; d < dim; ++d)
+              if (x[d] > 0.5 && x[d] < 3.5)
+                y[d] += 0.2 * noise(number, d);
+            return y;
+          },
+          const_cast<dealii::parallel::shared::Triangulation<dim> &>(
+            mesh.triangulation()));
+      if (options.distorted || !options.box)
+        const_cast<std::optional<BoxGrid<dim>> &>(mesh.box_grid()).reset();
+      return true;
+    }
+
+    static std::vector<Body<dim>>
+    make_bodies(const Options &options)
+    {
+      dealii::Point<dim> lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = options.lower;
+          upper[d] = options.upper;
+        }
+      return {{"box",
+               std::make_shared<ConvexShape<dim>>(
+                 ConvexShape<dim>::box(lower, upper))}};
+    }
+
+    std::unique_ptr<Basis<dim>>
+    make_basis() const
+    {
+      switch (options.method)
+        {
+          case Method::mpm:
+            return std::make_unique<CellBasis<dim, 1>>(space, points);
+          case Method::cpdi1:
+            return std::make_unique<Cpdi1Basis<dim>>(
+              space, points, seeder, bodies, options.split);
+          case Method::cpdi2:
+            return std::make_unique<Cpdi2Basis<dim>>(space,
+                                                     points,
+                                                     seeder,
+                                                     bodies);
+          default:
+            return std::make_unique<GimpBasis<dim>>(
+              space,
+              points,
+              2,
+              std::vector<bool>(bodies.size(), true),
+              options.method == Method::gimp_stretch ? DomainUpdate::stretch :
+              options.method == Method::gimp_corners ? DomainUpdate::corners :
+                                                       DomainUpdate::frozen,
+              options.split);
+        }
+    }
+
+    explicit DomainScene(const Options &options)
+      : options(options)
+      , mesh(mesh_parameters(), MPI_COMM_WORLD)
+      , is_distorted(distort(mesh, options))
+      , space(mesh, 1)
+      , points(mesh, fields(options))
+      , bodies(make_bodies(options))
+      , seeder(2, options.layout)
+    {
+      seed_bodies(bodies, seeder, points);
+      basis = make_basis();
+      basis->initialise_points(points);
+      prepare();
+    }
+
+    /** What begins a step. */
+    void
+    prepare()
+    {
+      std::vector<unsigned char> active(mesh.triangulation().n_active_cells(),
+                                        0);
+      basis->mark_cells(active);
+      space.set_active_cells(std::move(active));
+      basis->group_points();
+    }
+
+    /** Values at the nodes of a displacement given as a function. */
+    template <class Function>
+    std::vector<dealii::Tensor<1, dim>>
+    nodal(const Function &function) const
+    {
+      std::vector<dealii::Tensor<1, dim>> values(space.n_nodes());
+      for (unsigned int node = 0; node < values.size(); ++node)
+        values[node] = function(space.node_position(node));
+      return values;
+    }
+
+    /** What accepts a step. */
+    void
+    accept(const std::vector<dealii::Tensor<1, dim>> &nodal)
+    {
+      std::vector<dealii::Tensor<1, dim>> increments(points.n_local());
+      std::vector<dealii::Tensor<2, dim>> gradients(points.n_local());
+      StencilBlock<dim>                   block;
+      for (unsigned int g = 0; g < basis->n_groups(); ++g)
+        {
+          basis->evaluate(g, block);
+          for (unsigned int p = 0; p < block.n_points; ++p)
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              {
+                const auto &u = nodal[block.nodes[a]];
+                increments[block.points[p]] += block.N(p)[a] * u;
+                gradients[block.points[p]] +=
+                  outer_product(u, block.grad_N(p)[a]);
+              }
+        }
+      if (options.finite_strain)
+        update_state(gradients);
+      basis->move_domains(points, nodal, gradients);
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        points.set_position(p, points.position(p) + increments[p]);
+      basis->split_domains(points);
+      points.find_cells();
+      prepare();
+    }
+
+    unsigned int
+    offset(const std::string &field, const unsigned int n) const
+    {
+      return PointFields(points.fields()).request(field, n, "");
+    }
+
+    const Options               options;
+    BackgroundMesh<dim>         mesh;
+    const bool                  is_distorted;
+    GridSpace<dim>              space;
+    PointSet<dim>               points;
+    std::vector<Body<dim>>      bodies;
+    CellSeeder<dim>             seeder;
+    std::unique_ptr<Basis<dim>> basis;
+
+  private:
+    /** Deformation gradients (from 1) and volumes. */
+    void
+    update_state(const std::vector<dealii::Tensor<2, dim>> &gradients)
+    {
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          double *values =
+            points.values(p) + offset("deformation_gradient", dim * dim);
+          dealii::Tensor<2, dim> F, increment = gradients[p];
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              increment[i][i] += 1;
+              for (unsigned int j = 0; j < dim; ++j)
+                F[i][j] = values[i * dim + j];
+            }
+          if (F.norm() == 0)
+            for (unsigned int i = 0; i < dim; ++i)
+              F[i][i] = 1;
+          F = increment * F;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              values[i * dim + j] = F[i][j];
+          points.values(p)[offset("volume", 1)] *= determinant(increment);
+        }
+    }
+  };
+} // namespace moraine
+
+#endif

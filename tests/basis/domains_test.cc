@@ -1,0 +1,940 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/basis/cell_patch.h>
+#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/domain_tools.h>
+#include <moraine/basis/gimp_basis.h>
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "domain_scene.h"
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  template <int dim>
+  CellVertices<dim>
+  test_quad()
+  {
+    // Corners of the lower side of a hexahedron in 3D, moved a bit above.
+    const double      x[4][2] = {{0, 0}, {1.1, .1}, {-.2, .9}, {1.3, 1.2}};
+    CellVertices<dim> quad;
+    for (unsigned int c = 0; c < quad.size(); ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        quad[c][d] = d < 2 ? x[c % 4][d] + 0.1 * (c / 4) * (c - 3.5) :
+                             (c / 4) * (1 + 0.1 * c);
+    return quad;
+  }
+
+
+
+  TEST(Domains, WeightsOfAQuadrilateral)
+  {
+    double       w[4];
+    Tensor<1, 2> g[4];
+    // Half the cross product of the diagonals.
+    EXPECT_NEAR(DomainTools::average_weights<2>(test_quad<2>(), w, g),
+                0.5 * (1.3 * 0.8 + 1.3 * 1.2),
+                1e-14);
+    const double expected[4]    = {.2314, .2429, .2571, .2686};
+    const double gradient[4][2] = {{-.3077, -.5},
+                                   {.4615, -.5},
+                                   {-.4615, .5},
+                                   {.3077, .5}};
+    for (unsigned int c = 0; c < 4; ++c)
+      {
+        EXPECT_NEAR(w[c], expected[c], 5e-5);
+        EXPECT_NEAR(g[c][0], gradient[c][0], 5e-5);
+        EXPECT_NEAR(g[c][1], gradient[c][1], 5e-5);
+      }
+  }
+
+
+
+  TEST(Domains, GradientWeightsAreDerivativesOfTheVolume)
+  {
+    double           w[8], unused_w[8];
+    Tensor<1, 3>     g[8], unused_g[8];
+    auto             hexahedron = test_quad<3>();
+    const double     volume = DomainTools::average_weights<3>(hexahedron, w, g);
+    constexpr double step   = 1e-2; // the volume is linear in each coordinate
+    for (unsigned int c = 0; c < 8; ++c)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          auto moved = hexahedron;
+          moved[c][d] += step;
+          const double larger =
+            DomainTools::average_weights<3>(moved, unused_w, unused_g);
+          EXPECT_NEAR(g[c][d], (larger - volume) / step / volume, 1e-12);
+        }
+  }
+
+
+
+  /** Distort the domains of a scene, each in its own way. */
+  template <int dim>
+  void
+  disturb(DomainScene<dim> &scene, const double size)
+  {
+    const bool         cpdi1 = scene.options.method == Method::cpdi1;
+    const unsigned int n     = cpdi1 ? dim : 1 << dim;
+    for (unsigned int v = 0; v < n; ++v)
+      {
+        const unsigned int offset = scene.offset(
+          (cpdi1 ? "half_edge_" : "corner_") + std::to_string(v + 1), dim);
+        for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+          for (unsigned int d = 0; d < dim; ++d)
+            scene.points.values(p)[offset + d] +=
+              size * scene.noise(scene.points.id(p), v * dim + d);
+      }
+    scene.prepare();
+  }
+
+
+
+  /**
+   * Sum N = 1, sum grad N = 0, sum N x_a = centroid, sum x_a (x) grad N = 1.
+   */
+  template <int dim>
+  void
+  check_completeness(const DomainSceneOptions &options,
+                     const double              disturbance)
+  {
+    DomainScene<dim> scene(options);
+    if (disturbance > 0)
+      disturb(scene, disturbance);
+    std::vector<unsigned int> seen(scene.points.n_local(), 0);
+    StencilBlock<dim>         block;
+    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+      {
+        scene.basis->evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            ++seen[block.points[p]];
+            double         sum = 0;
+            Tensor<1, dim> sum_gradient, place;
+            Tensor<2, dim> gradient_of_place;
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              {
+                const Tensor<1, dim> x =
+                  scene.space.node_position(block.nodes[a]);
+                sum += block.N(p)[a];
+                sum_gradient += block.grad_N(p)[a];
+                place += block.N(p)[a] * x;
+                gradient_of_place += outer_product(x, block.grad_N(p)[a]);
+              }
+            double         w[1 << dim];
+            Tensor<1, dim> weight_g[1 << dim], centroid;
+            const auto corners = scene.basis->domain_corners(block.points[p]);
+            DomainTools::average_weights<dim>(corners, w, weight_g);
+            for (unsigned int c = 0; c < corners.size(); ++c)
+              centroid += w[c] * corners[c];
+            EXPECT_NEAR(sum, 1., 1e-13);
+            EXPECT_NEAR(sum_gradient.norm(), 0., 1e-12);
+            EXPECT_NEAR((place - centroid).norm(), 0., 1e-12);
+            EXPECT_NEAR((gradient_of_place -
+                         Tensor<2, dim>(unit_symmetric_tensor<dim>()))
+                          .norm(),
+                        0.,
+                        1e-11);
+          }
+      }
+    for (const unsigned int count : seen)
+      EXPECT_EQ(count, 1u);
+  }
+
+
+
+  template <int dim>
+  void
+  check_all_meshes()
+  {
+    for (const Method method : {Method::cpdi1, Method::cpdi2})
+      for (const bool distorted : {false, true})
+        for (const double lower : {0., 0.3})
+          {
+            DomainSceneOptions options;
+            options.method    = method;
+            options.distorted = distorted;
+            options.lower     = lower;
+            // With lower = 0 corners reach over the edge of the mesh.
+            check_completeness<dim>(options, 0.);
+            check_completeness<dim>(options, 0.08);
+          }
+  }
+
+
+
+  TEST(Domains, CpdiIsComplete2D)
+  {
+    check_all_meshes<2>();
+  }
+
+
+
+  TEST(Domains, CpdiIsComplete3D)
+  {
+    check_all_meshes<3>();
+  }
+
+
+
+  /** N and grad N of every local point by id and place of the node. */
+  template <int dim>
+  std::map<std::pair<unsigned int, std::array<int, dim>>,
+           std::pair<double, Tensor<1, dim>>>
+  stencils(const DomainScene<dim> &scene)
+  {
+    std::map<std::pair<unsigned int, std::array<int, dim>>,
+             std::pair<double, Tensor<1, dim>>>
+                      all;
+    StencilBlock<dim> block;
+    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+      {
+        scene.basis->evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          for (unsigned int a = 0; a < block.n_nodes; ++a)
+            {
+              std::array<int, dim> place;
+              for (unsigned int d = 0; d < dim; ++d)
+                place[d] = std::lround(
+                  1e6 * scene.space.node_position(block.nodes[a])[d]);
+              if (std::abs(block.N(p)[a]) > 1e-14 ||
+                  block.grad_N(p)[a].norm() > 1e-13)
+                all[{scene.points.id(block.points[p]), place}] = {
+                  block.N(p)[a], block.grad_N(p)[a]};
+            }
+      }
+    return all;
+  }
+
+
+
+  template <int dim>
+  void
+  expect_same_stencils(const DomainScene<dim> &a, const DomainScene<dim> &b)
+  {
+    const auto of_a = stencils(a), of_b = stencils(b);
+    ASSERT_EQ(of_a.size(), of_b.size());
+    ASSERT_GT(of_a.size(), 0u);
+    for (const auto &[key, value] : of_a)
+      {
+        ASSERT_TRUE(of_b.count(key));
+        EXPECT_NEAR(value.first, of_b.at(key).first, 1e-13);
+        EXPECT_NEAR((value.second - of_b.at(key).second).norm(), 0., 1e-12);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  check_parallelograms(const bool distorted)
+  {
+    DomainSceneOptions options;
+    options.lower     = 0.3;
+    options.distorted = distorted;
+    options.method    = Method::cpdi1;
+    DomainScene<dim> cpdi1(options);
+    disturb(cpdi1, 0.08);
+    options.method = Method::cpdi2;
+    DomainScene<dim> cpdi2(options);
+    ASSERT_EQ(cpdi1.points.n_local(), cpdi2.points.n_local());
+    for (unsigned int p = 0; p < cpdi2.points.n_local(); ++p)
+      {
+        ASSERT_EQ(cpdi1.points.id(p), cpdi2.points.id(p));
+        const auto corners = cpdi1.basis->domain_corners(p);
+        for (unsigned int c = 0; c < corners.size(); ++c)
+          std::copy_n(corners[c].begin_raw(),
+                      dim,
+                      cpdi2.points.values(p) +
+                        cpdi2.offset("corner_" + std::to_string(c + 1), dim));
+      }
+    cpdi2.prepare();
+    expect_same_stencils(cpdi1, cpdi2);
+  }
+
+
+
+  TEST(Domains, Cpdi1IsCpdi2OfParallelepipeds)
+  {
+    check_parallelograms<2>(false);
+    check_parallelograms<2>(true);
+    check_parallelograms<3>(false);
+    check_parallelograms<3>(true);
+  }
+
+
+
+  template <int dim>
+  void
+  check_points_within_a_cell()
+  {
+    DomainSceneOptions options;
+    options.method = Method::mpm;
+    const DomainScene<dim> mpm(options);
+    for (const Method method : {Method::gimp, Method::cpdi1, Method::cpdi2})
+      {
+        options.method = method;
+        expect_same_stencils(mpm, DomainScene<dim>(options));
+      }
+  }
+
+
+
+  TEST(Domains, DomainsWithinACellAreTheirCentres)
+  {
+    check_points_within_a_cell<2>();
+    check_points_within_a_cell<3>();
+  }
+
+
+
+  template <int dim>
+  void
+  check_general_search()
+  {
+    for (const Method method : {Method::cpdi1, Method::cpdi2})
+      {
+        DomainSceneOptions options;
+        options.method = method;
+        DomainScene<dim> box(options);
+        options.box = false;
+        DomainScene<dim> general(options);
+        expect_same_stencils(box, general);
+        disturb(box, 0.2);
+        disturb(general, 0.2);
+        expect_same_stencils(box, general);
+      }
+  }
+
+
+
+  TEST(Domains, TheSearchInAnyMeshIsTheOneInABox)
+  {
+    check_general_search<2>();
+    check_general_search<3>();
+  }
+
+
+
+  template <int dim>
+  void
+  check_patch(const bool is_box)
+  {
+    DomainSceneOptions options;
+    options.method = Method::mpm;
+    options.box    = is_box;
+    const DomainScene<dim>    scene(options);
+    const CellNeighbours<dim> neighbours(scene.mesh);
+    CellPatch<dim>            patch(neighbours);
+    const auto                middle = [](const double x) {
+      Point<dim> place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = d == 0 ? x : 0.5;
+      return place;
+    };
+    const auto end   = scene.mesh.triangulation().end();
+    const auto first = neighbours.cell_around(neighbours.cell(0), middle(0.5));
+    const auto next  = neighbours.cell_around(first, middle(1.5));
+    unsigned int cell;
+    double       N[1 << dim];
+    EXPECT_TRUE(neighbours.cell_around(first, middle(3.5)) != end);
+    EXPECT_TRUE(neighbours.cell_around(first, middle(-0.5)) == end);
+
+    // A place on a face is on the side of the point.
+    patch.reinit(first);
+    EXPECT_TRUE(patch.locate(middle(0.9), middle(1), cell, N));
+    EXPECT_EQ(cell, first->active_cell_index());
+    patch.reinit(next);
+    EXPECT_TRUE(patch.locate(middle(1.1), middle(1), cell, N));
+    EXPECT_EQ(cell, next->active_cell_index());
+    // Two cells further is too far.
+    EXPECT_TRUE(patch.locate(middle(1.1), middle(2.9), cell, N));
+    EXPECT_FALSE(patch.locate(middle(1.1), middle(3.1), cell, N));
+    // Outside the mesh the nearest cell is continued.
+    EXPECT_TRUE(patch.locate(middle(1.1), middle(-0.25), cell, N));
+    EXPECT_EQ(cell, first->active_cell_index());
+    EXPECT_NEAR(N[0], 1.25 / (1 << (dim - 1)), 1e-14);
+    EXPECT_NEAR(N[1], -0.25 / (1 << (dim - 1)), 1e-14);
+    // Outside, and along the edge of the mesh too far.
+    Point<dim> outside = middle(3.1);
+    outside[1]         = -0.25;
+    EXPECT_FALSE(patch.locate(middle(1.1), outside, cell, N));
+  }
+
+
+
+  TEST(Domains, CornersFindTheirCells)
+  {
+    for (const bool is_box : {true, false})
+      {
+        check_patch<2>(is_box);
+        check_patch<3>(is_box);
+      }
+  }
+
+
+
+  /** A displacement that vanishes at the faces of the mesh. */
+  template <int dim>
+  Tensor<1, dim>
+  smooth_move(const Point<dim> &x, const unsigned int step)
+  {
+    double bubble = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      bubble *= std::sin(numbers::PI / 4 * x[d]);
+    Tensor<1, dim> u;
+    for (unsigned int d = 0; d < dim; ++d)
+      u[d] = 0.12 * bubble * std::cos(x[(d + 1) % dim] + step + 2 * d);
+    return u;
+  }
+
+
+
+  template <int dim>
+  void
+  check_conforming(const bool distorted)
+  {
+    DomainSceneOptions options;
+    options.distorted = distorted;
+    if (!distorted)
+      {
+        options.lower = 0.5; // whole sub-cells
+        options.upper = 3.5;
+      }
+    DomainScene<dim> scene(options);
+    // Where corners were at first, by point.
+    std::map<unsigned int, std::vector<Point<dim>>> first;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        const auto corners = scene.basis->domain_corners(p);
+        first[scene.points.id(p)].assign(corners.begin(), corners.end());
+      }
+    std::map<unsigned int, std::vector<Point<dim>>> all_first;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(MPI_COMM_WORLD, first))
+      all_first.insert(of_rank.begin(), of_rank.end());
+
+    for (unsigned int step = 0; step < 5; ++step)
+      {
+        const auto nodal = scene.nodal(
+          [&](const Point<dim> &x) { return smooth_move<dim>(x, step); });
+        EXPECT_EQ(scene.basis->fault_of(nodal), "");
+        scene.accept(nodal);
+      }
+
+    std::map<unsigned int, std::vector<Point<dim>>> last;
+    double                                          volume = 0;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        const auto corners = scene.basis->domain_corners(p);
+        last[scene.points.id(p)].assign(corners.begin(), corners.end());
+        volume += scene.points.volume(p);
+      }
+    std::map<std::array<long, dim>, Point<dim>> place_of;
+    unsigned int                                shared   = 0;
+    double                                      furthest = 0;
+    for (const auto &of_rank : Utilities::MPI::all_gather(MPI_COMM_WORLD, last))
+      for (const auto &[id, corners] : of_rank)
+        for (unsigned int c = 0; c < corners.size(); ++c)
+          {
+            std::array<long, dim> key;
+            for (unsigned int d = 0; d < dim; ++d)
+              key[d] = std::lround(1e9 * all_first.at(id)[c][d]);
+            furthest =
+              std::max(furthest, corners[c].distance(all_first.at(id)[c]));
+            const auto [other, is_new] = place_of.insert({key, corners[c]});
+            if (is_new)
+              continue;
+            ++shared;
+            EXPECT_LT(corners[c].distance(other->second), 1e-13);
+          }
+    EXPECT_GT(shared, 100u);
+    EXPECT_GT(furthest, 0.2);
+    // Domains that fill the mesh go on to fill it.
+    if (distorted)
+      {
+        const double whole = Utilities::MPI::sum(volume, MPI_COMM_WORLD);
+        EXPECT_NEAR(whole, std::pow(4., dim), 1e-11);
+      }
+  }
+
+
+
+  TEST(Domains, Cpdi2StaysConforming)
+  {
+    check_conforming<2>(false);
+    check_conforming<2>(true);
+    check_conforming<3>(false);
+    check_conforming<3>(true);
+  }
+
+
+
+  TEST(Domains, Cpdi2TakesTheVolumesOfSubCells)
+  {
+    // Gauss points of cells askew: weight times Jacobian is not the volume.
+    DomainSceneOptions options;
+    options.distorted = true;
+    options.layout    = PointLayout::gauss;
+    options.method    = Method::mpm;
+    const DomainScene<2> gauss(options);
+    options.method = Method::cpdi2;
+    const DomainScene<2> scene(options);
+    double               difference = 0, sum = 0;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        difference += std::abs(gauss.points.volume(p) - scene.points.volume(p));
+        sum += scene.points.volume(p);
+        EXPECT_EQ(scene.points.values(p)[scene.offset("initial_volume", 1)],
+                  scene.points.volume(p));
+      }
+    EXPECT_GT(Utilities::MPI::sum(difference, MPI_COMM_WORLD), 0.01);
+    EXPECT_NEAR(Utilities::MPI::sum(sum, MPI_COMM_WORLD), 16., 1e-12);
+  }
+
+
+
+  template <int dim>
+  void
+  check_volumes_of_cut_points()
+  {
+    for (const Method method : {Method::cpdi1, Method::cpdi2})
+      {
+        DomainSceneOptions options;
+        options.method    = method;
+        options.lower     = 0.3;
+        options.upper     = 3.4;
+        options.distorted = true;
+        const DomainScene<dim> scene(options);
+        double                 sum = 0;
+        for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+          {
+            double         w[1 << dim];
+            Tensor<1, dim> g[1 << dim];
+            EXPECT_NEAR(DomainTools::average_weights<dim>(
+                          scene.basis->domain_corners(p), w, g),
+                        scene.points.volume(p),
+                        1e-13);
+            sum += scene.points.volume(p);
+          }
+        const double whole = Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+        EXPECT_NEAR(whole, std::pow(3.1, dim), 1e-11);
+      }
+  }
+
+
+
+  TEST(Domains, DomainsHaveTheVolumesOfTheirPoints)
+  {
+    check_volumes_of_cut_points<2>();
+    check_volumes_of_cut_points<3>();
+  }
+
+
+
+  TEST(Domains, ListedPointsHaveSquaresOrTheirOwnEdges)
+  {
+    for (const bool turned : {false, true})
+      {
+        BackgroundMesh<2> mesh(DomainScene<2>::mesh_parameters(),
+                               MPI_COMM_WORLD);
+        GridSpace<2>      space(mesh, 1);
+        PointFields       fields;
+        Cpdi1Basis<2>::request_fields(fields);
+        PointSet<2>  points(mesh, fields);
+        PointList<2> list;
+        list.positions = {Point<2>(1.5, 1.5)};
+        list.volumes   = {0.16};
+        if (turned)
+          list.half_edges = Tensor<2, 2>({{0.3, -0.1}, {0.1, 0.1}});
+        const std::vector<Body<2>> bodies{{"listed", list}};
+        const CellSeeder<2>        seeder(2, PointLayout::equal);
+        seed_bodies(bodies, seeder, points);
+        Cpdi1Basis<2> basis(space, points, seeder, bodies);
+        basis.initialise_points(points);
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          {
+            const auto     corners = basis.domain_corners(p);
+            const Point<2> expected =
+              turned ? Point<2>(1.7, 1.7) : Point<2>(1.7, 1.7);
+            EXPECT_LT(corners[3].distance(expected), 1e-14);
+            EXPECT_LT(corners[1].distance(turned ? Point<2>(1.9, 1.5) :
+                                                   Point<2>(1.7, 1.3)),
+                      1e-14);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  Tensor<2, dim>
+  tensor(const double xx, const double xy, const double yx, const double yy)
+  {
+    Tensor<2, dim> F = unit_symmetric_tensor<dim>();
+    F[0][0]          = xx;
+    F[0][1]          = xy;
+    F[1][0]          = yx;
+    F[1][1]          = yy;
+    return F;
+  }
+
+
+
+  /** Edges of the domain of one point after a homogeneous deformation. */
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  edges_after(const Method method, const Tensor<2, dim> &F)
+  {
+    DomainSceneOptions options;
+    options.method = method;
+    options.lower  = 1;
+    options.upper  = 3;
+    DomainScene<dim> scene(options);
+    Tensor<1, dim>   centre;
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] = 2;
+    // Points stay in the mesh, as the body lies around its middle.
+    scene.accept(scene.nodal(
+      [&](const Point<dim> &x) { return F * (x - centre) - (x - centre); }));
+    std::vector<Tensor<1, dim>> edges;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        const auto corners = scene.basis->domain_corners(p);
+        for (unsigned int d = 0; d < dim; ++d)
+          edges.push_back(corners[1u << d] - corners[0]);
+      }
+    return edges;
+  }
+
+
+
+  template <int dim>
+  void
+  expect_edges(const Method                  method,
+               const Tensor<2, dim>         &F,
+               const std::array<double, dim> expected)
+  {
+    const auto edges = edges_after<dim>(method, F);
+    for (unsigned int i = 0; i < edges.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        EXPECT_NEAR(edges[i][d], d == i % dim ? expected[d] : 0., 1e-12);
+  }
+
+
+
+  TEST(Domains, BoxesOfGimpFollowAStretch)
+  {
+    // Edges are 1/2 at first.
+    expect_edges<2>(Method::gimp, tensor<2>(1.6, 0, 0, 0.8), {{0.5, 0.5}});
+    for (const Method method : {Method::gimp_stretch, Method::gimp_corners})
+      {
+        expect_edges<2>(method, tensor<2>(1.6, 0, 0, 0.8), {{0.8, 0.4}});
+        expect_edges<3>(method, tensor<3>(1.6, 0, 0, 0.8), {{0.8, 0.4, 0.5}});
+      }
+  }
+
+
+
+  TEST(Domains, BoxesOfGimpInShearAndRotation)
+  {
+    // Simple shear by 1: the stretch has 1.2 times the area, tracked corners
+    // have the right one, with square boxes.
+    expect_edges<2>(Method::gimp_stretch,
+                    tensor<2>(1, 1, 0, 1),
+                    {{0.5 * 2 / std::sqrt(5.), 0.5 * 3 / std::sqrt(5.)}});
+    expect_edges<2>(Method::gimp_corners, tensor<2>(1, 1, 0, 1), {{0.5, 0.5}});
+    // A turn by 90 degrees after a stretch leaves the box of U as it was.
+    expect_edges<2>(Method::gimp_stretch,
+                    tensor<2>(0, -0.8, 1.6, 0),
+                    {{0.8, 0.4}});
+    // One by 60 degrees halves tracked lengths; the volume is put right.
+    const double c = 0.5, s = std::sqrt(0.75);
+    expect_edges<2>(Method::gimp_corners, tensor<2>(c, -s, s, c), {{0.5, 0.5}});
+  }
+
+
+
+  TEST(Domains, FaultNamesAPoint)
+  {
+    DomainSceneOptions options;
+    options.lower = 1;
+    options.upper = 3;
+    for (const Method method : {Method::gimp_corners, Method::cpdi2})
+      {
+        options.method = method;
+        DomainScene<2> scene(options);
+        const auto     still =
+          scene.nodal([](const Point<2> &) { return Tensor<1, 2>(); });
+        EXPECT_EQ(scene.basis->fault_of(still), "");
+        // A turn by more than 90 degrees for GIMP, a reflection for CPDI2.
+        const Tensor<2, 2> F = method == Method::cpdi2 ?
+                                 tensor<2>(-1, 0, 0, 1) :
+                                 tensor<2>(-0.6, -0.8, 0.8, -0.6);
+        const std::string  fault =
+          scene.basis->fault_of(scene.nodal([&](const Point<2> &x) {
+            return F * (x - Point<2>(2, 2)) - (x - Point<2>(2, 2));
+          }));
+        if (scene.points.n_local() > 0)
+          {
+            EXPECT_EQ(fault.rfind("point " +
+                                    std::to_string(scene.points.id(0)) +
+                                    " at (",
+                                  0),
+                      0u)
+              << fault;
+            EXPECT_NE(fault.find("its"), std::string::npos);
+          }
+      }
+  }
+
+
+
+  TEST(Domains, Cpdi1EdgesFollowTheDeformation)
+  {
+    const Tensor<2, 2> F     = tensor<2>(1.2, 0.7, -0.4, 0.9);
+    const auto         edges = edges_after<2>(Method::cpdi1, F);
+    for (unsigned int i = 0; i < edges.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        EXPECT_NEAR(edges[i][d], 0.5 * F[d][i % 2], 1e-12);
+    const auto corners = edges_after<2>(Method::cpdi2, F);
+    ASSERT_EQ(corners.size(), edges.size());
+    for (unsigned int i = 0; i < edges.size(); ++i)
+      EXPECT_NEAR((corners[i] -
+                   F * Tensor<1, 2>({i % 2 ? 0. : 0.5, i % 2 ? 0.5 : 0.}))
+                    .norm(),
+                  0.,
+                  1e-12);
+  }
+
+
+
+  TEST(Domains, SmallStrainKeepsShapes)
+  {
+    for (const Method method : {Method::gimp_stretch,
+                                Method::gimp_corners,
+                                Method::cpdi1,
+                                Method::cpdi2})
+      {
+        DomainSceneOptions options;
+        options.method        = method;
+        options.lower         = 1;
+        options.upper         = 3;
+        options.finite_strain = false;
+        DomainScene<2> scene(options);
+        scene.accept(
+          scene.nodal([&](const Point<2> &x) { return smooth_move<2>(x, 0); }));
+        double moved = 0;
+        for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+          {
+            const auto     corners = scene.basis->domain_corners(p);
+            const Point<2> x       = scene.points.position(p);
+            EXPECT_LT(corners[0].distance(x + Point<2>(-0.25, -0.25)), 1e-14);
+            EXPECT_LT(corners[3].distance(x + Point<2>(0.25, 0.25)), 1e-14);
+            EXPECT_EQ(scene.points.volume(p), 0.25);
+            moved += std::abs(4 * x[0] - std::round(4 * x[0]));
+          }
+        EXPECT_GT(Utilities::MPI::sum(moved, MPI_COMM_WORLD), 0.1);
+      }
+  }
+
+
+
+  /** Lengthen the domains of all points with an odd id in direction x. */
+  template <int dim>
+  void
+  lengthen(DomainScene<dim> &scene, const double factor)
+  {
+    const bool         gimp = scene.options.method == Method::gimp;
+    const unsigned int offset =
+      scene.offset(gimp ? "half_length" : "half_edge_1", dim);
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        double *values = scene.points.values(p);
+        if (scene.points.id(p) % 2 == 1)
+          values[offset] *= factor;
+        // marks the halves of a point, and stands for its velocity
+        values[scene.points.displacement_offset()] = scene.points.id(p);
+      }
+  }
+
+
+
+  /** Sums over all points of volume, volume * place, volume * displacement. */
+  template <int dim>
+  std::vector<double>
+  sums(const DomainScene<dim> &scene)
+  {
+    std::vector<double> result(2 * dim + 2, 0.);
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        const double  v = scene.points.volume(p);
+        const double *u =
+          scene.points.values(p) + scene.points.displacement_offset();
+        result[0] += v;
+        result[1] += scene.points.values(p)[scene.offset("initial_volume", 1)];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result[2 + d] += v * scene.points.position(p)[d];
+            result[2 + dim + d] += v * u[d];
+          }
+      }
+    Utilities::MPI::sum(result, MPI_COMM_WORLD, result);
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  check_split(const Method method, const bool distorted)
+  {
+    DomainSceneOptions options;
+    options.method    = method;
+    options.distorted = distorted;
+    options.lower     = 1;
+    options.upper     = 3;
+    options.split     = true;
+    DomainScene<dim>   scene(options);
+    const unsigned int n_before = scene.points.n_global();
+    unsigned int       next     = 0;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      next = std::max(next, scene.points.id(p) + 1);
+    next = Utilities::MPI::max(next, MPI_COMM_WORLD);
+
+    EXPECT_FALSE(scene.basis->split_domains(scene.points));
+    lengthen(scene, 7.); // half length 1.75, so two halves are enough
+    const auto before = sums(scene);
+    EXPECT_TRUE(scene.basis->split_domains(scene.points));
+    scene.points.find_cells();
+    scene.prepare();
+    const auto after = sums(scene);
+    for (unsigned int i = 0; i < after.size(); ++i)
+      EXPECT_NEAR(after[i], before[i], 1e-13 * std::abs(before[i]));
+    EXPECT_GT(scene.points.n_global(), n_before + n_before / 4);
+    EXPECT_FALSE(scene.basis->split_domains(scene.points));
+
+    // Ids: the k-th of the split points gave the upper half id next + k.
+    std::map<unsigned int, unsigned int> whole_of;
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      whole_of[scene.points.id(p)] =
+        std::lround(scene.points.values(p)[scene.points.displacement_offset()]);
+    std::map<unsigned int, unsigned int> all;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(MPI_COMM_WORLD, whole_of))
+      for (const auto &[id, whole] : of_rank)
+        EXPECT_TRUE(all.insert({id, whole}).second);
+    EXPECT_EQ(all.size(), scene.points.n_global());
+    EXPECT_EQ(all.rbegin()->first, next + all.size() - n_before - 1);
+    unsigned int last_whole = 0;
+    if (!distorted)
+      for (const auto &[id, whole] : all)
+        if (id >= next)
+          {
+            EXPECT_EQ(whole % 2, 1u);
+            EXPECT_GE(whole, last_whole);
+            last_whole = whole;
+          }
+  }
+
+
+
+  TEST(Domains, SplitConserves)
+  {
+    check_split<2>(Method::gimp, false);
+    check_split<2>(Method::cpdi1, false);
+    check_split<2>(Method::cpdi1, true);
+    check_split<3>(Method::gimp, false);
+    check_split<3>(Method::cpdi1, false);
+    check_split<3>(Method::cpdi1, true);
+  }
+
+
+
+  TEST(Domains, LongBoxesOfGimpAreComplete)
+  {
+    // Half lengths up to a cell: four nodes in a direction.
+    DomainSceneOptions options;
+    options.method = Method::gimp;
+    options.lower  = 1;
+    options.upper  = 3;
+    DomainScene<2> scene(options);
+    lengthen(scene, 4.);
+    scene.prepare();
+    unsigned int    n_long = 0;
+    StencilBlock<2> block;
+    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+      {
+        scene.basis->evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            double       sum = 0;
+            Tensor<1, 2> place, gradient;
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              {
+                const Tensor<1, 2> x =
+                  scene.space.node_position(block.nodes[a]);
+                sum += block.N(p)[a];
+                place += block.N(p)[a] * x;
+                gradient += x[0] * block.grad_N(p)[a];
+              }
+            EXPECT_NEAR(sum, 1, 1e-14);
+            EXPECT_NEAR(place[0],
+                        scene.points.position(block.points[p])[0],
+                        1e-13);
+            EXPECT_NEAR(gradient[0], 1, 1e-13);
+            EXPECT_NEAR(gradient[1], 0, 1e-13);
+            n_long += block.n_nodes == 8;
+          }
+      }
+    EXPECT_GE(Utilities::MPI::sum(n_long, MPI_COMM_WORLD), 8u);
+  }
+
+
+
+  TEST(Domains, TooLargeADomainIsNamed)
+  {
+    for (const Method method : {Method::gimp, Method::cpdi1, Method::cpdi2})
+      {
+        DomainSceneOptions options;
+        options.method = method;
+        options.lower  = 1;
+        options.upper  = 3;
+        DomainScene<2> scene(options);
+        if (method == Method::cpdi2)
+          {
+            const unsigned int corner = scene.offset("corner_2", 2);
+            for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+              if (scene.points.id(p) % 2 == 1)
+                scene.points.values(p)[corner] += 2.5;
+          }
+        else
+          lengthen(scene, 8.);
+        std::string message;
+        try
+          {
+            scene.prepare();
+          }
+        catch (const ComputationError &error)
+          {
+            message = error.what();
+          }
+        EXPECT_EQ(message.rfind("point ", 0), 0u);
+        EXPECT_NE(message.find(" at ("), std::string::npos);
+        EXPECT_NE(message.find(" the limit of "), std::string::npos);
+        EXPECT_NE(message.find("key 'Split domains'"), std::string::npos)
+          << message;
+      }
+  }
+} // namespace
