@@ -54,17 +54,36 @@ namespace moraine
 
   template <int dim>
   void
+  MechanicsSystem<dim>::move_mesh_by(const MeshMotion<dim> &motion,
+                                     BackgroundMesh<dim>   &mesh)
+  {
+    mesh_motion = motion;
+    moving_mesh = &mesh;
+  }
+
+
+
+  template <int dim>
+  void
   MechanicsSystem<dim>::begin_step(const double t)
   {
     {
       TimerOutput::Scope scope(timer, "stencils");
       changed = state.begin_step();
     }
+    // Nodes may move into or out of the boxes of conditions.
+    changed = changed || (mesh_motion.moves() &&
+                          std::any_of(conditions.begin(),
+                                      conditions.end(),
+                                      [](const auto &condition) {
+                                        return condition.region.has_value();
+                                      }));
     t_start = t;
     if (!boundaries.empty() || !loads.carried.empty())
       reach = point_size();
     const bool cells_moved =
-      changed || state.mesh_after_step() == MeshAfterStep::follow_material;
+      changed || mesh_motion.moves() ||
+      state.mesh_after_step() == MeshAfterStep::follow_material;
     {
       TimerOutput::Scope scope(timer, "boundary pieces");
       for (auto &boundary : boundaries)
@@ -80,6 +99,8 @@ namespace moraine
         load.find_cells(state.grid(), reach);
     if (changed)
       set_up_unknowns();
+    else if (cells_moved)
+      make_rigid_modes();
     find_empty_parts();
   }
 
@@ -267,15 +288,38 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** The first text of any rank that is not empty. Collective. */
+    std::string
+    first_of_ranks(const std::string &text, const MPI_Comm &communicator)
+    {
+      for (const std::string &other :
+           Utilities::MPI::all_gather(communicator, text))
+        if (!other.empty())
+          return other;
+      return "";
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   MechanicsSystem<dim>::fault() const
   {
-    for (const std::string &text :
-         Utilities::MPI::all_gather(state.grid().communicator(), local_fault))
-      if (!text.empty())
-        return text;
-    return "";
+    return first_of_ranks(local_fault, state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  MechanicsSystem<dim>::fault_of_domains() const
+  {
+    return first_of_ranks(state.point_basis().fault_of(
+                            state.nodal_increments()),
+                          state.grid().communicator());
   }
 
 
@@ -526,7 +570,14 @@ namespace moraine
         load.move(state.grid(), state.nodal_increments());
     {
       TimerOutput::Scope scope(timer, "update and search");
-      state.accept();
+      if (mesh_motion.moves())
+        state.accept([this]() {
+          moving_mesh->move_vertices([this](const Point<dim> &X) {
+            return mesh_motion.map(X, t_start, t_target);
+          });
+        });
+      else
+        state.accept();
     }
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       reports[b].penetration =

@@ -80,10 +80,46 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** The box whose vertices went to @p vertices, if it is one still. */
+    template <int dim>
+    std::optional<BoxGrid<dim>>
+    moved_box(const BoxGrid<dim>                                  &box,
+              const std::vector<Point<dim>>                       &places,
+              const std::vector<Point<dim>>                       &vertices,
+              const std::function<Point<dim>(const Point<dim> &)> &motion)
+    {
+      Point<dim> upper = box.lower_corner;
+      for (unsigned int d = 0; d < dim; ++d)
+        upper[d] += box.n_cells[d] * box.cell_size[d];
+      BoxGrid<dim> moved = box;
+      moved.lower_corner = motion(box.lower_corner);
+      upper              = motion(upper);
+      Tensor<1, dim> stretch;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          moved.cell_size[d] =
+            (upper[d] - moved.lower_corner[d]) / box.n_cells[d];
+          stretch[d] = moved.cell_size[d] / box.cell_size[d];
+        }
+      for (unsigned int v = 0; v < places.size(); ++v)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(moved.lower_corner[d] +
+                       stretch[d] * (places[v][d] - box.lower_corner[d]) -
+                       vertices[v][d]) >
+              1e-12 * moved.cell_size[d] * moved.n_cells[d])
+            return {};
+      return moved;
+    }
+  } // namespace
+
+
+
   template <int dim>
-  void
-  BackgroundMesh<dim>::move_vertices(
-    const std::function<Point<dim>(const Point<dim> &)> &motion)
+  std::vector<Point<dim>>
+  BackgroundMesh<dim>::moved_vertices(
+    const std::function<Point<dim>(const Point<dim> &)> &motion) const
   {
     std::vector<Point<dim>> vertices = tria.get_vertices();
     for (Point<dim> &x : vertices)
@@ -97,10 +133,32 @@ namespace moraine
                 << ") inside out";
         throw ComputationError(message.str());
       }
+    return vertices;
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::check_motion(
+    const std::function<Point<dim>(const Point<dim> &)> &motion) const
+  {
+    moved_vertices(motion);
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::move_vertices(
+    const std::function<Point<dim>(const Point<dim> &)> &motion)
+  {
+    const std::vector<Point<dim>> vertices = moved_vertices(motion);
+    if (box)
+      box = moved_box<dim>(*box, tria.get_vertices(), vertices, motion);
     for (const auto &cell : tria.active_cell_iterators())
       for (const unsigned int v : cell->vertex_indices())
         cell->vertex(v) = vertices[cell->vertex_index(v)];
-    box.reset();
     measure_cells();
     // Renews the search caches, ours and that of the points; unknowns and
     // points do not listen to it.

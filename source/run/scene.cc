@@ -21,8 +21,11 @@ namespace moraine
       method,
       "finite element: Gauss points that stay in their cell. material point: "
       "points that move through the mesh. GIMP: the same, averaged over the box "
-      "of each point; needs a box of equal cells.",
-      patterns::selection({"finite element", "material point", "GIMP"}));
+      "of each point; needs a box of equal cells. CPDI1, CPDI2: averaged over "
+      "a parallelogram or quadrilateral (in 3D parallelepiped or hexahedron) "
+      "that is carried along with the point; on any mesh.",
+      patterns::selection(
+        {"finite element", "material point", "GIMP", "CPDI1", "CPDI2"}));
     prm.add_parameter("Degree",
                       degree,
                       "Degree of the shape functions, 1 or 2; 2 with finite "
@@ -52,6 +55,18 @@ namespace moraine
       "material with finite elements, reset otherwise.",
       patterns::selection({"default", "reset", "follow material", "keep"}));
     prm.add_parameter(
+      "Domain update",
+      domain_update,
+      "Of GIMP at finite strain, how the box of a point changes. frozen: not. "
+      "stretch: by the diagonal of the stretch U. corners: its corners move "
+      "with the mesh and the volume is corrected.",
+      patterns::selection({"frozen", "stretch", "corners"}));
+    prm.add_parameter(
+      "Split domains",
+      split_domains,
+      "Of GIMP and CPDI1: halve points whose domain grows beyond the cells "
+      "that touch the point's, instead of ending the run.");
+    prm.add_parameter(
       "Empty stiffness",
       empty_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
@@ -72,6 +87,17 @@ namespace moraine
         (mesh_after_step == "default" && is_finite_element()))
       return MeshAfterStep::follow_material;
     return MeshAfterStep::reset;
+  }
+
+
+
+  DomainUpdate
+  MethodParameters::update_of_domains() const
+  {
+    if (strain == "small" || domain_update == "frozen")
+      return DomainUpdate::frozen;
+    return domain_update == "stretch" ? DomainUpdate::stretch :
+                                        DomainUpdate::corners;
   }
 
 
@@ -280,6 +306,23 @@ namespace moraine
 
 
   void
+  MeshMotionParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Follow",
+                      follow,
+                      "The mesh moves as a rigid body after each step, by the "
+                      "prescribed motion of this boundary or grid condition. "
+                      "If left out, it stays.");
+    prm.add_parameter("Stretch between",
+                      stretch,
+                      "Names of two boundaries or grid conditions: the mesh is "
+                      "stretched uniformly between them, so that it goes with "
+                      "both.");
+  }
+
+
+
+  void
   OutputParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Directory",
@@ -413,6 +456,7 @@ namespace moraine
     in_subsections(prm, "Boundaries", boundaries, add_all);
     in_subsections(prm, "Grid conditions", grid_conditions, add_all);
     in_subsections(prm, "Loads", loads, add_all);
+    section("Mesh motion", mesh_motion);
     section("Time", time);
     prm.enter_subsection("Solver");
     newton.add_parameters(prm);

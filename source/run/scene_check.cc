@@ -62,11 +62,19 @@ namespace moraine
                "Mesh after step",
                after_step,
                "reset or follow material with finite strain");
-      if (method.method == "GIMP" && after_step == "follow material")
+      if (method.has_domains() && after_step == "follow material")
         reject("Method",
                "Mesh after step",
                after_step,
-               "reset or keep with GIMP, which needs a regular mesh");
+               "reset or keep with method '" + method.method + "'");
+      if (method.split_domains && method.method != "GIMP" &&
+          method.method != "CPDI1")
+        reject("Method",
+               "Split domains",
+               "true",
+               "false with method '" + method.method +
+                 "'; GIMP and CPDI1 "
+                 "split");
     }
   } // namespace
 
@@ -93,6 +101,23 @@ namespace moraine
              "a number > 0");
     mesh.check();
     time.check();
+    if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
+      reject("Mesh motion",
+             "Stretch between",
+             input.get("Mesh motion", "Stretch between", ""),
+             "two names");
+    if (!mesh_motion.follow.empty() && !mesh_motion.stretch.empty())
+      reject("Mesh motion",
+             "Follow",
+             mesh_motion.follow,
+             "nothing if 'Stretch between' is given");
+    if ((!mesh_motion.follow.empty() || !mesh_motion.stretch.empty()) &&
+        method.after_step() != MeshAfterStep::reset)
+      throw InputError(
+        "section 'Mesh motion': found a motion of a mesh that is "
+        "not reset after a step, allowed: nothing with method "
+        "'finite element' or key 'Mesh after step' = '" +
+        method.mesh_after_step + "'");
     check_bodies(input);
     check_method(method);
     for (const auto &[name, load] : loads)

@@ -216,6 +216,16 @@ namespace moraine
             reason = "what points leave empty would carry the load: too few "
                      "points in the cells, or a body that is not held";
           }
+        if (good)
+          {
+            state->set_trial(x);
+            const std::string fault = system->fault_of_domains();
+            if (!fault.empty())
+              {
+                good   = false;
+                reason = fault;
+              }
+          }
         if (good && system->worst_penetration_over_limit(x) > 1)
           {
             good   = false;
@@ -224,6 +234,10 @@ namespace moraine
         if (good)
           {
             check_that_points_stay(time, x);
+            if (mesh_motion.moves())
+              mesh->check_motion([&](const Point<dim> &X) {
+                return mesh_motion.map(X, time.time(), time.trial_time());
+              });
             time.accept(report.iterations);
             print_step(time, report);
             break;
@@ -282,20 +296,30 @@ namespace moraine
     const auto  increments = state->point_increments();
     const auto  box = GridTools::compute_bounding_box(mesh->triangulation());
     std::string message;
-    for (unsigned int p = 0; p < points->n_local() && message.empty(); ++p)
-      {
-        const Point<dim> x_new = points->position(p) + increments[p];
-        if (box.point_inside(x_new))
-          continue;
-        std::ostringstream text;
-        text << "point " << points->id(p) << " of body '"
-             << body_names[points->body(p)] << "' leaves the mesh at ("
-             << std::setprecision(10) << x_new << ") in step "
-             << time.n_accepted() + 1 << ", t = " << time.trial_time()
-             << "; the results end with the last accepted step, t = "
-             << time.time();
-        message = text.str();
-      }
+    for (const auto &in_cell : points->cells())
+      for (unsigned int p = in_cell.first; p < in_cell.last && message.empty();
+           ++p)
+        {
+          const Point<dim> x_new = points->position(p) + increments[p];
+          // Where that is in the mesh before it moves.
+          const Point<dim> X =
+            mesh_motion.map(x_new, time.trial_time(), time.time());
+          if (box.point_inside(X) &&
+              (mesh->box_grid() || in_cell.cell->point_inside(X) ||
+               GridTools::find_active_cell_around_point(mesh->search_cache(),
+                                                        X,
+                                                        in_cell.cell)
+                   .first.state() == IteratorState::valid))
+            continue;
+          std::ostringstream text;
+          text << "point " << points->id(p) << " of body '"
+               << body_names[points->body(p)] << "' leaves the mesh at ("
+               << std::setprecision(10) << x_new << ") in step "
+               << time.n_accepted() + 1 << ", t = " << time.trial_time()
+               << "; the results end with the last accepted step, t = "
+               << time.time();
+          message = text.str();
+        }
     for (const std::string &text :
          Utilities::MPI::all_gather(communicator, message))
       if (!text.empty())

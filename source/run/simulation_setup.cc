@@ -5,6 +5,7 @@
 
 #include <moraine/run/simulation.h>
 
+#include <moraine/basis/cpdi_basis.h>
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
@@ -38,9 +39,14 @@ namespace moraine
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies);
 
-    PointFields fields;
-    if (scene.method.method == "GIMP")
-      GimpBasis<dim>::request_fields(fields);
+    PointFields        fields;
+    const std::string &method = scene.method.method;
+    if (method == "GIMP")
+      GimpBasis<dim>::request_fields(fields, scene.method.update_of_domains());
+    else if (method == "CPDI1")
+      Cpdi1Basis<dim>::request_fields(fields);
+    else if (method == "CPDI2")
+      Cpdi2Basis<dim>::request_fields(fields);
     StateFields<dim>(fields,
                      scene.method.strain_measure(),
                      std::any_of(materials.begin(),
@@ -68,6 +74,12 @@ namespace moraine
                                              body_names,
                                              scene.method.empty_stiffness,
                                              &timer);
+    mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
+    if (mesh_motion.moves())
+      {
+        check_mesh_motion(mesh_motion, scene.time, *mesh, grid_conditions);
+        system->move_mesh_by(mesh_motion, *mesh);
+      }
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
     probes        = std::make_unique<Probes<dim>>(
       scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
@@ -82,9 +94,25 @@ namespace moraine
     std::vector<bool> is_seeded;
     for (const Body<dim> &body : bodies)
       is_seeded.push_back(body.shape != nullptr);
-    if (scene.method.method == "GIMP")
-      basis = std::make_unique<GimpBasis<dim>>(
-        *space, *points, scene.method.points_per_direction, is_seeded);
+    const MethodParameters &method = scene.method;
+    if (method.method == "GIMP")
+      basis = std::make_unique<GimpBasis<dim>>(*space,
+                                               *points,
+                                               method.points_per_direction,
+                                               is_seeded,
+                                               method.update_of_domains(),
+                                               method.split_domains);
+    else if (method.method == "CPDI1")
+      basis = std::make_unique<Cpdi1Basis<dim>>(*space,
+                                                *points,
+                                                make_seeder<dim>(method),
+                                                bodies,
+                                                method.split_domains);
+    else if (method.method == "CPDI2")
+      basis = std::make_unique<Cpdi2Basis<dim>>(*space,
+                                                *points,
+                                                make_seeder<dim>(method),
+                                                bodies);
     else if (scene.method.degree == 1)
       basis = std::make_unique<CellBasis<dim, 1>>(*space, *points);
     else

@@ -163,7 +163,7 @@ namespace moraine
 
   template <int dim>
   void
-  State<dim>::accept()
+  State<dim>::accept(const std::function<void()> &move_mesh)
   {
     StencilBlock<dim>           block;
     std::vector<Tensor<1, dim>> nodal;
@@ -207,7 +207,15 @@ namespace moraine
     if (after_step == MeshAfterStep::follow_material)
       space.move_nodes(trial);
     else
-      points.find_cells();
+      {
+        basis.split_domains(points);
+        if (move_mesh)
+          {
+            move_mesh();
+            space.follow_mesh();
+          }
+        points.find_cells();
+      }
   }
 
 

@@ -7,6 +7,7 @@
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
+#include <moraine/boundary/mesh_motion.h>
 #include <moraine/load/load.h>
 #include <moraine/solver/nonlinear_system.h>
 #include <moraine/state/state.h>
@@ -77,6 +78,10 @@ namespace moraine
                     const double                           empty_stiffness = 0.,
                     dealii::TimerOutput                   *timer = nullptr);
 
+    /** Let @p mesh, which the points move through, move after each step. */
+    void
+    move_mesh_by(const MeshMotion<dim> &motion, BackgroundMesh<dim> &mesh);
+
     /**
      * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
      * of boundaries up to date.
@@ -122,6 +127,11 @@ namespace moraine
 
     std::string
     fault() const override;
+
+    /** Why domains of points forbid to accept the trial state of the State, or
+     * "". Collective. */
+    std::string
+    fault_of_domains() const;
 
     void
     initial_guess(LA::Vector &x) const override;
@@ -285,6 +295,8 @@ namespace moraine
     /** Prescribed increments, while assemble() linearises about their start. */
     std::vector<dealii::Tensor<1, dim>> predicted;
     bool                                predicting = false;
+    MeshMotion<dim>                     mesh_motion;
+    BackgroundMesh<dim>                *moving_mesh = nullptr;
     std::string                         local_fault;
     std::vector<LA::Vector>             rigid_modes;
     double                              scale          = 0;

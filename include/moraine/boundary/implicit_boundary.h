@@ -153,6 +153,13 @@ namespace moraine
       return boundary_name;
     }
 
+    /** The middle of the box around the surface at the start. */
+    dealii::Point<dim>
+    middle() const
+    {
+      return at_start.bounding_box().center();
+    }
+
     const RigidMotion<dim> &
     rigid_motion() const
     {

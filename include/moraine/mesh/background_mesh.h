@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -51,9 +52,10 @@ namespace moraine
 
     /**
      * Move every vertex x to @p motion(x), the same on all ranks, and renew
-     * what searches remember. The mesh is no box from then on. Points stay
-     * where they are and must be searched again (PointSet::find_cells()), nodes
-     * take over the new places by GridSpace::follow_mesh(). Collective.
+     * what searches remember. A box stays one if all its edges only shift or
+     * stretch. Points stay where they are and must be searched again
+     * (PointSet::find_cells()), nodes take over the new places by
+     * GridSpace::follow_mesh(). Collective.
      *
      * @throws ComputationError if a cell would be turned inside out at a
      * corner, naming its centre; nothing has moved then.
@@ -62,6 +64,12 @@ namespace moraine
     move_vertices(
       const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
         &motion);
+
+    /** @throws ComputationError as move_vertices() would. */
+    void
+    check_motion(
+      const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
+        &motion) const;
 
     const dealii::parallel::shared::Triangulation<dim> &
     triangulation() const
@@ -111,6 +119,12 @@ namespace moraine
     }
 
   private:
+    /** Where vertices go. @throws ComputationError if that inverts a cell. */
+    std::vector<dealii::Point<dim>>
+    moved_vertices(
+      const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
+        &motion) const;
+
     /** Find the largest edge. */
     void
     measure_cells();

@@ -4,6 +4,7 @@
 #ifndef moraine_run_scene_h
 #define moraine_run_scene_h
 
+#include <moraine/basis/gimp_basis.h>
 #include <moraine/boundary/enforcement.h>
 #include <moraine/boundary/rigid_motion.h>
 #include <moraine/boundary/surface_library.h>
@@ -43,6 +44,8 @@ namespace moraine
     std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
     double       empty_stiffness      = 0.;
+    std::string  domain_update        = "corners";
+    bool         split_domains        = false;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -53,8 +56,19 @@ namespace moraine
       return method == "finite element";
     }
 
+    /** Whether points have domains. */
+    bool
+    has_domains() const
+    {
+      return method == "GIMP" || method == "CPDI1" || method == "CPDI2";
+    }
+
     MeshAfterStep
     after_step() const;
+
+    /** Boxes keep their size at small strain. */
+    DomainUpdate
+    update_of_domains() const;
 
     StrainMeasure
     strain_measure() const
@@ -152,6 +166,16 @@ namespace moraine
     add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /** Section `Mesh motion`. */
+  struct MeshMotionParameters
+  {
+    std::string              follow;
+    std::vector<std::string> stretch;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
   /** Section `Output`. */
   struct OutputParameters
   {
@@ -202,6 +226,7 @@ namespace moraine
     Named<BoundaryParameters<dim>>      boundaries;
     Named<GridConditionParameters<dim>> grid_conditions;
     Named<LoadParameters<dim>>          loads;
+    MeshMotionParameters                mesh_motion;
     TimeParameters                      time;
     NewtonParameters                    newton;
     LinearSolverParameters              linear_solver;

@@ -4,6 +4,7 @@
 #ifndef moraine_run_scene_conditions_h
 #define moraine_run_scene_conditions_h
 
+#include <moraine/boundary/mesh_motion.h>
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
@@ -32,6 +33,26 @@ namespace moraine
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names);
+
+  /** Section `Mesh motion`; none if it is empty. */
+  template <int dim>
+  MeshMotion<dim>
+  make_mesh_motion(const Scene<dim>                         &scene,
+                   const BackgroundMesh<dim>                &mesh,
+                   const std::vector<ImplicitBoundary<dim>> &boundaries,
+                   const std::vector<GridCondition<dim>>    &conditions);
+
+  /**
+   * That no side of the mesh leaves material behind that a grid condition holds
+   * there: normal to the side, the mesh and the condition move alike.
+   * @throws InputError naming the condition.
+   */
+  template <int dim>
+  void
+  check_mesh_motion(const MeshMotion<dim>                 &motion,
+                    const TimeParameters                  &time,
+                    const BackgroundMesh<dim>             &mesh,
+                    const std::vector<GridCondition<dim>> &conditions);
 } // namespace moraine
 
 #endif

@@ -140,6 +140,7 @@ namespace moraine
     std::vector<ImplicitBoundary<dim>>           boundaries;
     std::vector<GridCondition<dim>>              grid_conditions;
     Loads<dim>                                   loads;
+    MeshMotion<dim>                              mesh_motion;
     std::unique_ptr<MechanicsSystem<dim>>        system;
     std::unique_ptr<LinearSolver>                linear_solver;
     std::unique_ptr<Probes<dim>>                 probes;

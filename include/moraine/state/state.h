@@ -11,6 +11,7 @@
 #include <moraine/points/point_set.h>
 #include <moraine/state/trial_points.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -71,12 +72,14 @@ namespace moraine
      * positions @f$x_n = x_{n-1} + \sum_a N_a \Delta u_a@f$ (Cortis et al.
      * 2017, eqs. 10 and 11); at finite strain @f$F = \Delta F F_n@f$,
      * @f$b^e@f$ and @f$v = \det(\Delta F)\, v_n@f$ too, and the stress is
-     * Cauchy's @f$\sigma = \tau/J@f$.
+     * Cauchy's @f$\sigma = \tau/J@f$. Where points move through the mesh,
+     * @p move_mesh, if there is one, moves its vertices before the cells of the
+     * points are searched.
      *
      * @throws ComputationError if a point leaves the mesh. Collective.
      */
     void
-    accept();
+    accept(const std::function<void()> &move_mesh = {});
 
     /** Forget the trial state. */
     void
