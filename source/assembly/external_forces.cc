@@ -46,6 +46,24 @@ namespace moraine
 
 
 
+    /** Length or area of face @p f per unit of its reference face. */
+    template <int dim>
+    double
+    face_jacobian(const CellMap<dim> &map,
+                  const unsigned int  f,
+                  const Point<dim>   &xi)
+    {
+      const Tensor<2, dim> J  = transpose(map.jacobian(xi));
+      const unsigned int   d  = f / 2;
+      const Tensor<1, dim> t1 = J[(d + 1) % dim];
+      if constexpr (dim == 3)
+        return cross_product_3d(t1, J[(d + 2) % dim]).norm();
+      else
+        return t1.norm();
+    }
+
+
+
     /** A traction on the faces of one cell that lie on the side. */
     template <int dim, int degree>
     void
@@ -63,6 +81,8 @@ namespace moraine
       Tensor<1, dim>         grad_N[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = state.grid().node_position(nodes[a]);
+      const CellVertices<dim> vertices = vertices_of<dim>(cell);
+      const CellMap<dim>      map(vertices);
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() &&
             cell->face(f)->boundary_id() == load.side)
@@ -75,9 +95,8 @@ namespace moraine
                                                   X,
                                                   N,
                                                   grad_N);
-                // |dx/dxi_face| from the face's share of a straight cell
-                const double JxW =
-                  quadrature.weight(q) * cell->face(f)->measure();
+                const double JxW = quadrature.weight(q) *
+                                   face_jacobian(map, f, on_face.point(q));
                 Point<dim> x;
                 for (unsigned int a = 0; a < n; ++a)
                   x += N[a] * X[a];

@@ -236,8 +236,9 @@ namespace moraine
     assembled_at             = x;
     const bool first_of_step = !assembled;
     assembled                = true;
-    if (first_of_step && tangent && !prescribed.entries.empty() &&
-        !state.is_linear())
+    predicting = first_of_step && tangent && !prescribed.entries.empty() &&
+                 !state.is_linear();
+    if (predicting)
       {
         predicted = state.nodal_increments();
         state.reject();

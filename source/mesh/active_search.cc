@@ -25,6 +25,40 @@ namespace moraine
 
 
 
+    /**
+     * Distance of @p x from a cell it does not lie in: the nearest place is
+     * sought along one unit coordinate after the other, which ends at once in a
+     * box.
+     */
+    template <int dim>
+    double
+    distance_to(const CellVertices<dim> &vertices, const Point<dim> &x)
+    {
+      const CellMap<dim> map(vertices);
+      Point<dim>         xi;
+      double             distance = map.place(xi).distance(x);
+      for (unsigned int sweep = 0; sweep < 100; ++sweep)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              Point<dim> start = xi, end = xi;
+              start[d]                  = 0;
+              end[d]                    = 1;
+              const Point<dim>     foot = map.place(start);
+              const Tensor<1, dim> edge = map.place(end) - foot;
+              xi[d] =
+                std::clamp((edge * (x - foot)) / edge.norm_square(), 0., 1.);
+            }
+          const double before = distance;
+          distance            = map.place(xi).distance(x);
+          if (distance >= before * (1 - 1e-12) && sweep > 0)
+            break;
+        }
+      return distance;
+    }
+
+
+
     template <int dim, int degree>
     void
     evaluate_at(const GridSpace<dim> &space,
@@ -64,9 +98,10 @@ namespace moraine
     double nearest = reach;
     for (const unsigned int v : cell->vertex_indices())
       for (const auto &neighbour : cells_at_vertex[cell->vertex_index(v)])
-        if (space.is_active(neighbour))
+        if (space.is_active(neighbour) &&
+            distance_to(neighbour->bounding_box(), x) < nearest)
           {
-            const double distance = distance_to(neighbour->bounding_box(), x);
+            const double distance = distance_to(vertices_of<dim>(neighbour), x);
             if (distance < nearest - 1e-9 * reach)
               {
                 nearest = distance;

@@ -194,6 +194,20 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  GridSpace<dim>::follow_mesh()
+  {
+    for (const auto &cell : background.triangulation().active_cell_iterators())
+      if (knows(cell))
+        for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
+          positions[cell_nodes(cell)[a]] =
+            background.mapping().transform_unit_to_real_cell(
+              cell, unit_node_positions[a]);
+  }
+
+
+
   template class GridSpace<2>;
   template class GridSpace<3>;
 } // namespace moraine

@@ -163,7 +163,8 @@ namespace moraine
     void
     check_body(const Body<dim>        &body,
                const double            volume,
-               const BoundingBox<dim> &mesh_box)
+               const BoundingBox<dim> &mesh_box,
+               const bool              mesh_is_box)
     {
       const std::string where = "section 'Bodies/" + body.name + "': ";
       if (volume == 0)
@@ -173,7 +174,7 @@ namespace moraine
       if (!body.shape)
         return;
       const BoundingBox<dim> box = body.shape->bounding_box();
-      if (!is_finite(box) || fits_into(box, mesh_box))
+      if (!is_finite(box) || (mesh_is_box && fits_into(box, mesh_box)))
         return;
       const auto  &corners = box.get_boundary_points();
       const double whole =
@@ -186,8 +187,12 @@ namespace moraine
               << " % of its volume outside the mesh, which is ("
               << mesh_box.get_boundary_points().first << ") to ("
               << mesh_box.get_boundary_points().second
-              << "), allowed: a body in the mesh; only half-spaces and "
-                 "expressions are cut by it";
+              << (mesh_is_box ?
+                    "), allowed: a body in the mesh; only half-spaces and "
+                    "expressions are cut by it" :
+                    ") with straight edges, allowed: a body in the mesh; only "
+                    "half-spaces and expressions are cut by it, and 'Shape = "
+                    "mesh' fills it");
       throw InputError(message.str());
     }
   } // namespace
@@ -219,7 +224,10 @@ namespace moraine
     const BoundingBox<dim> mesh_box =
       GridTools::compute_bounding_box(triangulation);
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      check_body(bodies[b], volumes[b], mesh_box);
+      check_body(bodies[b],
+                 volumes[b],
+                 mesh_box,
+                 points.mesh().box_grid().has_value());
     return volumes;
   }
 

@@ -3,6 +3,7 @@
 
 #include <moraine/points/seeding.h>
 
+#include <moraine/mesh/cell_shapes.h>
 #include <moraine/points/moment_fitting.h>
 
 #include <deal.II/base/numbers.h>
@@ -34,6 +35,53 @@ namespace moraine
             return false;
         }
       return true;
+    }
+
+    /** Round-off in the vertices of a cell. */
+    template <int dim>
+    double
+    round_off(const CellVertices<dim> &cell)
+    {
+      return 1e-14 * (cell[0].norm() + (cell[1] - cell[0]).norm());
+    }
+
+    /**
+     * The place at which the gradients of bilinear functions have their mean
+     * over the part of a cell: in the unit cell, detJ grad N is linear, so it
+     * is the centroid of the part's image there, int xi / detJ dV over
+     * int 1 / detJ dV, to the accuracy of a Gauss rule on triangles.
+     */
+    Point<2>
+    centroid_in_unit_cell(const ConvexPolytope<2> &part_of_cell,
+                          const CellVertices<2>   &cell,
+                          const Shape<2>          &shape)
+    {
+      static const QGauss<2>      rule(8);
+      const CellMap<2>            map(cell);
+      std::vector<SignedPiece<2>> pieces;
+      shape.add_pieces(part_of_cell, 1., pieces);
+      double       area = 0.;
+      Tensor<1, 2> first;
+      for (const auto &piece : pieces)
+        for (unsigned int i = 1; i + 1 < piece.polytope.vertices().size(); ++i)
+          {
+            const auto        &x = piece.polytope.vertices();
+            const Tensor<1, 2> a = x[i] - x[0], b = x[i + 1] - x[i];
+            const double       twice_area = a[0] * b[1] - a[1] * b[0];
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                const double   u = rule.point(q)[0], v = rule.point(q)[1];
+                const Point<2> xi =
+                  CellShapes<2, 1>::inverse(x[0] + u * (a + v * b),
+                                            cell.data());
+                const double weight = piece.sign * rule.weight(q) * u *
+                                      twice_area /
+                                      determinant(map.jacobian(xi));
+                area += weight;
+                first += weight * xi;
+              }
+          }
+      return Point<2>(first / area);
     }
 
     // of a box that may be infinite
@@ -242,10 +290,9 @@ namespace moraine
                                   std::vector<SeededPoint<dim>> &points) const
   {
     const CellMap<dim> map(cell);
-    const double       tolerance =
-      1e-14 * (cell[0].norm() + (cell[1] - cell[0]).norm());
-    const bool rule_is_exact =
-      layout == PointLayout::gauss || is_parallelepiped<dim>(cell, tolerance);
+    const bool         rule_is_exact =
+      dim == 2 || layout == PointLayout::gauss ||
+      is_parallelepiped<dim>(cell, round_off<dim>(cell));
     for (unsigned int q = 0; q < rule.size(); ++q)
       if (rule_is_exact)
         points.push_back(
@@ -312,7 +359,8 @@ namespace moraine
       return;
     const double       body_volume = box_volume(shape.bounding_box());
     const unsigned int n_before    = points.size();
-    bool               is_cut      = false;
+    const bool is_skewed = !is_parallelepiped<dim>(cell, round_off<dim>(cell));
+    bool       is_cut    = false;
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const ConvexPolytope<dim> whole(sub_cell(cell, q));
@@ -323,6 +371,10 @@ namespace moraine
         if (part.volume <= 1e-12 * std::min(volume, body_volume))
           continue;
         std::vector<Point<dim>> positions{part.centroid};
+        if constexpr (dim == 2)
+          if (is_skewed && shape.is_straight())
+            positions[0] =
+              CellMap<2>(cell).place(centroid_in_unit_cell(whole, cell, shape));
         if constexpr (dim == 3)
           if (is_clipped && shape.is_straight())
             positions = points_of_part(whole, cell, shape, part);

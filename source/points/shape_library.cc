@@ -240,6 +240,8 @@ namespace moraine
         return std::make_shared<ExpressionShape<dim>>(p.expression,
                                                       place(section,
                                                             "Expression"));
+      if (p.shape == "mesh")
+        return std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space());
       return combine(p, known, section);
     }
 
@@ -337,6 +339,11 @@ namespace moraine
   {
     check_keys(p, section);
     const Placement<dim> placement = make_placement(p, section);
+    if (p.shape == "mesh" && (p.rotation_angle != 0. || !p.translation.empty()))
+      throw InputError(
+        place(section,
+              p.rotation_angle != 0. ? "Rotation angle" : "Translation") +
+        ": set, but the shape 'mesh' is all of the mesh and cannot move in it");
     if (p.is_point_file())
       return nullptr;
     const auto shape = make_unplaced(p, known, section);

@@ -36,6 +36,7 @@ namespace moraine
          {"Inner radius"}},
         {"half-space", "all behind a plane", {"Point", "Normal"}, {}},
         {"expression", "where it is positive", {"Expression"}, {}},
+        {"mesh", "all cells of the mesh", {}, {}},
         {"union", "in any operand", {"Operands"}, {}},
         {"intersection", "in all operands", {"Operands"}, {}},
         {"difference", "in the first operand only", {"Operands"}, {}},

@@ -55,6 +55,15 @@ namespace moraine
 
   template <int dim>
   ConvexShape<dim>
+  ConvexShape<dim>::space()
+  {
+    return {{}, infinite_box<dim>()};
+  }
+
+
+
+  template <int dim>
+  ConvexShape<dim>
   ConvexShape<dim>::half_space(const Point<dim>     &point,
                                const Tensor<1, dim> &outward_normal)
   {

@@ -211,9 +211,12 @@ namespace moraine
     prm.add_parameter("Side",
                       side,
                       dim == 2 ?
-                        "A side of the mesh: left, right, bottom, top." :
+                        "A side of the mesh: left, right, bottom, top of a "
+                        "box; else a name of 'Side names' or a number." :
                         "A side of the mesh: left, right (x), front, back (y), "
-                        "bottom, top (z).");
+                        "bottom, top (z) of a box; else a name of 'Side "
+                        "names', a number, or bottom and top of what is "
+                        "extruded.");
     prm.add_parameter(
       "Lower corner",
       lower_corner,
@@ -357,12 +360,12 @@ namespace moraine
     declare();
     input.parse(prm);
     // Files are named as seen from the folder of the scene.
+    const auto folder = std::filesystem::path(input.name()).parent_path();
     for (auto &[name, body] : bodies)
       if (body.shape.is_point_file())
-        body.shape.point_file =
-          (std::filesystem::path(input.name()).parent_path() /
-           body.shape.point_file)
-            .string();
+        body.shape.point_file = (folder / body.shape.point_file).string();
+    if (!mesh.file.empty())
+      mesh.file = (folder / mesh.file).string();
     check(input);
   }
 

@@ -76,14 +76,22 @@ namespace moraine
   void
   Scene<dim>::check(const InputFile &input) const
   {
-    for (const char *key : {"Lower corner", "Upper corner"})
-      input.require("Mesh", key);
-    if (input.has("Mesh", "Cell size") && mesh.cell_size == 0)
+    for (const auto &entry : input.entries())
+      if (entry.section == "Mesh" && !entry.value.empty() &&
+          !mesh.uses(entry.key))
+        reject("Mesh",
+               entry.key,
+               entry.value,
+               "nothing; a mesh of type '" + mesh.type + "' has no such key");
+    if (mesh.is_box())
+      for (const char *key : {"Lower corner", "Upper corner"})
+        input.require("Mesh", key);
+    if (mesh.is_box() && input.has("Mesh", "Cell size") && mesh.cell_size == 0)
       reject("Mesh",
              "Cell size",
              input.get("Mesh", "Cell size", ""),
              "a number > 0");
-    mesh.n_cells();
+    mesh.check();
     time.check();
     check_bodies(input);
     check_method(method);

@@ -223,7 +223,9 @@ namespace moraine
     bool
     Iteration::take_step(const LA::Vector &dx, const bool line_search)
     {
-      const double       start = norm;
+      // A linearised residual is no measure for the true one.
+      const double start =
+        system.linearised() ? std::numeric_limits<double>::max() : norm;
       const LA::Vector   x_start(x);
       const unsigned int n_trials = line_search ? 1 + maximum_halvings : 1;
       double             factor   = 1.;
@@ -316,7 +318,7 @@ namespace moraine
           return report;
         }
       // The first residual may be a linearised one.
-      if (small())
+      if (system.linearised() && small())
         evaluate(false);
       const bool balanced   = iterate();
       report.observed_order = observed_order(report.residuals);

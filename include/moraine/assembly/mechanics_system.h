@@ -114,6 +114,12 @@ namespace moraine
       assembled = false;
     }
 
+    bool
+    linearised() const override
+    {
+      return predicting;
+    }
+
     std::string
     fault() const override;
 
@@ -278,6 +284,7 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> node_forces;
     /** Prescribed increments, while assemble() linearises about their start. */
     std::vector<dealii::Tensor<1, dim>> predicted;
+    bool                                predicting = false;
     std::string                         local_fault;
     std::vector<LA::Vector>             rigid_modes;
     double                              scale          = 0;

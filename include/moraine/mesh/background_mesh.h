@@ -5,8 +5,9 @@
 #define moraine_mesh_background_mesh_h
 
 #include <moraine/mesh/cell_map.h>
+#include <moraine/mesh/mesh_parameters.h>
+#include <moraine/mesh/mesh_sides.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -16,37 +17,12 @@
 #include <deal.II/grid/grid_tools_cache.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace moraine
 {
-  /**
-   * Section `Mesh`: a box of equal cells, offset anywhere.
-   */
-  template <int dim>
-  struct MeshParameters
-  {
-    dealii::Point<dim>        lower_corner;
-    dealii::Point<dim>        upper_corner;
-    std::vector<unsigned int> cells;
-    double                    cell_size = 0;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-
-    /**
-     * Number of cells in each direction.
-     *
-     * @throws InputError if the corners do not span a box, if none or both of
-     * `Cells` and `Cell size` are given, or if the size does not divide the
-     * box.
-     */
-    std::array<unsigned int, dim>
-    n_cells() const;
-  };
-
   /**
    * A box of equal cells described in closed form. Bases that need a regular
    * mesh ask for it.
@@ -61,14 +37,31 @@ namespace moraine
 
   /**
    * The background mesh: a triangulation every process knows as a whole, with
-   * each cell owned by one of them.
+   * each cell owned by one of them. All cells are quadrilaterals or hexahedra
+   * of one level, without hanging nodes, and have straight edges: the map to a
+   * cell is the multilinear one of its vertices.
    */
   template <int dim>
   class BackgroundMesh
   {
   public:
+    /** @throws InputError for a mesh that cannot be made; see make_mesh(). */
     BackgroundMesh(const MeshParameters<dim> &parameters,
                    const MPI_Comm            &communicator);
+
+    /**
+     * Move every vertex x to @p motion(x), the same on all ranks, and renew
+     * what searches remember. The mesh is no box from then on. Points stay
+     * where they are and must be searched again (PointSet::find_cells()), nodes
+     * take over the new places by GridSpace::follow_mesh(). Collective.
+     *
+     * @throws ComputationError if a cell would be turned inside out at a
+     * corner, naming its centre; nothing has moved then.
+     */
+    void
+    move_vertices(
+      const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
+        &motion);
 
     const dealii::parallel::shared::Triangulation<dim> &
     triangulation() const
@@ -97,13 +90,18 @@ namespace moraine
     }
 
     /**
-     * Boundary id of the side called @p name: left, right (x), bottom, top (y;
-     * in 3D y is front, back and z is bottom, top).
+     * Boundary id of the side called @p name. A box has left, right (x), bottom
+     * and top (y; in 3D y is front, back and z is bottom, top). Other meshes
+     * have those of `Side names`, what is extruded has bottom and top besides,
+     * and a side without name is called by its number.
      *
      * @throws InputError naming @p place and the sides there are.
      */
     dealii::types::boundary_id
-    boundary_id(const std::string &name, const std::string &place) const;
+    boundary_id(const std::string &name, const std::string &place) const
+    {
+      return sides.id_of(name, place);
+    }
 
     /** Characteristic cell size: the largest edge of the largest cell. */
     double
@@ -113,11 +111,15 @@ namespace moraine
     }
 
   private:
+    /** Find the largest edge. */
+    void
+    measure_cells();
+
     dealii::parallel::shared::Triangulation<dim> tria;
     dealii::MappingQ1<dim>                       q1_mapping;
     dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
-    std::vector<std::string>                     side_names;
+    MeshSides                                    sides;
     double                                       largest_edge = 0;
   };
 

@@ -130,6 +130,13 @@ namespace moraine
     void
     move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);
 
+    /**
+     * Put every node where it is in the mesh, after
+     * BackgroundMesh::move_vertices(). What move_nodes() did is forgotten.
+     */
+    void
+    follow_mesh();
+
     const dealii::DoFHandler<dim> &
     dof_handler() const
     {

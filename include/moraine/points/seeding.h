@@ -43,6 +43,14 @@ namespace moraine
    * there every sub-cell, full or not, has its point at its centroid, because
    * centroids and volumes integrate linear functions exactly.
    *
+   * In a quadrilateral that is no parallelogram the gradients of bilinear
+   * functions are not linear, but detJ times gradient is, as a function of the
+   * unit cell. There the point is at the centroid of what its part is in the
+   * unit cell (a full sub-cell: its middle), so that sum v_p grad N(x_p) is
+   * still the integral; for cut sub-cells if the body is straight-sided. In a
+   * hexahedron that is no parallelepiped only the Gauss layout with n >= 2
+   * integrates gradients, in full cells; equal sub-cells have their centroids.
+   *
    * In 3D the gradients of trilinear shape functions hold products of two
    * coordinates as well. A sub-cell that a straight-sided body cuts askew has
    * three points of equal volume there, with its centroid as their mean, that

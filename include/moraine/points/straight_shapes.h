@@ -39,6 +39,10 @@ namespace moraine
     static ConvexShape
     box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
 
+    /** All of space: the body is the mesh. */
+    static ConvexShape
+    space();
+
     /**
      * The half space behind a plane; the normal need not have unit length.
      */

@@ -45,6 +45,13 @@ namespace moraine
     virtual void
     assemble(const LA::Vector &x, const bool tangent) = 0;
 
+    /** Whether those of the last assemble() were linearised. */
+    virtual bool
+    linearised() const
+    {
+      return false;
+    }
+
     /**
      * Why the residual of the last assemble() is not finite, or "". Collective.
      */
