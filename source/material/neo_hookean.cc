@@ -22,13 +22,13 @@ namespace moraine
     const auto [lambda, mu] = stiffness;
     for (PrincipalState &point : points)
       {
-        const Tensor<1, 3> &e        = point.strain;
-        const double        pressure = lambda * (e[0] + e[1] + e[2]);
+        const Tensor<1, 3> &e          = point.strain;
+        const double        volumetric = lambda * (e[0] + e[1] + e[2]);
         for (unsigned int A = 0; A < 3; ++A)
           {
             // expm1 keeps the digits of small strains.
             const double growth = std::expm1(2 * e[A]);
-            point.stress[A]     = mu * growth + pressure;
+            point.stress[A]     = mu * growth + volumetric;
             for (unsigned int B = 0; B < 3; ++B)
               point.tangent[A][B] =
                 lambda + (A == B ? 2 * mu * (1 + growth) : 0.);
