@@ -137,6 +137,7 @@ namespace moraine
   void
   GimpBasis<dim>::mark_cells(std::vector<unsigned char> &active)
   {
+    check_mesh(this->space);
     std::string fault;
     for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {

@@ -9,11 +9,8 @@
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/points/straight_shapes.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <cmath>
 #include <memory>
-#include <optional>
 
 namespace moraine
 {
@@ -31,7 +28,7 @@ namespace moraine
   {
     Method      method        = Method::cpdi2;
     bool        distorted     = false; ///< vertices inside are moved
-    bool        box           = true;  ///< false: the mesh forgets it is one
+    bool        box           = true;  ///< false: a mesh like any other
     bool        finite_strain = true;
     bool        split         = false;
     double      lower         = 0; ///< of the body
@@ -87,22 +84,17 @@ namespace moraine
     static bool
     distort(BackgroundMesh<dim> &mesh, const Options &options)
     {
-      if (options.distorted)
-        dealii::GridTools::transform(
-          [](const dealii::Point<dim> &x) {
-            dealii::Point<dim> y      = x;
-            unsigned int       number = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              number = 7 * number + std::lround(x[d]);
-            for (unsigned int d = 0; d < dim; ++d)
-              if (x[d] > 0.5 && x[d] < 3.5)
-                y[d] += 0.2 * noise(number, d);
-            return y;
-          },
-          const_cast<dealii::parallel::shared::Triangulation<dim> &>(
-            mesh.triangulation()));
       if (options.distorted || !options.box)
-        const_cast<std::optional<BoxGrid<dim>> &>(mesh.box_grid()).reset();
+        mesh.move_vertices([&](const dealii::Point<dim> &x) {
+          dealii::Point<dim> y      = x;
+          unsigned int       number = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            number = 7 * number + std::lround(x[d]);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (options.distorted && x[d] > 0.5 && x[d] < 3.5)
+              y[d] += 0.2 * noise(number, d);
+          return y;
+        });
       return true;
     }
 

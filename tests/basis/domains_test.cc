@@ -459,8 +459,8 @@ namespace
             ++shared;
             EXPECT_LT(corners[c].distance(other->second), 1e-13);
           }
-    EXPECT_GT(shared, 100u);
-    EXPECT_GT(furthest, 0.2);
+    EXPECT_GE(shared, 95u);
+    EXPECT_GT(furthest, 0.15);
     // Domains that fill the mesh go on to fill it.
     if (distorted)
       {
@@ -742,7 +742,7 @@ namespace
             const Point<2> x       = scene.points.position(p);
             EXPECT_LT(corners[0].distance(x + Point<2>(-0.25, -0.25)), 1e-14);
             EXPECT_LT(corners[3].distance(x + Point<2>(0.25, 0.25)), 1e-14);
-            EXPECT_EQ(scene.points.volume(p), 0.25);
+            EXPECT_NEAR(scene.points.volume(p), 0.25, 1e-15);
             moved += std::abs(4 * x[0] - std::round(4 * x[0]));
           }
         EXPECT_GT(Utilities::MPI::sum(moved, MPI_COMM_WORLD), 0.1);
@@ -822,7 +822,11 @@ namespace
     const auto after = sums(scene);
     for (unsigned int i = 0; i < after.size(); ++i)
       EXPECT_NEAR(after[i], before[i], 1e-13 * std::abs(before[i]));
-    EXPECT_GT(scene.points.n_global(), n_before + n_before / 4);
+    EXPECT_GT(scene.points.n_global(), n_before);
+    if (method == Method::gimp)
+      {
+        EXPECT_EQ(scene.points.n_global(), n_before + n_before / 2);
+      }
     EXPECT_FALSE(scene.basis->split_domains(scene.points));
 
     // Ids: the k-th of the split points gave the upper half id next + k.

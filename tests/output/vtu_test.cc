@@ -3,6 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/grid_space.h>
+#include <moraine/output/domain_vtu.h>
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/output/pvd_history.h>
@@ -17,6 +18,7 @@
 #include <cstring>
 #include <map>
 
+#include "../basis/domain_scene.h"
 #include "scene.h"
 
 namespace moraine
@@ -215,6 +217,62 @@ namespace moraine
         EXPECT_NE(std::string(error.what()).find(path), std::string::npos)
           << error.what();
       }
+  }
+
+
+
+  template <int dim>
+  void
+  check_domains(const Folder &folder)
+  {
+    DomainSceneOptions options;
+    options.method = Method::cpdi1;
+    options.lower  = 1;
+    options.upper  = 3;
+    DomainScene<dim> scene(options);
+    scene.accept(scene.nodal([](const Point<dim> &x) {
+      Tensor<1, dim> u;
+      u[0] = 0.5 * (x[1] - 2); // simple shear
+      return u;
+    }));
+    const std::string path = folder.file("domains.vtu");
+    write_domain_vtu(*scene.basis, scene.points, path, 0., 0);
+
+    auto                   arrays    = read_vtu(path);
+    constexpr unsigned int n_corners = 1 << dim;
+    const unsigned int     n         = scene.points.n_global();
+    const auto             ids       = arrays["id"].values;
+    const auto             edges     = arrays["half_edge_2"].values;
+    const auto             places    = arrays["position"].values;
+    ASSERT_EQ(ids.size(), n_corners * n);
+    ASSERT_EQ(arrays["deformation_gradient"].n_components, 9u);
+    std::vector<float> F{1, 0.5, 0, 0, 1, 0, 0, 0, 1};
+    for (unsigned int i = 0; i < n_corners * n; ++i)
+      {
+        EXPECT_EQ(ids[i], ids[i - i % n_corners]);
+        EXPECT_NEAR(edges[3 * i], 0.125, 1e-6);
+        EXPECT_NEAR(edges[3 * i + 1], 0.25, 1e-6);
+        for (unsigned int c = 0; c < 9; ++c)
+          EXPECT_NEAR(of_point(arrays["deformation_gradient"], i)[c],
+                      F[c],
+                      1e-6);
+      }
+    // VTK numbers the corners of a domain as deal.II does in a patch.
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        EXPECT_NEAR(places[3 * (n_corners * i + 2) + d] -
+                      places[3 * n_corners * i + d],
+                    d == 0 ? 0.25 : 0.5,
+                    1e-6);
+  }
+
+
+
+  TEST(DomainVtu, corners_and_fields)
+  {
+    const Folder folder;
+    check_domains<2>(folder);
+    check_domains<3>(folder);
   }
 
 

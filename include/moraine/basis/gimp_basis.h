@@ -27,7 +27,8 @@ namespace moraine
      * The corners move with the grid; @f$l_i@f$ is half the distance in
      * direction i of the middles of two faces, and all are scaled so that the
      * volume of the box changes as the point's,
-     * @f$\prod l_i = \det\Delta F \prod l_{n,i}@f$ (Coombs and Augarde 2020).
+     * @f$\prod l_i = \det\Delta F \prod l_{n,i}@f$ (as the program cl-mpm
+     * does).
      */
     corners
   };
@@ -82,7 +83,10 @@ namespace moraine
     void
     initialise_points(PointSet<dim> &points) const override;
 
-    /** @throws ComputationError if a box is longer than the limit. */
+    /**
+     * @throws ComputationError if a box is longer than the limit.
+     * @throws InputError if the mesh was moved.
+     */
     void
     mark_cells(std::vector<unsigned char> &active) override;
 

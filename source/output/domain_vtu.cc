@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/domain_vtu.h>
+
+#include <moraine/output/point_rows.h>
+#include <moraine/output/vtu_file.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  write_domain_vtu(const Basis<dim>    &basis,
+                   const PointSet<dim> &points,
+                   const std::string   &path,
+                   const double         time,
+                   const unsigned int   step)
+  {
+    Assert(basis.has_domains(), ExcInternalError());
+    constexpr unsigned int n_corners = 1 << dim;
+    const auto             order     = points_by_id(points);
+    VtuFile<dim, dim>      file;
+    declare_point_rows(points.fields(), file);
+    file.patches.resize(order.size());
+    for (unsigned int i = 0; i < order.size(); ++i)
+      {
+        const auto rows    = point_rows(points, order[i]);
+        const auto corners = basis.domain_corners(order[i]);
+        auto      &patch   = file.patches[i];
+        std::copy(corners.begin(), corners.end(), patch.vertices);
+        patch.patch_index    = i;
+        patch.n_subdivisions = 1;
+        patch.data.reinit(file.n_rows(), n_corners);
+        for (unsigned int row = 0; row < rows.size(); ++row)
+          for (unsigned int c = 0; c < n_corners; ++c)
+            patch.data(row, c) = rows[row];
+      }
+    file.write(path,
+               time,
+               step,
+               points.mesh().triangulation().get_communicator());
+  }
+
+
+
+  template void
+  write_domain_vtu(const Basis<2> &,
+                   const PointSet<2> &,
+                   const std::string &,
+                   const double,
+                   const unsigned int);
+  template void
+  write_domain_vtu(const Basis<3> &,
+                   const PointSet<3> &,
+                   const std::string &,
+                   const double,
+                   const unsigned int);
+} // namespace moraine

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/output/point_rows.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Where the nine components of a tensor are stored; one past the end: 0.
+     */
+    template <int dim>
+    constexpr std::array<unsigned int, 9>
+    tensor_components()
+    {
+      if constexpr (dim == 2)
+        return {{0, 3, 4, 3, 1, 4, 4, 4, 2}};
+      else
+        return {{0, 3, 4, 3, 1, 5, 4, 5, 2}};
+    }
+
+    enum class Kind
+    {
+      scalars,
+      vector,
+      tensor,
+      gradient
+    };
+
+    template <int dim>
+    Kind
+    kind_of(const PointFields::Field &field)
+    {
+      if (field.n_components == dim)
+        return Kind::vector;
+      // In 2D it has as many numbers as a stress.
+      if (field.name == "deformation_gradient")
+        return Kind::gradient;
+      if (field.n_components == n_stress_components<dim>)
+        return Kind::tensor;
+      return Kind::scalars;
+    }
+
+    template <int dim>
+    double
+    mean_stress(const double *sigma)
+    {
+      return (sigma[0] + sigma[1] + sigma[2]) / 3.;
+    }
+
+    template <int dim>
+    double
+    von_mises_stress(const double *sigma)
+    {
+      const double mean   = mean_stress<dim>(sigma);
+      double       square = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+        square += (sigma[c] - mean) * (sigma[c] - mean);
+      for (unsigned int c = 3; c < n_stress_components<dim>; ++c)
+        square += 2. * sigma[c] * sigma[c];
+      return std::sqrt(1.5 * square);
+    }
+  } // namespace
+
+
+
+  template <int patch_dim, int dim>
+  void
+  declare_point_rows(const PointFields &fields, VtuFile<patch_dim, dim> &file)
+  {
+    for (const auto &field : fields.fields())
+      switch (kind_of<dim>(field))
+        {
+          case Kind::vector:
+            file.add_vector(field.name, field.unit);
+            break;
+          case Kind::tensor:
+          case Kind::gradient:
+            file.add_tensor(field.name, field.unit);
+            break;
+          case Kind::scalars:
+            for (unsigned int c = 0; c < field.n_components; ++c)
+              file.add_scalar(field.n_components == 1 ?
+                                field.name :
+                                field.name + "_" + std::to_string(c),
+                              field.unit);
+        }
+    file.add_scalar("id", "-");
+    file.add_scalar("von_mises_stress", "stress");
+    file.add_scalar("mean_stress", "stress");
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  point_rows(const PointSet<dim> &points, const unsigned int p)
+  {
+    const double       *values = points.values(p);
+    const double       *sigma  = values + points.stress_offset();
+    std::vector<double> rows;
+    for (const auto &field : points.fields().fields())
+      {
+        const double *field_values = values + field.offset;
+        const Kind    kind         = kind_of<dim>(field);
+        if (kind == Kind::tensor)
+          for (const unsigned int c : tensor_components<dim>())
+            rows.push_back(c < field.n_components ? field_values[c] : 0.);
+        else if (kind == Kind::gradient)
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              rows.push_back(i < dim && j < dim ? field_values[i * dim + j] :
+                                                  (i == j ? 1. : 0.));
+        else
+          rows.insert(rows.end(),
+                      field_values,
+                      field_values + field.n_components);
+      }
+    rows.push_back(points.id(p));
+    rows.push_back(von_mises_stress<dim>(sigma));
+    rows.push_back(mean_stress<dim>(sigma));
+    return rows;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  points_by_id(const PointSet<dim> &points)
+  {
+    std::vector<unsigned int> order(points.n_local());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(),
+              order.end(),
+              [&](const unsigned int p, const unsigned int q) {
+                return points.id(p) < points.id(q);
+              });
+    return order;
+  }
+
+
+
+#define INSTANTIATE(dim)                                                      \
+  template void declare_point_rows(const PointFields &, VtuFile<0, dim> &);   \
+  template void declare_point_rows(const PointFields &, VtuFile<dim, dim> &); \
+  template std::vector<double>       point_rows(const PointSet<dim> &,        \
+                                                const unsigned int);          \
+  template std::vector<unsigned int> points_by_id(const PointSet<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
