@@ -517,6 +517,89 @@ namespace
               << points.points.bytes_per_point() << "\nmemory_before_mib "
               << before << "\nmemory_peak_mib " << peak << '\n';
   }
+
+
+
+  /**
+   * Seconds in which all points of full cells are found again after they have
+   * moved by 0.3 cells, there and back.
+   */
+  template <int dim>
+  void
+  time_search(const BackgroundMesh<dim>                               &mesh,
+              const std::function<Tensor<1, dim>(const Point<dim> &)> &motion,
+              const Options                                           &options,
+              const std::string                                       &name)
+  {
+    PointSet<dim> points(mesh, PointFields());
+    seed_bodies<dim>(
+      {{"all", std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space())}},
+      CellSeeder<dim>(options.points, PointLayout::equal),
+      points);
+    Clock clock;
+    for (unsigned int i = 0; i < 2 * options.repeats; ++i)
+      {
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          points.set_position(p,
+                              points.position(p) +
+                                (i % 2 == 0 ? 1. : -1.) *
+                                  motion(points.position(p)));
+        clock.time("search", [&] { points.find_cells(); });
+      }
+    clock.print(name + " ");
+    std::cout << name << " cells " << mesh.triangulation().n_active_cells()
+              << '\n'
+              << name << " points " << points.n_global() << '\n';
+  }
+
+
+
+  /**
+   * The search on a box, on the same box with bent cells and, in 2D, on an
+   * annulus, all with the same number of cells and points.
+   */
+  template <int dim>
+  void
+  compare_searches(const Options &options)
+  {
+    const double n     = options.cells;
+    const auto   shift = [n](const Point<dim> &x) {
+      Tensor<1, dim> u;
+      u[0] = 0.3 * std::sin(numbers::PI * x[0] / n);
+      return u;
+    };
+    BackgroundMesh<dim> mesh(mesh_parameters<dim>(options), MPI_COMM_WORLD);
+    time_search<dim>(mesh, shift, options, "box");
+    // Sides stay straight; inside no cell is a parallelogram.
+    mesh.move_vertices([n](const Point<dim> &x) {
+      Point<dim> y      = x;
+      double     bubble = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        bubble *= std::sin(numbers::PI * x[d] / n);
+      for (unsigned int d = 0; d < dim; ++d)
+        y[d] += 0.25 * bubble * std::sin(2.1 * x[d] + 1.3 * x[(d + 1) % dim]);
+      return y;
+    });
+    time_search<dim>(mesh, shift, options, "bent");
+    if constexpr (dim == 2)
+      {
+        MeshParameters<2>  annulus;
+        const unsigned int shells = options.cells / 4;
+        annulus.type              = "generator";
+        annulus.generator         = "concentric_hyper_shells";
+        annulus.arguments = "0, 0 : 5 : 10 : " + std::to_string(shells) +
+                            " : 0 : " + std::to_string(16 * shells) + " : true";
+        const BackgroundMesh<2> ring(annulus, MPI_COMM_WORLD);
+        const double            angle = 0.3 * 2 * numbers::PI / (16 * shells);
+        time_search<2>(
+          ring,
+          [angle](const Point<2> &x) {
+            return angle * Tensor<1, 2>({-x[1], x[0]});
+          },
+          options,
+          "annulus");
+      }
+  }
 } // namespace
 
 
@@ -535,9 +618,13 @@ main(int argc, char **argv)
         time_points<2>(options);
       else if (options.benchmark == "points" && options.dimension == 3)
         time_points<3>(options);
+      else if (options.benchmark == "search" && options.dimension == 2)
+        compare_searches<2>(options);
+      else if (options.benchmark == "search" && options.dimension == 3)
+        compare_searches<3>(options);
       else
         throw std::runtime_error(
-          "usage: benchmark compare|points [--dimension 2|3] [--cells N] "
+          "usage: benchmark compare|points|search [--dimension 2|3] [--cells N] "
           "[--height N] [--mesh-cells N] [--points N] [--repeats N]");
     }
   catch (const std::exception &error)

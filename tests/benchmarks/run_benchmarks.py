@@ -154,8 +154,21 @@ class Bench:
         self.record("empty", "empty over tight mesh",
                     empty["points step"] / tight["points step"], "-", 1.5)
 
+    # Cells of points on a mesh that is no box against a box.
+    def case_search(self):
+        for dimension, n in ((2, 16), (3, 4)) if self.smoke else ((2, 200), (3, 30)):
+            r = self.run("search", dimension=dimension, cells=n,
+                         repeats=self.repeats)
+            for mesh in ("bent", "annulus") if dimension == 2 else ("bent",):
+                if r[f"{mesh} points"] != r["box points"]:
+                    sys.exit("the meshes have different numbers of points")
+                self.record("search", f"{mesh} cells over box, {dimension}D",
+                            r[f"{mesh} search"] / r["box search"], "-", 2)
+            self.record("search", f"box, {dimension}D",
+                        1e6 * r["box search"] / r["box points"], "us/point")
 
-CASES = ["fe", "points", "3d", "growth", "ranks", "empty"]
+
+CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search"]
 
 
 def main():

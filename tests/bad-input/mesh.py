@@ -1,0 +1,112 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Meshes of generators and files that are wrong: each has its message."""
+
+base = (root / "tests/bad-input/base.prm").read_text()
+start = base.index("subsection Mesh")
+box = base[start:base.index("end\n", start)]
+plane = base.replace(box, "subsection Mesh\n")
+shell = {"Mesh/Type": "generator", "Mesh/Generator": "hyper_shell",
+         "Mesh/Arguments": "4, 4 : 1 : 6 : 12 : true"}
+
+
+def refused(name, settings, scene=plane):
+    file = folder / "scene.prm"
+    file.write_text(scene)
+    result = run(file, settings, expect=2)
+    lines = [line for line in result.output.splitlines() if line.strip()]
+    text(name, plain(" | ".join(lines)))
+    if result.folder.exists():
+        text(name, "NO, a folder was made")
+
+
+def in_3d(settings):
+    return {"Dimension": 3, **settings}
+
+
+refused("unknown type", {"Mesh/Type": "sphere"})
+refused("key of another type", {**shell, "Mesh/Cell size": 1})
+refused("key of another type, a box", {"Mesh/File": "a.msh"}, base)
+refused("no generator", {"Mesh/Type": "generator"})
+refused("unknown generator", {**shell, "Mesh/Generator": "hyper_shel"})
+refused("generator in 3D only", {**shell, "Mesh/Generator": "torus"})
+refused("too few arguments", {**shell, "Mesh/Arguments": "4, 4 : 1 : 6"})
+refused("text for a number", {**shell, "Mesh/Arguments": "4, 4 : one : 6 : 12 : true"})
+refused("a point with three numbers",
+        {**shell, "Mesh/Arguments": "4, 4, 4 : 1 : 6 : 12 : true"})
+refused("radii swapped", {**shell, "Mesh/Arguments": "4, 4 : 6 : 1 : 12 : true"})
+refused("negative refinements", {**shell, "Mesh/Refinements": -1})
+refused("side names without numbers", {**shell, "Mesh/Side names": "hole, outer"})
+refused("side names the wrong way round", {**shell, "Mesh/Side names": "0: hole"})
+refused("side name for no side", {**shell, "Mesh/Side names": "hole: 0, outer: 2"})
+refused("side name given twice", {**shell, "Mesh/Side names": "hole: 0, hole: 1"})
+refused("side given two names", {**shell, "Mesh/Side names": "hole: 0, rim: 0"})
+refused("side of a box on a shell", {**shell, "Grid conditions/a/Side": "left"})
+refused("number of a side with a name", {
+    **shell, "Mesh/Side names": "hole: 0", "Grid conditions/a/Side": "0"})
+refused("number that is no side", {**shell, "Grid conditions/a/Side": "5"})
+refused("GIMP", {**shell, "Method/Method": "GIMP"})
+refused("body partly in the hole", shell)
+refused("a mesh that is turned", {
+    **shell, "Bodies/block/Shape": "mesh", "Bodies/block/Lower corner": "",
+    "Bodies/block/Upper corner": "", "Bodies/block/Rotation angle": 30})
+refused("extrusion in 2D", {**shell, "Mesh/Extrusion layers": 2})
+refused("extrusion without height", in_3d({**shell, "Mesh/Extrusion layers": 2}))
+refused("extrusion without layers", in_3d({**shell, "Mesh/Extrusion height": 2}))
+
+HEADER = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+NODES = ["0 0", "4 0", "8 0", "0 8", "4 8", "8 8"]
+CELLS = ["3 2 9 9 1 2 5 4", "3 2 9 9 2 3 6 5"]
+LINES = ["1 2 1 1 1 2", "1 2 1 1 2 3", "1 2 2 2 4 5", "1 2 2 2 5 6"]
+
+
+def msh(nodes=NODES, elements=LINES + CELLS):
+    def numbered(rows):
+        return "".join(f"{i} {row}\n" for i, row in enumerate(rows, 1))
+
+    return (f"{HEADER}$Nodes\n{len(nodes)}\n"
+            + numbered([node + " 0" for node in nodes])
+            + f"$EndNodes\n$Elements\n{len(elements)}\n" + numbered(elements)
+            + "$EndElements\n")
+
+
+def file_refused(name, content, settings=None):
+    (folder / "mesh.msh").write_text(content)
+    refused(name, {"Mesh/Type": "file", "Mesh/File": "mesh.msh",
+                   **(settings or {})})
+
+
+refused("no file name", {"Mesh/Type": "file"})
+refused("missing file", {"Mesh/Type": "file", "Mesh/File": "nowhere.msh"})
+refused("a folder", {"Mesh/Type": "file", "Mesh/File": "."})
+file_refused("empty file", "")
+file_refused("another format", "vertices 3\n")
+file_refused("format from the future", msh().replace("2.2 0 8", "5.0 0 8"))
+file_refused("file cut off", msh()[:120])
+file_refused("node that is not there", msh(nodes=NODES[:5]))
+file_refused("lines only", msh(elements=LINES))
+file_refused("triangle", msh(elements=LINES + CELLS[:1] +
+                             ["2 2 9 9 2 3 6", "2 2 9 9 2 6 5"]))
+file_refused("tetrahedron", msh(nodes=NODES + ["0 1"],
+                                elements=["4 2 9 9 1 2 4 7"]))
+file_refused("crossed cell", msh(elements=[CELLS[0], "3 2 9 9 2 3 5 6"]))
+file_refused("concave cell", msh(nodes=NODES[:4] + ["5.9 2"] + NODES[5:] + ["1 1"],
+                                 elements=["3 2 9 9 1 2 7 4"]))
+file_refused("flat cell", msh(nodes=NODES[:2] + ["4 4"] + NODES[3:]))
+file_refused("line inside", msh(elements=LINES + ["1 2 3 3 2 5"] + CELLS))
+file_refused("quadrilaterals in 3D", msh(), {"Dimension": 3})
+file_refused("side name for no line", msh(), {"Mesh/Side names": "low: 1, up: 3"})
+file_refused("line without a side name", msh(), {"Mesh/Side names": "low: 1"})
+file_refused("side that has no name", msh(),
+             {"Mesh/Side names": "low: 1, up: 2", "Grid conditions/a/Side": "lo"})
+file_refused("side that has no number", msh(), {"Grid conditions/a/Side": "3"})
+
+# Clockwise cells are turned, not refused.
+(folder / "mesh.msh").write_text(msh(elements=LINES + ["3 2 9 9 4 5 2 1", CELLS[1]]))
+(folder / "scene.prm").write_text(plane)
+fine = run(folder / "scene.prm", {"Mesh/Type": "file", "Mesh/File": "mesh.msh",
+                                  "Mesh/Refinements": 3,
+                                  "Mesh/Side names": "low: 1, up: 2"})
+text("clockwise cell", fine.summary["status"])
+number("clockwise cell, active cells", fine.summary["active_cells"], 3)

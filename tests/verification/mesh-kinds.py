@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Patch tests on meshes that are no boxes: a linear displacement field on
+quadrilaterals of gmsh and on an annulus, plane and extruded, and on a body that
+cuts such cells."""
+
+METHODS = {
+    "FE Q1": {},
+    "FE Q2": {"Method/Degree": 2},
+    "MPM, 2 points": {"Method/Method": "material point"},
+    "MPM, 2 Gauss points": {"Method/Method": "material point",
+                            "Method/Point layout": "Gauss"},
+    "MPM, 3 Gauss points": {"Method/Method": "material point",
+                            "Method/Point layout": "Gauss",
+                            "Method/Points per direction": 3},
+}
+
+for name in ("quads", "annulus", "quads-3d", "annulus-3d"):
+    for method, settings in METHODS.items():
+        if name.endswith("3d") and method == "MPM, 2 points":
+            continue
+        result = run(f"prm/verification/mesh-{name}.prm", settings)
+        bound(f"{name}, {method}: r_u", result.errors["r_u"], 1e-12)
+        bound(f"{name}, {method}: l2_sigma", result.errors["l2_sigma"], 1e-10)
+
+# Equal sub-cells of a hexahedron integrate gradients to second order only.
+for name in ("quads-3d", "annulus-3d"):
+    for n in (2, 4):
+        result = run(f"prm/verification/mesh-{name}.prm",
+                     {"Method/Method": "material point",
+                      "Method/Points per direction": n})
+        number(f"{name}, MPM, {n} equal points: l2_sigma",
+               result.errors["l2_sigma"], 2)
+
+for method, settings in METHODS.items():
+    result = run("prm/verification/mesh-cut.prm", settings)
+    if method == "FE Q2":
+        number(f"cut, {method}: r_u", result.errors["r_u"], 2)
+    else:
+        bound(f"cut, {method}: r_u", result.errors["r_u"], 1e-10)
+        bound(f"cut, {method}: l2_sigma", result.errors["l2_sigma"], 1e-10)
