@@ -71,6 +71,22 @@ namespace moraine
       return sums[0] / sums[1];
     }
 
+    /** Volume-weighted mean of the errors. */
+    double
+    mean_error(const Sample &sample, const MPI_Comm &communicator)
+    {
+      double sums[2] = {0., 0.};
+      for (std::size_t p = 0; p < sample.volume.size(); ++p)
+        {
+          sums[0] += sample.volume[p] * sample.error[p];
+          sums[1] += sample.volume[p];
+        }
+      Utilities::MPI::sum(ArrayView<const double>(sums, 2),
+                          communicator,
+                          ArrayView<double>(sums, 2));
+      return sums[0] / sums[1];
+    }
+
     double
     relative_l2_error(const Sample &sample, const MPI_Comm &communicator)
     {
@@ -97,6 +113,30 @@ namespace moraine
       return std::sqrt(square);
     }
 
+    /** @f$v_0@f$ of points; at small strain that is their volume. */
+    template <int dim>
+    class InitialVolume
+    {
+    public:
+      explicit InitialVolume(const PointSet<dim> &points)
+        : points(points)
+      {
+        for (const auto &field : points.fields().fields())
+          if (field.name == "initial_volume")
+            offset = field.offset;
+      }
+
+      double
+      of(const unsigned int p) const
+      {
+        return offset ? points.values(p)[*offset] : points.volume(p);
+      }
+
+    private:
+      const PointSet<dim>        &points;
+      std::optional<unsigned int> offset;
+    };
+
     template <int dim>
     Point<dim>
     start_of(const PointSet<dim> &points,
@@ -119,7 +159,8 @@ namespace moraine
                             const MPI_Comm           &communicator,
                             ErrorNorms               &norms)
     {
-      Sample sample;
+      const InitialVolume<dim> v_0(points);
+      Sample                   sample;
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
           const Tensor<1, dim> u_exact =
@@ -128,7 +169,7 @@ namespace moraine
           for (unsigned int c = 0; c < dim; ++c)
             error[c] =
               points.values(p)[points.displacement_offset() + c] - u_exact[c];
-          sample.add(points.volume(p), u_exact.norm(), error.norm());
+          sample.add(v_0.of(p), u_exact.norm(), error.norm());
         }
 
       const double          scale = largest(sample.exact, communicator);
@@ -152,9 +193,10 @@ namespace moraine
                       const MPI_Comm           &communicator,
                       ErrorNorms               &norms)
     {
-      constexpr unsigned int n = n_stress_components<dim>;
-      std::array<Sample, n>  components;
-      Sample                 whole;
+      constexpr unsigned int   n = n_stress_components<dim>;
+      std::array<Sample, n>    components;
+      Sample                   whole;
+      const InitialVolume<dim> v_0(points);
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
           const auto stress =
@@ -163,11 +205,11 @@ namespace moraine
           for (unsigned int c = 0; c < n; ++c)
             {
               error[c] -= points.values(p)[points.stress_offset() + c];
-              components[c].add(points.volume(p),
+              components[c].add(v_0.of(p),
                                 std::abs(stress[c]),
                                 std::abs(error[c]));
             }
-          whole.add(points.volume(p), norm<dim>(stress), norm<dim>(error));
+          whole.add(v_0.of(p), norm<dim>(stress), norm<dim>(error));
         }
 
       const double scale = largest(whole.exact, communicator);
@@ -185,6 +227,7 @@ namespace moraine
       if (scale > 0)
         l2 = relative_l2_error(whole, communicator);
       norms.emplace_back("l2_sigma", l2);
+      norms.emplace_back("mean_sigma", mean_error(whole, communicator));
       norms.emplace_back("max_sigma", largest(whole.error, communicator));
     }
   } // namespace

@@ -25,10 +25,11 @@ namespace moraine
                                             "summary.json",
                                             "points.pvd",
                                             "mesh.pvd",
+                                            "domains.pvd",
                                             "log.txt",
                                             "parameters.prm",
                                             "original.prm"};
-    constexpr const char *series_names[] = {"points", "mesh"};
+    constexpr const char *series_names[] = {"points", "mesh", "domains"};
 
     /** Whether a file name is of the kind OutputDirectory::vtu_name() gives. */
     bool

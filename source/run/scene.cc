@@ -329,7 +329,10 @@ namespace moraine
                       directory,
                       "Folder for the results; output/<name of the scene> if "
                       "left out.");
-    prm.add_parameter("Points", points, "Write the points as VTU.");
+    prm.add_parameter(
+      "Points",
+      points,
+      "Write the points as VTU, and their domains if they have any.");
     prm.add_parameter("Mesh", mesh, "Write the active cells as VTU.");
     prm.add_parameter("Residuals",
                       residuals,

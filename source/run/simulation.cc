@@ -9,6 +9,7 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/memory.h>
 #include <moraine/core/version.h>
+#include <moraine/output/domain_vtu.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/on_root.h>
@@ -120,6 +121,8 @@ namespace moraine
         history.emplace(directory->file("history.csv"), communicator);
         points_pvd.emplace(directory->file("points.pvd"), communicator);
         mesh_pvd.emplace(directory->file("mesh.pvd"), communicator);
+        if (scene.output.points && basis->has_domains())
+          domains_pvd.emplace(directory->file("domains.pvd"), communicator);
         last_increments.assign(space->n_nodes(), Tensor<1, dim>());
         write_vtu(scene.time.start_time);
         console << "  results in  " << options.output_directory << '\n'
@@ -404,6 +407,13 @@ namespace moraine
     const std::string name = OutputDirectory::vtu_name("points", n_vtu_written);
     write_point_vtu(*points, directory->file(name), t, n_vtu_written);
     points_pvd->add(t, name);
+    if (!domains_pvd)
+      return;
+    const std::string domains =
+      OutputDirectory::vtu_name("domains", n_vtu_written);
+    write_domain_vtu(
+      *basis, *points, directory->file(domains), t, n_vtu_written);
+    domains_pvd->add(t, domains);
   }
 
 

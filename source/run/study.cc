@@ -566,9 +566,10 @@ namespace moraine
     std::string error = parameters.error;
     if (error.empty())
       error = results.front().summary.errors.front().first;
-    const std::string unit = error == "max_u"     ? " [length]" :
-                             error == "max_sigma" ? " [stress]" :
-                                                    " [-]";
+    const std::string unit = error == "max_u" ? " [length]" :
+                             error == "max_sigma" || error == "mean_sigma" ?
+                                                " [stress]" :
+                                                " [-]";
     if (error.rfind("probe ", 0) == 0)
       error = "relative error of " + error.substr(6);
     out << "set terminal pngcairo noenhanced size 1100,700 font ',12'\n"

@@ -62,15 +62,15 @@ namespace moraine
    * | max_u        | largest @f$\|u_p-u_e\|@f$ [length]                       |
    * | r_sigma_xx … | as r_u, for one component of the stress                  |
    * | l2_sigma     | as l2_u, with the Frobenius norm of the stress           |
+   * | mean_sigma   | as max_sigma, the mean by volume [stress]                |
    * | max_sigma    | largest Frobenius norm of the error [stress]             |
    *
-   * r_* are equations 29 and 30 of Cortis et al., Int. J. Numer. Meth. Engng
+   * Volumes are those at the start. r_* are equations 29 and 30 of Cortis et al., Int. J. Numer. Meth. Engng
    * (2017). Points where the exact value is zero (below 1e-12 of its largest)
    * are measured against its largest value; a component that is zero everywhere
    * (below 1e-12 of the largest component) has no relative error.
    *
-   * The exact solution is evaluated where the point was at the start: small
-   * strain theory does not tell the two places apart.
+   * The exact solution is evaluated where the point was at the start.
    *
    * @p points_moved says whether positions include the displacement. It is
    * false on a mesh that is kept.

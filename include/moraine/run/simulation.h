@@ -151,6 +151,7 @@ namespace moraine
     std::optional<History>              history;
     std::optional<PvdHistory>           points_pvd;
     std::optional<PvdHistory>           mesh_pvd;
+    std::optional<PvdHistory>           domains_pvd;
     unsigned int                        n_vtu_written = 0;
     double                              t_written     = 0;
     std::vector<BoundaryReport<dim>>    reports;
