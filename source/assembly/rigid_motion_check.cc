@@ -74,11 +74,12 @@ namespace moraine
           part_of_node[space.cell_nodes(cell)[a]] =
             part[cell->active_cell_index()];
 
-    // Gram matrices of free rigid motions with 1 and with K, part by part. The
-    // mean of K's diagonal says what round-off leaves of a free one: it grows
+    // Gram matrices of rigid motions part by part: with 1, with K, and with 1
+    // where they are prescribed, for which the mean of K's diagonal stands as
+    // stiffness. That also says what round-off leaves of a free one: it grows
     // with a stiff boundary's share of the part, as round-off does.
     const unsigned int      size = n_modes * n_modes;
-    std::vector<double>     gram(2 * size * n_parts, 0.);
+    std::vector<double>     gram(3 * size * n_parts, 0.);
     std::vector<double>     diagonal(n_parts, 0.), n_rows(n_parts, 0.);
     std::vector<LA::Vector> modes = rigid_modes, forces = rigid_modes;
     for (unsigned int m = 0; m < n_modes; ++m)
@@ -92,8 +93,9 @@ namespace moraine
           const auto dof = space.node_dof(node) + c;
           if (!space.locally_owned().is_element(dof))
             continue;
-          const unsigned int k = part_of_node[node];
-          if (!constraints.is_constrained(dof))
+          const unsigned int k              = part_of_node[node];
+          const bool         prescribed_dof = constraints.is_constrained(dof);
+          if (!prescribed_dof)
             {
               diagonal[k] += std::abs(matrix.diag_element(dof));
               ++n_rows[k];
@@ -101,9 +103,11 @@ namespace moraine
           for (unsigned int i = 0; i < n_modes; ++i)
             for (unsigned int j = 0; j < n_modes; ++j)
               {
-                const unsigned int entry = 2 * size * k + i * n_modes + j;
-                gram[entry] += rigid_modes[i](dof) * rigid_modes[j](dof);
+                const unsigned int entry = 3 * size * k + i * n_modes + j;
+                const double one = rigid_modes[i](dof) * rigid_modes[j](dof);
+                gram[entry] += one;
                 gram[entry + size] += modes[i](dof) * forces[j](dof);
+                gram[entry + 2 * size] += prescribed_dof ? one : 0.;
               }
         }
     for (auto *sums : {&gram, &diagonal, &n_rows})
@@ -118,10 +122,11 @@ namespace moraine
         for (unsigned int i = 0; i < n_modes; ++i)
           for (unsigned int j = 0; j < n_modes; ++j)
             {
-              const double *G = &gram[2 * size * k];
+              const double *G = &gram[3 * size * k];
               M(i, j)         = G[i * n_modes + j];
               K(i, j) =
-                0.5 * (G[size + i * n_modes + j] + G[size + j * n_modes + i]);
+                0.5 * (G[size + i * n_modes + j] + G[size + j * n_modes + i]) +
+                diagonal[k] / n_rows[k] * G[2 * size + i * n_modes + j];
             }
         std::vector<Vector<double>> vectors(n_modes, Vector<double>(n_modes));
         K.compute_generalized_eigenvalues_symmetric(M, vectors, 1);

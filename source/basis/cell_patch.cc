@@ -357,6 +357,33 @@ namespace moraine
 
 
 
+  template <int dim>
+  typename CellNeighbours<dim>::CellIterator
+  CellNeighbours<dim>::nearest_cell(const CellIterator &start,
+                                    const Point<dim>   &x) const
+  {
+    const CellIterator around = cell_around(start, x);
+    if (around.state() == IteratorState::valid)
+      return around;
+    CellIterator result  = start;
+    double       nearest = std::numeric_limits<double>::infinity();
+    const auto  &tree =
+      background.search_cache().get_used_vertices_rtree();
+    for (auto it = tree.qbegin(boost::geometry::index::nearest(x, 1));
+         it != tree.qend();
+         ++it)
+      for (const auto &cell :
+           background.search_cache().get_vertex_to_cell_map()[it->second])
+        if (cell->center().distance(x) < nearest)
+          {
+            nearest = cell->center().distance(x);
+            result  = cell;
+          }
+    return result;
+  }
+
+
+
   template class CellNeighbours<2>;
   template class CellNeighbours<3>;
   template class CellPatch<2>;

@@ -108,6 +108,16 @@ namespace moraine
       return false;
     }
 
+    /**
+     * Number of points of this rank whose domains reach beyond the cells that
+     * touch the point's, as of the last mark_cells().
+     */
+    virtual unsigned int
+    n_far_domains() const
+    {
+      return 0;
+    }
+
     /** Whether points have domains to look at, domain_corners(). */
     virtual bool
     has_domains() const

@@ -60,6 +60,10 @@ namespace moraine
     CellIterator
     cell_around(const CellIterator &start, const dealii::Point<dim> &x) const;
 
+    /** The same, or outside the mesh a cell at the vertex nearest to @p x. */
+    CellIterator
+    nearest_cell(const CellIterator &start, const dealii::Point<dim> &x) const;
+
   private:
     unsigned int
     box_number(const std::array<unsigned int, dim> &ijk) const;
