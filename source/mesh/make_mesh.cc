@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/nearest.h>
 #include <moraine/mesh/cell_map.h>
+#include <moraine/mesh/msh_file.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
@@ -157,24 +158,28 @@ namespace moraine
         throw InputError(place("Mesh", "File") + ": found '" + source.file +
                          "', which cannot be read, allowed: the path of a .msh "
                          "file");
+      const auto refuse = [&](const std::string &why) {
+        throw InputError(place("Mesh", "File") + ": found '" + source.file +
+                         "', which is not understood (" + why +
+                         "), allowed: " + kind +
+                         " in format 2 or 4 of gmsh as text, with physical ids "
+                         "of lower dimension on the boundary only" +
+                         (dim == 3 ? ", or a plane mesh with 'Extrusion "
+                                     "layers'" :
+                                     ""));
+      };
+      const std::string complaint = complaint_about_msh(in);
+      if (!complaint.empty())
+        refuse(complaint);
+      in.clear();
+      in.seekg(0);
       try
         {
           GridIn<dim>(cells).read_msh(in);
         }
       catch (const ExceptionBase &error)
         {
-          throw InputError(place("Mesh", "File") + ": found '" + source.file +
-                           "', which is not understood (" + reason(error) +
-                           "), allowed: " + kind +
-                           " in format 2 or 4 of gmsh as text, with physical "
-                           "ids on the boundary only");
-        }
-      catch (const std::exception &error)
-        {
-          throw InputError(place("Mesh", "File") + ": found '" + source.file +
-                           "', which is not understood (" + error.what() +
-                           "), allowed: " + kind +
-                           " in format 2 or 4 of gmsh as text");
+          refuse(reason(error));
         }
       for (const auto &cell : cells.active_cell_iterators())
         if (!cell->reference_cell().is_hyper_cube())

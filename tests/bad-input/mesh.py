@@ -10,6 +10,9 @@ plane = base.replace(box, "subsection Mesh\n")
 shell = {"Mesh/Type": "generator", "Mesh/Generator": "hyper_shell",
          "Mesh/Arguments": "4, 4 : 1 : 6 : 12 : true"}
 
+square = {"Mesh/Type": "generator", "Mesh/Generator": "subdivided_hyper_rectangle",
+          "Mesh/Arguments": "8, 8 : 0, 0 : 8, 8 : true"}
+
 
 def refused(name, settings, scene=plane):
     file = folder / "scene.prm"
@@ -42,11 +45,11 @@ refused("side names the wrong way round", {**shell, "Mesh/Side names": "0: hole"
 refused("side name for no side", {**shell, "Mesh/Side names": "hole: 0, outer: 2"})
 refused("side name given twice", {**shell, "Mesh/Side names": "hole: 0, hole: 1"})
 refused("side given two names", {**shell, "Mesh/Side names": "hole: 0, rim: 0"})
-refused("side of a box on a shell", {**shell, "Grid conditions/a/Side": "left"})
+refused("side of a box on a generator's mesh", {**square, "Grid conditions/a/Side": "left"})
 refused("number of a side with a name", {
-    **shell, "Mesh/Side names": "hole: 0", "Grid conditions/a/Side": "0"})
-refused("number that is no side", {**shell, "Grid conditions/a/Side": "5"})
-refused("GIMP", {**shell, "Method/Method": "GIMP"})
+    **square, "Mesh/Side names": "west: 0", "Grid conditions/a/Side": "0"})
+refused("number that is no side", {**square, "Grid conditions/a/Side": "5"})
+refused("GIMP", {**square, "Method/Method": "GIMP"})
 refused("body partly in the hole", shell)
 refused("a mesh that is turned", {
     **shell, "Bodies/block/Shape": "mesh", "Bodies/block/Lower corner": "",

@@ -522,7 +522,8 @@ namespace
 
   /**
    * Seconds in which all points of full cells are found again after they have
-   * moved by 0.3 cells, there and back.
+   * moved by 0.3 cells times a sine, there and back, and the share of points
+   * that come to another cell, on which the time depends.
    */
   template <int dim>
   void
@@ -536,20 +537,33 @@ namespace
       {{"all", std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space())}},
       CellSeeder<dim>(options.points, PointLayout::equal),
       points);
-    Clock clock;
+    Clock                     clock;
+    std::vector<unsigned int> cell_of(mesh.triangulation().n_active_cells() *
+                                      3 * Utilities::pow(options.points, dim));
+    double                    n_crossings = 0;
     for (unsigned int i = 0; i < 2 * options.repeats; ++i)
       {
+        for (const auto &in_cell : points.cells())
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            cell_of[points.id(p)] = in_cell.cell->active_cell_index();
         for (unsigned int p = 0; p < points.n_local(); ++p)
           points.set_position(p,
                               points.position(p) +
                                 (i % 2 == 0 ? 1. : -1.) *
                                   motion(points.position(p)));
         clock.time("search", [&] { points.find_cells(); });
+        for (const auto &in_cell : points.cells())
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            n_crossings +=
+              cell_of[points.id(p)] != in_cell.cell->active_cell_index();
       }
     clock.print(name + " ");
     std::cout << name << " cells " << mesh.triangulation().n_active_cells()
               << '\n'
-              << name << " points " << points.n_global() << '\n';
+              << name << " points " << points.n_global() << '\n'
+              << name << " crossings "
+              << n_crossings / (2. * options.repeats * points.n_global())
+              << '\n';
   }
 
 
@@ -594,7 +608,7 @@ namespace
         time_search<2>(
           ring,
           [angle](const Point<2> &x) {
-            return angle * Tensor<1, 2>({-x[1], x[0]});
+            return angle * x[1] / x.norm() * Tensor<1, 2>({-x[1], x[0]});
           },
           options,
           "annulus");

@@ -162,8 +162,12 @@ class Bench:
             for mesh in ("bent", "annulus") if dimension == 2 else ("bent",):
                 if r[f"{mesh} points"] != r["box points"]:
                     sys.exit("the meshes have different numbers of points")
+                self.record("search", f"points that cross, {mesh}, {dimension}D",
+                            r[f"{mesh} crossings"], "-")
                 self.record("search", f"{mesh} cells over box, {dimension}D",
                             r[f"{mesh} search"] / r["box search"], "-", 2)
+            self.record("search", f"points that cross, box, {dimension}D",
+                        r["box crossings"], "-")
             self.record("search", f"box, {dimension}D",
                         1e6 * r["box search"] / r["box points"], "us/point")
 

@@ -4,6 +4,15 @@
 quadrilaterals of gmsh and on an annulus, plane and extruded, and on a body that
 cuts such cells."""
 
+import math
+
+SCENES = {
+    "quads": "prm/verification/mesh-quads.prm",
+    "annulus": "prm/verification/mesh-annulus.prm",
+    "quads-3d": "prm/verification/mesh-quads-3d.prm",
+    "annulus-3d": "prm/verification/mesh-annulus-3d.prm",
+}
+
 METHODS = {
     "FE Q1": {},
     "FE Q2": {"Method/Degree": 2},
@@ -15,18 +24,18 @@ METHODS = {
                             "Method/Points per direction": 3},
 }
 
-for name in ("quads", "annulus", "quads-3d", "annulus-3d"):
+for name, scene in SCENES.items():
     for method, settings in METHODS.items():
         if name.endswith("3d") and method == "MPM, 2 points":
             continue
-        result = run(f"prm/verification/mesh-{name}.prm", settings)
+        result = run(scene, settings)
         bound(f"{name}, {method}: r_u", result.errors["r_u"], 1e-12)
         bound(f"{name}, {method}: l2_sigma", result.errors["l2_sigma"], 1e-10)
 
 # Equal sub-cells of a hexahedron integrate gradients to second order only.
 for name in ("quads-3d", "annulus-3d"):
     for n in (2, 4):
-        result = run(f"prm/verification/mesh-{name}.prm",
+        result = run(SCENES[name],
                      {"Method/Method": "material point",
                       "Method/Points per direction": n})
         number(f"{name}, MPM, {n} equal points: l2_sigma",
@@ -39,3 +48,13 @@ for method, settings in METHODS.items():
     else:
         bound(f"cut, {method}: r_u", result.errors["r_u"], 1e-10)
         bound(f"cut, {method}: l2_sigma", result.errors["l2_sigma"], 1e-10)
+
+# A traction on the outer side of the annulus: polygon of 18 edges, height 4.
+for name, value, height in (("annulus", "t; 0", 1), ("annulus-3d", "t; 0; 0", 4)):
+    for degree in (1, 2):
+        reactions = run(SCENES[name], {
+            "Method/Degree": degree, "Loads/push/Type": "side traction",
+            "Loads/push/Side": "outer", "Loads/push/Value": value}).reactions
+        total = sum(force[0] for force in reactions.values())
+        exact = height * 18 * 20 * math.sin(math.pi / 18)
+        bound(f"{name}, Q{degree}: traction held", abs(total) / exact - 1, 1e-10)
