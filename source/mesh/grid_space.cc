@@ -48,6 +48,7 @@ namespace moraine
   GridSpace<dim>::set_active_cells(std::vector<unsigned char> active)
   {
     AssertDimension(active.size(), active_cells.size());
+    wanted_cells = active;
     MPI_Allreduce(MPI_IN_PLACE,
                   active.data(),
                   active.size(),
@@ -55,7 +56,16 @@ namespace moraine
                   MPI_MAX,
                   communicator());
     if (active == active_cells && n_active > 0)
-      return false;
+      {
+        bool missing = false;
+        for (unsigned int cell = 0; cell < wanted_cells.size(); ++cell)
+          missing =
+            missing || (wanted_cells[cell] && cell_slot[cell] == no_cell);
+        if (!Utilities::MPI::logical_or(missing, communicator()))
+          return false;
+        number_nodes();
+        return true;
+      }
 
     active_cells = std::move(active);
     for (const auto &cell : dofs.active_cell_iterators())
@@ -98,7 +108,7 @@ namespace moraine
     for (const auto &cell : dofs.active_cell_iterators())
       if (is_active(cell))
         {
-          bool near = false;
+          bool near = wanted_cells[cell->active_cell_index()] != 0;
           for (const unsigned int v : cell->vertex_indices())
             near = near || vertex_of_own_cell[cell->vertex_index(v)];
           if (!near)

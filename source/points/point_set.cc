@@ -10,6 +10,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <deal.II/numerics/rtree.h>
+
 #include <iomanip>
 #include <sstream>
 
@@ -158,13 +160,24 @@ namespace moraine
       for (const LostPoint &lost : of_one_rank)
         {
           // Every rank knows every cell, so all ranks agree on what is outside.
-          const auto [cell, reference] =
+          Point<dim> place = lost.position;
+          auto       found =
             GridTools::find_active_cell_around_point(background.search_cache(),
-                                                     lost.position);
+                                                     place);
+          if (found.first.state() != IteratorState::valid)
+            if (const auto inside = place_for(place))
+              {
+                place = *inside;
+                found = GridTools::find_active_cell_around_point(
+                  background.search_cache(), place);
+                put_back += found.first.state() == IteratorState::valid &&
+                            found.first->is_locally_owned();
+              }
+          const auto &[cell, reference] = found;
           if (cell.state() != IteratorState::valid)
             outside = &lost;
           else if (cell->is_locally_owned())
-            handler.insert_particle(lost.position, reference, lost.id, cell)
+            handler.insert_particle(place, reference, lost.id, cell)
               ->set_properties(lost.values);
         }
     handler.update_cached_numbers();
@@ -182,6 +195,42 @@ namespace moraine
     // Renews the order of the storage, which insertion has broken.
     lost_points.clear();
     handler.sort_particles_into_subdomains_and_cells();
+  }
+
+
+
+  template <int dim>
+  std::optional<Point<dim>>
+  PointSet<dim>::place_for(const Point<dim> &x) const
+  {
+    if (put_back_distance == 0)
+      return {};
+    const auto               &cache   = background.search_cache();
+    double                    nearest = put_back_distance;
+    std::optional<Point<dim>> place;
+    const auto                near = boost::geometry::index::nearest(x, 1);
+    for (auto vertex = cache.get_used_vertices_rtree().qbegin(near);
+         vertex != cache.get_used_vertices_rtree().qend();
+         ++vertex)
+      for (const auto &cell : cache.get_vertex_to_cell_map()[vertex->second])
+        {
+          // Halve the way from the middle of the cell until it ends at its
+          // edge.
+          const Point<dim>     middle = cell->center();
+          const Tensor<1, dim> way    = x - middle;
+          double               in = 0, out = 1;
+          for (unsigned int i = 0; i < 40; ++i)
+            (cell->point_inside(middle + 0.5 * (in + out) * way) ? in : out) =
+              0.5 * (in + out);
+          // A little less, so that searches agree that it is inside.
+          const Point<dim> edge = middle + (1 - 1e-9) * in * way;
+          if (edge.distance(x) <= nearest)
+            {
+              nearest = edge.distance(x);
+              place   = edge;
+            }
+        }
+    return place;
   }
 
 

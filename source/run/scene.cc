@@ -67,6 +67,13 @@ namespace moraine
       "Of GIMP and CPDI1: halve points whose domain grows beyond the cells "
       "that touch the point's, instead of ending the run.");
     prm.add_parameter(
+      "Put back",
+      put_back,
+      "Points that end outside the mesh, but by no more than this many cell "
+      "sizes, are put back onto its edge, and the run says so. 0: a point "
+      "outside ends the run. For coarse meshes that turn with a curved wall.",
+      patterns::non_negative());
+    prm.add_parameter(
       "Empty stiffness",
       empty_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "

@@ -250,12 +250,39 @@ namespace moraine
         if (!time.reject(reason))
           throw ComputationError(time.message());
       }
+    note_domains();
     first_step = false;
     probes->accept_step(
       grid_evaluation<dim>(*space, state->nodal_increments()));
     last_increments = state->nodal_increments();
     reports         = system->accept(x);
     write_results(time, scene.output.times.due(time));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_domains()
+  {
+    const auto n_far =
+      Utilities::MPI::sum(basis->n_far_domains(), communicator);
+    if (n_far > 0 && !has_far_domains)
+      console << "  note: " << n_far
+              << " domains reach beyond the cells around their point; of more "
+                 "cells than that they see only those of their corners"
+              << (scene.method.method == "CPDI1" ?
+                    " (Method / Split domains = true halves them)" :
+                    "")
+              << std::endl;
+    has_far_domains   = has_far_domains || n_far > 0;
+    const auto n_back = Utilities::MPI::sum(points->n_put_back(), communicator);
+    if (n_back > n_put_back)
+      console << "  note: " << n_back - n_put_back
+              << " points that ended outside the mesh were put back onto its "
+                 "edge"
+              << std::endl;
+    n_put_back = n_back;
   }
 
 
@@ -312,7 +339,8 @@ namespace moraine
                GridTools::find_active_cell_around_point(mesh->search_cache(),
                                                         X,
                                                         in_cell.cell)
-                   .first.state() == IteratorState::valid))
+                   .first.state() == IteratorState::valid ||
+               points->place_for(X)))
             continue;
           std::ostringstream text;
           text << "point " << points->id(p) << " of body '"

@@ -56,6 +56,7 @@ namespace moraine
                                  }));
     points       = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes = seed_bodies(bodies, make_seeder<dim>(scene.method), *points);
+    points->allow_put_back(scene.method.put_back * mesh->cell_size());
     make_basis();
     state           = std::make_unique<State<dim>>(*space,
                                          *points,

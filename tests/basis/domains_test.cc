@@ -909,36 +909,82 @@ namespace
 
   TEST(Domains, TooLargeADomainIsNamed)
   {
-    for (const Method method : {Method::gimp, Method::cpdi1, Method::cpdi2})
+    {
+      DomainSceneOptions options;
+      options.method = Method::gimp;
+      options.lower  = 1;
+      options.upper  = 3;
+      DomainScene<2> scene(options);
+      lengthen(scene, 8.);
+      std::string message;
+      try
+        {
+          scene.prepare();
+        }
+      catch (const ComputationError &error)
+        {
+          message = error.what();
+        }
+      EXPECT_EQ(message.rfind("point ", 0), 0u);
+      EXPECT_NE(message.find(" at ("), std::string::npos);
+      EXPECT_NE(message.find(" the limit of "), std::string::npos);
+      EXPECT_NE(message.find("key 'Split domains'"), std::string::npos)
+        << message;
+    }
+  }
+
+
+
+  TEST(Domains, FarCornersAreFoundAndCounted)
+  {
+    for (const Method method : {Method::cpdi1, Method::cpdi2})
       {
         DomainSceneOptions options;
         options.method = method;
         options.lower  = 1;
         options.upper  = 3;
         DomainScene<2> scene(options);
+        scene.prepare();
+        EXPECT_EQ(scene.basis->n_far_domains(), 0u);
+        unsigned int n_long = 0;
         if (method == Method::cpdi2)
           {
             const unsigned int corner = scene.offset("corner_2", 2);
             for (unsigned int p = 0; p < scene.points.n_local(); ++p)
               if (scene.points.id(p) % 2 == 1)
-                scene.points.values(p)[corner] += 2.5;
+                {
+                  scene.points.values(p)[corner] += 2.5;
+                  ++n_long;
+                }
           }
         else
-          lengthen(scene, 8.);
-        std::string message;
-        try
           {
-            scene.prepare();
+            lengthen(scene, 8.);
+            n_long = scene.points.n_local();
           }
-        catch (const ComputationError &error)
+        scene.prepare();
+        EXPECT_LE(scene.basis->n_far_domains(), n_long);
+        EXPECT_GT(Utilities::MPI::sum(scene.basis->n_far_domains(),
+                                      MPI_COMM_WORLD),
+                  0u);
+        // Linear functions are reproduced, wherever the corners are.
+        StencilBlock<2> block;
+        for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
           {
-            message = error.what();
+            scene.basis->evaluate(g, block);
+            for (unsigned int p = 0; p < block.n_points; ++p)
+              {
+                Tensor<2, 2> one;
+                for (unsigned int a = 0; a < block.n_nodes; ++a)
+                  one += outer_product(Tensor<1, 2>(scene.space.node_position(
+                                         block.nodes[a])),
+                                       block.grad_N(p)[a]);
+                EXPECT_NEAR(
+                  (one - Tensor<2, 2>(unit_symmetric_tensor<2>())).norm(),
+                  0.,
+                  1e-10);
+              }
           }
-        EXPECT_EQ(message.rfind("point ", 0), 0u);
-        EXPECT_NE(message.find(" at ("), std::string::npos);
-        EXPECT_NE(message.find(" the limit of "), std::string::npos);
-        EXPECT_NE(message.find("key 'Split domains'"), std::string::npos)
-          << message;
       }
   }
 } // namespace

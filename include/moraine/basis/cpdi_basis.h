@@ -21,11 +21,12 @@ namespace moraine
    * @f[ S_{ip} = \sum_c w_c N_i(x_c), \qquad
    *     \nabla S_{ip} = \sum_c g_c N_i(x_c) . @f]
    * Works on any mesh of quadrilaterals or hexahedra with functions of
-   * degree 1. The corners have to be in the point's cell or in cells that touch
-   * it. Where a corner is outside the mesh, the functions of the nearest cell
-   * are continued linearly (CellPatch::locate()), so that @f$\sum_i S_{ip}
-   * x_i@f$ is the centroid and @f$\sum_i x_i \otimes \nabla S_{ip} = 1@f$
-   * whatever the domain.
+   * degree 1. Corners are looked for in the point's cell and the cells that
+   * touch it first; a domain that reaches further samples the mesh too coarsely
+   * and is counted, n_far_domains(). Where a corner is outside the mesh, the
+   * functions of the nearest cell are continued linearly (CellPatch::locate()),
+   * so that @f$\sum_i S_{ip} x_i@f$ is the centroid and @f$\sum_i x_i \otimes
+   * \nabla S_{ip} = 1@f$ whatever the domain.
    *
    * Corners are searched once per step, in mark_cells(). The stencils combine
    * stored numbers: no search, no memory is asked for between two steps.
@@ -36,7 +37,6 @@ namespace moraine
   public:
     static constexpr unsigned int n_corners = 1u << dim;
 
-    /** @throws ComputationError if a corner lies beyond the limit. */
     void
     mark_cells(std::vector<unsigned char> &active) override;
 
@@ -50,6 +50,12 @@ namespace moraine
     has_domains() const override
     {
       return true;
+    }
+
+    unsigned int
+    n_far_domains() const override
+    {
+      return n_far;
     }
 
   protected:
@@ -69,10 +75,6 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const = 0;
-
-    /** What the user can do about a domain that is too large. */
-    virtual std::string
-    remedy() const = 0;
 
     /** DomainTools::initial_domains() of the points. */
     std::vector<CellVertices<dim>>
@@ -113,6 +115,8 @@ namespace moraine
     std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
     CellNeighbours<dim>                 neighbours;
 
+    unsigned int n_far = 0;
+
     // Of corner c of point p, at p * n_corners + c.
     std::vector<unsigned int>           corner_cells;
     std::vector<double>                 corner_values; ///< n_corners for each
@@ -148,8 +152,9 @@ namespace moraine
     request_fields(PointFields &fields);
 
     /**
-     * See CpdiBasis. With @p split, points whose corners lie beyond the limit
-     * are halved along their longest edge, see split_domains().
+     * See CpdiBasis. With @p split, points whose corners lie beyond the cells
+     * that touch the point's are halved along their longest edge, see
+     * split_domains().
      */
     Cpdi1Basis(const GridSpace<dim>         &space,
                const PointSet<dim>          &points,
@@ -181,9 +186,6 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const override;
-
-    std::string
-    remedy() const override;
 
     /** @f$R@f$ */
     dealii::Tensor<2, dim>
@@ -232,7 +234,7 @@ namespace moraine
     void
     initialise_points(PointSet<dim> &points) const override;
 
-    /** A domain would turn inside out at a corner. */
+    /** A domain would turn inside out: its volume would not be positive. */
     std::string
     fault_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
       const override;
@@ -251,9 +253,6 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const override;
-
-    std::string
-    remedy() const override;
 
     /** The corners at the end of a step. */
     CellVertices<dim>

@@ -27,7 +27,7 @@ namespace moraine
    *
    * Work in loops uses *nodes*: places that carry dim consecutive unknowns,
    * numbered densely on each rank. A rank knows the nodes of the active cells
-   * it owns and of the active cells that touch those.
+   * it owns, of the active cells that touch those, and of those it asked for.
    */
   template <int dim>
   class GridSpace
@@ -43,10 +43,10 @@ namespace moraine
 
     /**
      * Make the cells flagged on any rank active. Unknowns are renumbered only
-     * if the set changed.
+     * if the set changed, nodes also if a rank flags a cell it does not know.
      *
      * @param active One flag for each active_cell_index() of the mesh.
-     * @return whether the set changed. Collective.
+     * @return whether unknowns or nodes changed. Collective.
      */
     bool
     set_active_cells(std::vector<unsigned char> active);
@@ -200,6 +200,7 @@ namespace moraine
     std::vector<unsigned int>                    fe_index_of_node;
     std::vector<dealii::Point<dim>>              unit_node_positions;
     std::vector<unsigned char>                   active_cells;
+    std::vector<unsigned char>                   wanted_cells; ///< by this rank
     unsigned int                                 n_active = 0;
     std::vector<unsigned int>                    cell_slot;
     std::vector<unsigned int>                    nodes_of_cells;

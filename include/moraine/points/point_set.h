@@ -11,6 +11,7 @@
 
 #include <deal.II/particles/particle_handler.h>
 
+#include <optional>
 #include <vector>
 
 namespace moraine
@@ -87,6 +88,28 @@ namespace moraine
      */
     void
     find_cells();
+
+    /**
+     * Let points that end outside the mesh, but not further than @p distance
+     * from it, be put back onto its edge by find_cells() instead of ending the
+     * run.
+     */
+    void
+    allow_put_back(const double distance)
+    {
+      put_back_distance = distance;
+    }
+
+    /** Number of points of this rank that find_cells() put back so far. */
+    unsigned int
+    n_put_back() const
+    {
+      return put_back;
+    }
+
+    /** The place in the mesh that @p x outside of it is put back to, if any. */
+    std::optional<dealii::Point<dim>>
+    place_for(const dealii::Point<dim> &x) const;
 
     const std::vector<CellPoints> &
     cells() const
@@ -237,6 +260,8 @@ namespace moraine
     std::vector<CellPoints>                 cell_points;
     std::vector<CellIterator>               cells_of_copies;
     std::vector<LostPoint>                  lost_points;
+    double                                  put_back_distance = 0;
+    unsigned int                            put_back          = 0;
   };
 } // namespace moraine
 

@@ -46,6 +46,7 @@ namespace moraine
     double       empty_stiffness      = 0.;
     std::string  domain_update        = "corners";
     bool         split_domains        = false;
+    double       put_back             = 0.;
 
     void
     add_parameters(dealii::ParameterHandler &prm);

@@ -92,6 +92,10 @@ namespace moraine
     bool
     hold_empty_parts(const std::string &reason);
 
+    /** Say what became of domains and points in the last step. Collective. */
+    void
+    note_domains();
+
     /** A row of history.csv and the VTU files that are due. */
     void
     write_results(const TimeControl &time, const bool due);
@@ -160,6 +164,8 @@ namespace moraine
     unsigned int                        linear_iterations = 0;
     std::optional<double>               condition_number;
     std::string                         solver_name;
+    unsigned int                        n_put_back        = 0;
+    bool                                has_far_domains   = false;
     bool                                first_step        = true;
     bool                                holds_empty_parts = false;
   };
