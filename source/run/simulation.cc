@@ -236,11 +236,11 @@ namespace moraine
           }
         if (good)
           {
-            check_that_points_stay(time, x);
             if (mesh_motion.moves())
               mesh->check_motion([&](const Point<dim> &X) {
                 return mesh_motion.map(X, time.time(), time.trial_time());
               });
+            check_that_points_stay(time, x);
             time.accept(report.iterations);
             print_step(time, report);
             break;

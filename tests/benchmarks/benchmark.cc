@@ -6,9 +6,12 @@
 // lines 'name value'.
 
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/gimp_basis.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/memory.h>
 #include <moraine/material/linear_elastic.h>
+#include <moraine/material/von_mises.h>
 #include <moraine/points/bodies.h>
 #include <moraine/points/straight_shapes.h>
 #include <moraine/solver/newton.h>
@@ -44,13 +47,17 @@ namespace
   struct Options
   {
     std::string  benchmark;
+    std::string  method     = "mpm";     ///< mpm, gimp, cpdi1 or cpdi2
+    std::string  strain     = "small";   ///< small or finite
+    std::string  material   = "elastic"; ///< elastic or plastic
     unsigned int dimension  = 2;
     unsigned int cells      = 100; ///< edge of the body
     unsigned int height     = 0;   ///< height of the body, 0 for the edge
     unsigned int mesh_cells = 0;   ///< height of the mesh, 0 for the body's
     unsigned int points     = 2;   ///< points of a cell, per direction
     unsigned int repeats    = 3;
-    unsigned int wall       = 0; ///< wall seconds also of one process
+    unsigned int wall       = 0;     ///< wall seconds also of one process
+    bool         room       = false; ///< a cell of mesh more than the body
 
     Options(const int argc, char **argv)
       : benchmark(argc > 1 ? argv[1] : "")
@@ -63,8 +70,17 @@ namespace
         {"--points", &points},
         {"--repeats", &repeats},
         {"--wall", &wall}};
+      const std::map<std::string, std::string *> words = {{"--method", &method},
+                                                          {"--strain", &strain},
+                                                          {"--material",
+                                                           &material}};
       for (int i = 2; i + 1 < argc; i += 2)
         {
+          if (words.count(argv[i]) > 0)
+            {
+              *words.at(argv[i]) = argv[i + 1];
+              continue;
+            }
           if (numbers.count(argv[i]) == 0)
             throw std::runtime_error("unknown option " + std::string(argv[i]));
           *numbers.at(argv[i]) = std::atoi(argv[i + 1]);
@@ -158,7 +174,7 @@ namespace
     MeshParameters<dim> parameters;
     for (unsigned int d = 0; d < dim; ++d)
       parameters.upper_corner[d] =
-        d == dim - 1 ? options.mesh_cells : options.cells;
+        (d == dim - 1 ? options.mesh_cells : options.cells) + options.room;
     parameters.cell_size = 1;
     return parameters;
   }
@@ -184,14 +200,7 @@ namespace
     explicit PointStep(const Options &options)
       : mesh(mesh_parameters<dim>(options), MPI_COMM_WORLD)
       , space(mesh, 1)
-      , points(mesh, PointFields())
-      , basis(space, points)
-      , state(
-          space,
-          points,
-          basis,
-          {std::make_shared<LinearElastic>(young_modulus, poisson_ratio, 1.)},
-          MeshAfterStep::reset)
+      , points(mesh, fields(options))
       , linear_solver(solver_parameters(), dim)
     {
       Point<dim> corner;
@@ -199,9 +208,17 @@ namespace
         corner[d] = d == dim - 1 ? options.height : options.cells;
       const auto block = std::make_shared<ConvexShape<dim>>(
         ConvexShape<dim>::box(Point<dim>(), corner));
-      seed_bodies({{"block", block}},
-                  CellSeeder<dim>(options.points, PointLayout::equal),
-                  points);
+      const std::vector<Body<dim>> bodies = {{"block", block}};
+      const CellSeeder<dim>        seeder(options.points, PointLayout::equal);
+      seed_bodies(bodies, seeder, points);
+      make_basis(options, seeder, bodies);
+      state = std::make_unique<State<dim>>(
+        space,
+        points,
+        *basis,
+        std::vector<std::shared_ptr<const Material>>{material(options)},
+        MeshAfterStep::reset,
+        measure(options));
       for (unsigned int side = 0; side < 2 * dim - 1; ++side)
         {
           GridCondition<dim> roller;
@@ -225,12 +242,34 @@ namespace
          },
          true,
          {true}});
-      system = std::make_unique<MechanicsSystem<dim>>(state,
+      system = std::make_unique<MechanicsSystem<dim>>(*state,
                                                       boundaries,
                                                       conditions,
                                                       loads,
                                                       std::vector<std::string>{
                                                         "block"});
+    }
+
+    /**
+     * Move the block by a third of a cell, so that domains lie across cells as
+     * they mostly do, and time the assembly of a strained state: stencils,
+     * material and matrix.
+     */
+    void
+    time_assembly(Clock &clock, const unsigned int repeats)
+    {
+      system->begin_step(t);
+      system->set_target(t);
+      LA::Vector x = space.vector();
+      set_increment(x, 0., 0.3);
+      system->accept(x);
+      system->begin_step(t);
+      system->set_target(t);
+      x = space.vector();
+      set_increment(x, 1e-2, 0.);
+      system->assemble(x, true);
+      for (unsigned int i = 0; i < repeats; ++i)
+        clock.time("assembly", [&] { system->assemble(x, true); });
     }
 
     /** One step; @p clock may be nothing for one that is not counted. */
@@ -273,8 +312,8 @@ namespace
     BackgroundMesh<dim>                   mesh;
     GridSpace<dim>                        space;
     PointSet<dim>                         points;
-    CellBasis<dim, 1>                     basis;
-    State<dim>                            state;
+    std::unique_ptr<Basis<dim>>           basis;
+    std::unique_ptr<State<dim>>           state;
     std::vector<ImplicitBoundary<dim>>    boundaries;
     std::vector<GridCondition<dim>>       conditions;
     Loads<dim>                            loads;
@@ -283,6 +322,75 @@ namespace
     double                                t                 = 0;
     unsigned int                          linear_iterations = 0;
     double                                largest_increment = 0;
+
+  private:
+    static StrainMeasure
+    measure(const Options &options)
+    {
+      return options.strain == "finite" ? StrainMeasure::finite :
+                                          StrainMeasure::small;
+    }
+
+    static std::shared_ptr<const Material>
+    material(const Options &options)
+    {
+      if (options.material == "plastic")
+        return std::make_shared<VonMises>(
+          young_modulus,
+          poisson_ratio,
+          1.,
+          std::vector<std::pair<double, double>>{{0., 1e-3 * young_modulus}});
+      return std::make_shared<LinearElastic>(young_modulus, poisson_ratio, 1.);
+    }
+
+    static PointFields
+    fields(const Options &options)
+    {
+      PointFields layout;
+      if (options.method == "gimp")
+        GimpBasis<dim>::request_fields(layout, DomainUpdate::corners);
+      else if (options.method == "cpdi1")
+        Cpdi1Basis<dim>::request_fields(layout);
+      else if (options.method == "cpdi2")
+        Cpdi2Basis<dim>::request_fields(layout);
+      StateFields<dim>(layout, measure(options), options.material == "plastic");
+      return layout;
+    }
+
+    void
+    make_basis(const Options                &options,
+               const CellSeeder<dim>        &seeder,
+               const std::vector<Body<dim>> &bodies)
+    {
+      if (options.method == "gimp")
+        basis = std::make_unique<GimpBasis<dim>>(space,
+                                                 points,
+                                                 options.points,
+                                                 std::vector<bool>{true},
+                                                 DomainUpdate::corners);
+      else if (options.method == "cpdi1")
+        basis =
+          std::make_unique<Cpdi1Basis<dim>>(space, points, seeder, bodies);
+      else if (options.method == "cpdi2")
+        basis =
+          std::make_unique<Cpdi2Basis<dim>>(space, points, seeder, bodies);
+      else
+        basis = std::make_unique<CellBasis<dim, 1>>(space, points);
+      basis->initialise_points(points);
+    }
+
+    /** Displacement @p strain x + @p shift of every node, in x and y. */
+    void
+    set_increment(LA::Vector &x, const double strain, const double shift) const
+    {
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (space.locally_owned().is_element(space.node_dof(node) + c))
+            x(space.node_dof(node) + c) =
+              shift +
+              (c == 0 ? strain : -0.5 * strain) * space.node_position(node)[c];
+      x.compress(VectorOperation::insert);
+    }
   };
 
 
@@ -520,6 +628,26 @@ namespace
 
 
 
+  template <int dim>
+  void
+  time_assembly(const Options &options)
+  {
+    Options with_room(options);
+    with_room.room = true;
+    PointStep<dim> points(with_room);
+    Clock          clock;
+    points.time_assembly(clock, options.repeats);
+    const double peak = memory_in_use(MPI_COMM_WORLD).peak_mib;
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+    clock.print("points ");
+    std::cout << "n_points " << points.points.n_global() << "\nbytes_per_point "
+              << points.points.bytes_per_point() << "\nmemory_peak_mib " << peak
+              << '\n';
+  }
+
+
+
   /**
    * Seconds in which all points of full cells are found again after they have
    * moved by 0.3 cells times a sine, there and back, and the share of points
@@ -632,14 +760,20 @@ main(int argc, char **argv)
         time_points<2>(options);
       else if (options.benchmark == "points" && options.dimension == 3)
         time_points<3>(options);
+      else if (options.benchmark == "assembly" && options.dimension == 2)
+        time_assembly<2>(options);
+      else if (options.benchmark == "assembly" && options.dimension == 3)
+        time_assembly<3>(options);
       else if (options.benchmark == "search" && options.dimension == 2)
         compare_searches<2>(options);
       else if (options.benchmark == "search" && options.dimension == 3)
         compare_searches<3>(options);
       else
         throw std::runtime_error(
-          "usage: benchmark compare|points|search [--dimension 2|3] [--cells N] "
-          "[--height N] [--mesh-cells N] [--points N] [--repeats N]");
+          "usage: benchmark compare|points|assembly|search [--dimension 2|3] "
+          "[--cells N] [--height N] [--mesh-cells N] [--points N] [--repeats N] "
+          "[--method mpm|gimp|cpdi1|cpdi2] [--strain small|finite] "
+          "[--material elastic|plastic]");
     }
   catch (const std::exception &error)
     {

@@ -154,6 +154,36 @@ class Bench:
         self.record("empty", "empty over tight mesh",
                     empty["points step"] / tight["points step"], "-", 1.5)
 
+    # What finite strain and domains cost in an assembly.
+    def case_methods(self):
+        n = 20 if self.smoke else 200
+        per_point = {}
+        for method, strain, material in (
+                ("mpm", "small", "elastic"), ("mpm", "finite", "plastic"),
+                ("gimp", "finite", "plastic"), ("cpdi1", "finite", "plastic"),
+                ("cpdi2", "finite", "plastic")):
+            r = self.run("assembly", cells=n, repeats=3 * self.repeats,
+                         method=method, strain=strain, material=material)
+            per_point[method, strain] = r["points assembly"] / r["n_points"]
+            self.record("methods", f"assembly, {method}, {strain} strain, "
+                        f"{material}", 1e6 * per_point[method, strain], "us/point")
+        finite = per_point["mpm", "finite"]
+        self.record("methods", "finite strain, plastic over small, elastic",
+                    finite / per_point["mpm", "small"], "-", 3)
+        for method, allowed in (("gimp", 4), ("cpdi1", 5), ("cpdi2", 5)):
+            self.record("methods", f"{method} over standard MPM",
+                        per_point[method, "finite"] / finite, "-", allowed)
+
+    # A million points in 3D at finite strain.
+    def case_plastic3d(self):
+        n = 6 if self.smoke else 50
+        r = self.run("assembly", dimension=3, cells=n, repeats=3,
+                     strain="finite", material="plastic")
+        self.record("plastic3d", "number of points", r["n_points"], "-")
+        self.record("plastic3d", "assembly", r["points assembly"], "s")
+        self.record("plastic3d", "peak memory", r["memory_peak_mib"] / 1024,
+                    "GiB", 12)
+
     # Cells of points on a mesh that is no box against a box.
     def case_search(self):
         for dimension, n in ((2, 16), (3, 4)) if self.smoke else ((2, 200), (3, 30)):
@@ -172,7 +202,8 @@ class Bench:
                         1e6 * r["box search"] / r["box points"], "us/point")
 
 
-CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search"]
+CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
+         "plastic3d"]
 
 
 def main():

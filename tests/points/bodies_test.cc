@@ -40,6 +40,7 @@ namespace
   {
     return {positions,
             std::vector<double>(positions.size(), 0.25),
+            Tensor<2, 2>(),
             [](const unsigned int i) { return "row " + std::to_string(i); }};
   }
 

@@ -75,7 +75,8 @@ namespace moraine
      * naming the point of this rank (a domain that turns inside out), or "".
      */
     virtual std::string
-    fault_of(const std::vector<dealii::Tensor<1, dim>> &) const
+    fault_of([[maybe_unused]] const std::vector<dealii::Tensor<1, dim>>
+               &nodal_increments) const
     {
       return "";
     }
@@ -85,14 +86,17 @@ namespace moraine
      * of points and nodes are still those of the start of the step; fields of
      * the state (deformation gradient, volume) are already those of its end.
      *
+     * @param points whose fields hold their domains
      * @param nodal_increments @f$\Delta u_a@f$ of the nodes
      * @param gradients @f$\sum_a \Delta u_a \otimes \nabla N_a@f$ of the
      * points, in the flat numbering
      */
     virtual void
-    move_domains(PointSet<dim> &,
-                 const std::vector<dealii::Tensor<1, dim>> &,
-                 const std::vector<dealii::Tensor<2, dim>> &) const
+    move_domains([[maybe_unused]] PointSet<dim> &points,
+                 [[maybe_unused]] const std::vector<dealii::Tensor<1, dim>>
+                   &nodal_increments,
+                 [[maybe_unused]] const std::vector<dealii::Tensor<2, dim>>
+                   &gradients) const
     {}
 
     /**

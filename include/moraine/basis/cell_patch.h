@@ -98,9 +98,8 @@ namespace moraine
     reinit(const CellIterator &cell);
 
     /**
-     * Find the cell of the place @p x that belongs to a point at @p centre in
-     * the patch's first cell, and the 2^dim values @p N of that cell's
-     * functions there.
+     * Find the cell of a place that belongs to a point in the patch's first
+     * cell, and the values of that cell's functions there.
      *
      * A place on a face belongs to the cell on the point's side, chosen by the
      * place at a relative 1e-8 closer to the point. Outside the mesh the
@@ -109,7 +108,10 @@ namespace moraine
      * @f$N_a(\bar x) + \nabla N_a(\bar x) \cdot (x - \bar x)@f$, so that
      * @f$\sum_a N_a x_a = x@f$ there as well.
      *
-     * @param active_cell_index is set to the cell.
+     * @param centre where the point is
+     * @param x the place
+     * @param active_cell_index is set to the cell
+     * @param N is set to the 2^dim values
      * @return false if the place is in the mesh, but not in the patch.
      */
     bool

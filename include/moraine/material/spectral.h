@@ -124,8 +124,10 @@ namespace moraine
    * small strain the terms with @f$\tau@f$ alone are missing and tanh is the
    * identity.
    *
+   * @param directions of the trial strain
    * @param trial_strain @f$\varepsilon_A@f$, the principal trial strains
    * @param answer what the material answered to them
+   * @param measure small or finite strain
    */
   template <int dim>
   inline VoigtMatrix<dim>

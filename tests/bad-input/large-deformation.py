@@ -1,0 +1,64 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Mistakes and faults of finite strain, domains and moving meshes."""
+
+
+def message(output):
+    return plain(" | ".join(
+        line.strip() for line in output.splitlines()
+        if line.startswith("moraine: ") or "ended early" in line))
+
+
+def show(name, result):
+    text(name, message(result.output))
+    text("  status", result.summary.get("status"))
+    rows = len((result.folder / "history.csv").read_text().splitlines()) - 1
+    text("  rows in history.csv", rows)
+    text("  steps in summary.json", result.summary.get("steps"))
+    points = sorted(p.name for p in result.folder.glob("points/*"))
+    text("  last file of points", points[-1])
+
+
+def refused(name, scene, settings):
+    result = run(scene, settings, expect=2)
+    text(name, message(result.output))
+    text("  nothing is written", not result.folder.exists())
+
+
+stretch = "prm/wang-2018/stretch-mpm.prm"
+twist = "prm/wang-2018/twist-80-mpm.prm"
+
+refused("GIMP on a mesh of a generator", twist, {"Method/Method": "GIMP"})
+refused("neo-Hookean at small strain", stretch, {
+    "Method/Strain": "small", "Materials/block/Model": "neo-Hookean",
+    "Materials/block/Yield radius": ""})
+refused("finite strain on a mesh that is kept", stretch, {
+    "Method/Mesh after step": "keep", "Mesh motion/Stretch between": ""})
+refused("split domains of CPDI2", stretch, {
+    "Method/Method": "CPDI2", "Method/Split domains": "true"})
+refused("softening that no return can follow", stretch, {
+    "Materials/block/Yield radius": "0: 400, 0.001: 10"})
+refused("a mesh that finite elements move twice",
+        "prm/wang-2018/stretch-fe.prm", {"Mesh motion/Follow": "right"})
+refused("mesh motion by an unknown name", stretch, {
+    "Mesh motion/Stretch between": "left, rihgt"})
+refused("mesh motion by one name", stretch, {
+    "Mesh motion/Stretch between": "left"})
+refused("both kinds of mesh motion", stretch, {"Mesh motion/Follow": "right"})
+refused("a mesh that moves off a held side", stretch, {
+    "Mesh motion/Stretch between": "", "Mesh motion/Follow": "right"})
+
+show("a mesh motion that inverts cells", run(stretch, {
+    "Bodies/block/Upper corner": "0.5, 2",
+    "Grid conditions/right/Displacement": "-0.2*t-0.5*t*t; 0",
+    "Time/End time": 4, "Time/Steps": 2}, expect=1))
+show("a point that the mesh leaves behind", run(stretch, {
+    "Bodies/block/Upper corner": "1.5, 2",
+    "Grid conditions/right/Displacement": "-0.2*t; 0"}, expect=1))
+show("the step limit", run(stretch, {
+    "Solver/Maximum iterations": 1, "Time/Smallest step": 0.1}, expect=1))
+show("a step that would turn points inside out", run(stretch, {
+    "Grid conditions/right/Displacement": "-2.5*t; 0",
+    "Time/End time": 1, "Time/Steps": 1, "Time/Smallest step": 0.5},
+    expect=1))
