@@ -121,6 +121,10 @@ namespace moraine
     prescribed.entries.clear();
     if (!conditions.empty())
       prescribed = find_prescribed_nodes(conditions, space, t_start);
+    any_prescribed =
+      Utilities::MPI::logical_or(!prescribed.entries.empty(),
+                                 space.communicator()) &&
+      !state.is_linear();
     make_constraints();
 
     // deal.II 9.4 takes a rank without rows for one with too many of them,
@@ -257,8 +261,7 @@ namespace moraine
     assembled_at             = x;
     const bool first_of_step = !assembled;
     assembled                = true;
-    predicting = first_of_step && tangent && !prescribed.entries.empty() &&
-                 !state.is_linear();
+    predicting = first_of_step && tangent && any_prescribed;
     if (predicting)
       {
         predicted = state.nodal_increments();

@@ -294,7 +294,9 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> node_forces;
     /** Prescribed increments, while assemble() linearises about their start. */
     std::vector<dealii::Tensor<1, dim>> predicted;
-    bool                                predicting = false;
+    /** Whether any rank has prescribed nodes, whose increments matter. */
+    bool                                any_prescribed = false;
+    bool                                predicting     = false;
     MeshMotion<dim>                     mesh_motion;
     BackgroundMesh<dim>                *moving_mesh = nullptr;
     std::string                         local_fault;
