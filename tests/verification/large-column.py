@@ -27,11 +27,15 @@ def height(Y, E=1e4, load=800, length=50):
 
 text("exact height of the top", f"{height(50):.8f}")
 
-for name, cells in (("gimp", list(AMPLE)), ("cpdi1", list(AMPLE)),
-                    ("cpdi2", [8]), ("mpm", [4, 16, 64])):
+for scene, cells in (
+        ("prm/large-deformation/column-gimp.prm", list(AMPLE)),
+        ("prm/large-deformation/column-cpdi1.prm", list(AMPLE)),
+        ("prm/large-deformation/column-cpdi2.prm", [8]),
+        ("prm/large-deformation/column-mpm.prm", [4, 16, 64])):
+    name = scene.split("-")[-1].split(".")[0]
     errors = []
     for n in cells:
-        result = run(f"prm/large-deformation/column-{name}.prm",
+        result = run(scene,
                      {"Mesh/Cells": f"1, {n}", "Output/Points": "false",
                       "Output/Mesh": "false"})
         errors.append(result.errors["mean_sigma"] / SCALE)
