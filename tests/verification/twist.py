@@ -1,9 +1,11 @@
 # ranks: 1 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Doughnut twist to 10 degrees (Wang et al. 2018, section 3.2.1): torque and
-displacement of finite elements against twist.csv, and the displacement of the
-other methods along a radius against that of finite elements."""
+"""Doughnut twist (Wang et al. 2018, section 3.2). To 10 degrees: torque and
+displacement of finite elements against twist.csv, displacement of the other
+methods along a radius against finite elements. To 80 degrees: torque and force
+of four methods.
+"""
 
 import csv
 from math import atan2, degrees, hypot, log2, pi
@@ -88,3 +90,22 @@ for scene, layout, settings, limit in (
 refused = run("prm/wang-2018/twist-10-mpm.prm", {"Method/Method": "GIMP"},
               expect=2)
 text("gimp", plain(refused.output.splitlines()[0]))
+
+# To 80 degrees on 5x18 cells (section 3.2.2): torque and force over E, as above
+for scene in ("fe", "mpm", "cpdi1", "cpdi2"):
+    result = run(f"prm/wang-2018/twist-80-{scene}.prm", QUIET)
+    at = {row["t"]: row for row in result.history()}
+    text(f"{scene}, 80 degrees", result.summary["status"])
+    for angle in (5, 20, 35, 50, 60, 70, 80):
+        row = at[angle]
+        number(f"{scene}, {angle} degrees, tau",
+               abs(row["moment of hole"]) / (2 * pi * HOLE**2 * E), 3)
+        number(f"{scene}, {angle} degrees, f",
+               row["force magnitude of hole"] / (2 * pi * HOLE * E), 3)
+
+# The shear stress of the material falls after yielding. (One cell: one rank.)
+history = run("prm/wang-2018/shear.prm", on_ranks=1).history()
+stress = [row["sigma_xy at point"] / E for row in history]
+number("simple shear, largest stress", max(stress), 3)
+number("simple shear, at", history[stress.index(max(stress))]["t"], 3)
+number("simple shear by 6, stress", stress[-1], 3)
