@@ -6,9 +6,13 @@ over 2 pi 5^2 E and force over 2 pi 5 E, as for the circular hole."""
 
 from math import pi
 
-for scene in ("fe", "mpm", "cpdi1", "cpdi2"):
-    result = run(f"prm/wang-2018/ellipse-{scene}.prm",
-                 {"Output/Points": "false", "Output/Mesh": "false"})
+SCENES = {"fe": "prm/wang-2018/ellipse-fe.prm",
+          "mpm": "prm/wang-2018/ellipse-mpm.prm",
+          "cpdi1": "prm/wang-2018/ellipse-cpdi1.prm",
+          "cpdi2": "prm/wang-2018/ellipse-cpdi2.prm"}
+for scene, file in SCENES.items():
+    result = run(file, {"Output/Points": "false",
+                        "Output/Mesh": "false"})
     text(scene, result.summary["status"])
     text(f"{scene}, rejected steps", result.summary["rejected_steps"])
     for row in result.history():

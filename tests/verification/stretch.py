@@ -42,8 +42,13 @@ def orders(output):
     return slopes, line
 
 
-for name in ("fe", "mpm", "gimp", "cpdi1", "cpdi2"):
-    result = run(f"prm/wang-2018/stretch-{name}.prm",
+SCENES = {"fe": "prm/wang-2018/stretch-fe.prm",
+          "mpm": "prm/wang-2018/stretch-mpm.prm",
+          "gimp": "prm/wang-2018/stretch-gimp.prm",
+          "cpdi1": "prm/wang-2018/stretch-cpdi1.prm",
+          "cpdi2": "prm/wang-2018/stretch-cpdi2.prm"}
+for name, scene in SCENES.items():
+    result = run(scene,
                  {"Output/Residuals": "true", "Output/Points": "false",
                   "Output/Mesh": "false"})
     history = result.history()
