@@ -6,7 +6,7 @@
 //   gmsh -2 -format msh2 -o ellipse.msh ellipse.geo
 
 a = 6; b = 4; R = 10;
-fine = 0.4; coarse = 1.3;
+fine = 0.8; coarse = 1.3;
 
 Point(1) = {0, 0, 0, coarse};
 Point(2) = {a, 0, 0, fine};   Point(3) = {0, b, 0, coarse};
