@@ -33,12 +33,14 @@ for method in METHODS:
             abs(row["z at corner"] / 2 - height)), 1e-8)
 
 HEIGHT = 2
-for method, scene in (("finite element", "fe"), ("CPDI2", "cpdi2")):
+for method, scene in (
+        ("finite element", "prm/wang-2018/twist-80-fe.prm"),
+        ("CPDI2", "prm/wang-2018/twist-80-cpdi2.prm")):
     settings = {**NO_FILES, "Method/Method": method}
     if method == "finite element":
         settings["Mesh motion/Follow"] = ""
     solid = run("prm/large-deformation/twist-3d.prm", settings).history()[-1]
-    plane = run(f"prm/wang-2018/twist-80-{scene}.prm",
+    plane = run(scene,
                 {**NO_FILES, "Time/End time": 10, "Time/Steps": 2}
                 ).history()[-1]
     torque = abs(solid["moment of hole"]) / HEIGHT

@@ -7,6 +7,10 @@ one-dimensional solution and against the ring on a mesh that fits it."""
 from math import pi
 
 NO_FILES = {"Output/Points": "false", "Output/Mesh": "false"}
+SCENES = {"mpm": "prm/wang-2018/twist-implicit-mpm.prm",
+          "gimp": "prm/wang-2018/twist-implicit-gimp.prm",
+          "cpdi1": "prm/wang-2018/twist-implicit-cpdi1.prm",
+          "cpdi2": "prm/wang-2018/twist-implicit-cpdi2.prm"}
 EXACT = {5: 0.115823, 10: 0.228440}
 
 
@@ -22,8 +26,8 @@ coarse, medium, fine = [
     torques("prm/wang-2018/twist-80-fe.prm",
             {"Mesh/Refinements": n, "Time/End time": 20, "Time/Steps": 4})[0]
     for n in range(3)]
-for method in ("mpm", "gimp", "cpdi1", "cpdi2"):
-    found, rows = torques(f"prm/wang-2018/twist-implicit-{method}.prm")
+for method, scene in SCENES.items():
+    found, rows = torques(scene)
     for angle in ANGLES:
         number(f"{method}, {angle} degrees: torque / (2 pi 25 E)",
                found[angle], 3)
@@ -41,7 +45,7 @@ for method in ("mpm", "gimp", "cpdi1", "cpdi2"):
           rows[-1]["moment of outer"] / rows[-1]["moment of hole"] + 1, 1e-3)
 
 for method in ("gimp", "cpdi1"):
-    found = torques(f"prm/wang-2018/twist-implicit-{method}.prm",
+    found = torques(SCENES[method],
                     {"Mesh/Cell size": 0.5})[0]
     for angle in ANGLES:
         bound(f"{method}, h = 0.5, {angle} degrees: against fitted FE, 10 by 36",
