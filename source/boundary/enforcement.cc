@@ -16,12 +16,14 @@ namespace moraine
       "Enforcement",
       enforcement,
       "How the constraint is imposed: the Dirichlet-weighted basis of a thin "
-      "band, Nitsche's method (symmetric or skew), or a penalty.",
+      "band, Nitsche's method (symmetric or skew), or a penalty. If left out "
+      "with finite strain: weighted, with a band of 0.01 and the reaction "
+      "carried, because Nitsche's flux is linear in the increment of a step.",
       Patterns::Selection("weighted|symmetric Nitsche|skew Nitsche|penalty"));
     prm.add_parameter("Band width",
                       band_width,
                       "Of 'weighted': width of the band over the cell size, "
-                      "delta/h.",
+                      "delta/h; 0.01 if left out with finite strain.",
                       Patterns::Double(1e-12, 1.));
     prm.add_parameter("Nitsche factor",
                       nitsche_factor,

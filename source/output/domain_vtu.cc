@@ -6,6 +6,8 @@
 #include <moraine/output/point_rows.h>
 #include <moraine/output/vtu_file.h>
 
+#include <deal.II/grid/reference_cell.h>
+
 #include <algorithm>
 
 namespace moraine
@@ -32,6 +34,7 @@ namespace moraine
         const auto corners = basis.domain_corners(order[i]);
         auto      &patch   = file.patches[i];
         std::copy(corners.begin(), corners.end(), patch.vertices);
+        patch.reference_cell = ReferenceCells::get_hypercube<dim>();
         patch.patch_index    = i;
         patch.n_subdivisions = 1;
         patch.data.reinit(file.n_rows(), n_corners);

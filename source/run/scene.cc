@@ -419,7 +419,30 @@ namespace moraine
         body.shape.point_file = (folder / body.shape.point_file).string();
     if (!mesh.file.empty())
       mesh.file = (folder / mesh.file).string();
+    if (method.strain_measure() == StrainMeasure::finite)
+      choose_enforcement(input);
     check(input);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_enforcement(const InputFile &input)
+  {
+    prm.enter_subsection("Boundaries");
+    for (auto &[name, boundary] : boundaries)
+      {
+        const std::string section = "Boundaries/" + name;
+        prm.enter_subsection(name);
+        if (!input.has(section, "Enforcement"))
+          prm.set("Enforcement", std::string("weighted"));
+        if (boundary.enforcement.enforcement == "weighted" &&
+            !input.has(section, "Band width"))
+          prm.set("Band width", 0.01);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
   }
 
 

@@ -241,6 +241,13 @@ namespace moraine
     check_prescribed_motion();
     check_loads();
     check_sides_of_boundaries();
+    if (state->strain_measure() == StrainMeasure::finite)
+      for (const auto &boundary : boundaries)
+        if (boundary.enforcement().w_constrained > 0)
+          notes.push_back(boundary.name() +
+                          ": its flux is linear in the increment of a step; "
+                          "'Enforcement = weighted' with the reaction carried "
+                          "is right at any rotation");
     probes->check_places(
       grid_evaluation<dim>(*space, state->nodal_increments()));
     const ExactSolution<dim> exact = scene.exact.solution();

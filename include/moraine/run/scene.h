@@ -247,6 +247,10 @@ namespace moraine
     void
     check_bodies(const InputFile &input) const;
 
+    /** What boundaries are enforced by at finite strain if nothing is said. */
+    void
+    choose_enforcement(const InputFile &input);
+
     unsigned int             dimension = dim;
     dealii::ParameterHandler prm;
   };
