@@ -85,7 +85,7 @@ namespace moraine
                          results.front().filename().string() +
                          "); choose another one with --output, or replace "
                          "them with --overwrite");
-      for (const char *series : series_names)
+      for (const char *series : {"points", "mesh"})
         fs::create_directories(folder / series);
       check_writable(folder);
       for (const fs::path &file : results)

@@ -381,7 +381,9 @@ namespace moraine
                   const double t             = time.start_time + k * step;
                   const auto [apart, larger] = parting<dim>(
                     motion, condition, face, time.start_time, t, t + step);
-                  if (apart <= allowed * larger + 1e-12 * mesh.cell_size())
+                  // A mesh of no length, where nothing is a number, is named
+                  // when it comes.
+                  if (!(apart > allowed * larger + 1e-12 * mesh.cell_size()))
                     continue;
                   std::ostringstream message;
                   message << "section 'Mesh motion': found a motion by which "

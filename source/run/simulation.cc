@@ -20,6 +20,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <filesystem>
 #include <iomanip>
 
 namespace moraine
@@ -122,7 +123,12 @@ namespace moraine
         points_pvd.emplace(directory->file("points.pvd"), communicator);
         mesh_pvd.emplace(directory->file("mesh.pvd"), communicator);
         if (scene.output.points && basis->has_domains())
-          domains_pvd.emplace(directory->file("domains.pvd"), communicator);
+          {
+            on_root(communicator, [&]() {
+              std::filesystem::create_directory(directory->file("domains"));
+            });
+            domains_pvd.emplace(directory->file("domains.pvd"), communicator);
+          }
         last_increments.assign(space->n_nodes(), Tensor<1, dim>());
         write_vtu(scene.time.start_time);
         console << "  results in  " << options.output_directory << '\n'
