@@ -83,6 +83,7 @@ namespace moraine
      * order of the ids of the wholes over all ranks, so they do not depend on
      * the number of ranks.
      *
+     * @param points to split; their numbering is void until the next search
      * @param split_direction the edge of point p that has to be halved, dim if
      * none
      * @param halve shortens edge d of point p and returns the vector from the
