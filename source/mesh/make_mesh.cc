@@ -125,8 +125,21 @@ namespace moraine
                          suggest(source.generator, names));
       const std::string allowed =
         "arguments of " + generator->name + ": " + generator->arguments;
+      // A generator built with assertions would end the program.
+      struct ThrowInsteadOfAbort
+      {
+        ThrowInsteadOfAbort()
+        {
+          deal_II_exceptions::disable_abort_on_exception();
+        }
+        ~ThrowInsteadOfAbort()
+        {
+          deal_II_exceptions::enable_abort_on_exception();
+        }
+      };
       try
         {
+          const ThrowInsteadOfAbort guard;
           GridGenerator::generate_from_name_and_arguments(cells,
                                                           source.generator,
                                                           source.arguments);
