@@ -97,7 +97,7 @@ namespace moraine
       while (std::getline(lines, line))
         {
           line = Utilities::trim(line);
-          if (!line.empty())
+          if (!line.empty() && line != "(none)")
             return line;
         }
       return error.get_exc_name();

@@ -14,12 +14,12 @@ square = {"Mesh/Type": "generator", "Mesh/Generator": "subdivided_hyper_rectangl
           "Mesh/Arguments": "8, 8 : 0, 0 : 8, 8 : true"}
 
 
-def refused(name, settings, scene=plane):
+def refused(name, settings, scene=plane, until=None):
     file = folder / "scene.prm"
     file.write_text(scene)
     result = run(file, settings, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
-    text(name, plain(" | ".join(lines)))
+    text(name, plain(" | ".join(lines)).split(until)[0])
     if result.folder.exists():
         text(name, "NO, a folder was made")
 
@@ -38,7 +38,9 @@ refused("too few arguments", {**shell, "Mesh/Arguments": "4, 4 : 1 : 6"})
 refused("text for a number", {**shell, "Mesh/Arguments": "4, 4 : one : 6 : 12 : true"})
 refused("a point with three numbers",
         {**shell, "Mesh/Arguments": "4, 4, 4 : 1 : 6 : 12 : true"})
-refused("radii swapped", {**shell, "Mesh/Arguments": "4, 4 : 6 : 1 : 12 : true"})
+# The rest is deal.II's assertion in Debug and our check of the cells in Release.
+refused("radii swapped", {**shell, "Mesh/Arguments": "4, 4 : 6 : 1 : 12 : true"},
+        until=": found")
 refused("negative refinements", {**shell, "Mesh/Refinements": -1})
 refused("side names without numbers", {**shell, "Mesh/Side names": "hole, outer"})
 refused("side names the wrong way round", {**shell, "Mesh/Side names": "0: hole"})

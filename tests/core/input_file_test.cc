@@ -60,7 +60,7 @@ namespace
   }
 
   std::string
-  mistake(const std::string &text)
+  input_mistake(const std::string &text)
   {
     return message_of<InputError>(
       [&] { parse(InputFile::from_text("f.prm", text)); });
@@ -151,25 +151,25 @@ TEST(InputFile, WithValueKeepsTheLine)
 
 TEST(InputFile, UnknownKeys)
 {
-  EXPECT_EQ(mistake("subsection Materials\n"
-                    " subsection clay\n"
-                    "  set Yuong modulus = 1\n"
-                    " end\n"
-                    "end\n"),
+  EXPECT_EQ(input_mistake("subsection Materials\n"
+                          " subsection clay\n"
+                          "  set Yuong modulus = 1\n"
+                          " end\n"
+                          "end\n"),
             "f.prm:3: section 'Materials/clay', key 'Yuong modulus': unknown "
             "key; did you mean 'Young modulus'? Allowed here: Young modulus, "
             "Poisson ratio");
-  EXPECT_EQ(mistake("set Cell size = 3"),
+  EXPECT_EQ(input_mistake("set Cell size = 3"),
             "f.prm:1: key 'Cell size': unknown key; it belongs in section "
             "'Mesh'. Allowed here: Method");
 }
 
 TEST(InputFile, UnknownSections)
 {
-  EXPECT_EQ(mistake("\nsubsection Mehs\nend\n"),
+  EXPECT_EQ(input_mistake("\nsubsection Mehs\nend\n"),
             "f.prm:2: section 'Mehs': unknown section; did you mean 'Mesh'? "
             "Allowed here: Mesh, Materials");
-  EXPECT_EQ(mistake("subsection Mesh\nsubsection Quark\nend\nend\n"),
+  EXPECT_EQ(input_mistake("subsection Mesh\nsubsection Quark\nend\nend\n"),
             "f.prm:2: section 'Mesh/Quark': unknown section. Allowed here: "
             "nothing");
 }
@@ -177,7 +177,8 @@ TEST(InputFile, UnknownSections)
 TEST(InputFile, Values)
 {
   const auto size = [](const std::string &value) {
-    return mistake("subsection Mesh\n set Cell size = " + value + "\nend\n");
+    return input_mistake("subsection Mesh\n set Cell size = " + value +
+                         "\nend\n");
   };
   for (const char *bad :
        {"abc", "nan", "inf", "0", "-1", "1e999", "5 mm", "1,5", "1e-400"})
@@ -190,38 +191,38 @@ TEST(InputFile, Values)
   EXPECT_EQ(size("{{1|2}}"),
             "f.prm:2: section 'Mesh', key 'Cell size': found '{{1|2}}', a "
             "choice for 'moraine study'; allowed: a number > 0");
-  EXPECT_EQ(mistake("set Method = FEM"),
+  EXPECT_EQ(input_mistake("set Method = FEM"),
             "f.prm:1: key 'Method': found 'FEM', allowed: one of GIMP, MPM");
   EXPECT_EQ(
-    mistake("subsection Mesh\nset Count = -2\nend"),
+    input_mistake("subsection Mesh\nset Count = -2\nend"),
     "f.prm:2: section 'Mesh', key 'Count': found '-2', allowed: a whole "
     "number >= 1");
-  EXPECT_EQ(mistake("subsection Mesh\nset Lower corner = 1, 2, 3\nend"),
+  EXPECT_EQ(input_mistake("subsection Mesh\nset Lower corner = 1, 2, 3\nend"),
             "f.prm:2: section 'Mesh', key 'Lower corner': found '1, 2, 3', "
             "allowed: 2 numbers, separated by commas");
 }
 
 TEST(InputFile, Structure)
 {
-  EXPECT_EQ(mistake("subsection Mesh\nset Cell size = 1\nend\n"
-                    "subsection Mesh\nset Cell size = 2\nend\n"),
+  EXPECT_EQ(input_mistake("subsection Mesh\nset Cell size = 1\nend\n"
+                          "subsection Mesh\nset Cell size = 2\nend\n"),
             "f.prm:5: section 'Mesh', key 'Cell size': is set twice; first at "
             "f.prm:2");
-  EXPECT_EQ(mistake("subsection Materials\nsubsection clay\nend\n"),
+  EXPECT_EQ(input_mistake("subsection Materials\nsubsection clay\nend\n"),
             "f.prm:1: section 'Materials' is opened here, but its 'end' is "
             "missing");
-  EXPECT_EQ(mistake("subsection Mesh\nend\nend\n"),
+  EXPECT_EQ(input_mistake("subsection Mesh\nend\nend\n"),
             "f.prm:3: 'end' without a 'subsection' it could close");
-  EXPECT_EQ(mistake("subsection Mesh\nCell size = 1\nend\n"),
+  EXPECT_EQ(input_mistake("subsection Mesh\nCell size = 1\nend\n"),
             "f.prm:2: section 'Mesh', found 'Cell size = 1', allowed: "
             "subsection NAME, set KEY = VALUE, end, # comment");
-  EXPECT_EQ(mistake("set Method\n"),
+  EXPECT_EQ(input_mistake("set Method\n"),
             "f.prm:1: found 'set Method', allowed: set KEY = VALUE");
   EXPECT_EQ(
-    mistake("subsection a/b\nend\n"),
+    input_mistake("subsection a/b\nend\n"),
     "f.prm:1: found 'subsection a/b'; a subsection needs a name without "
     "'/' and '.'");
-  EXPECT_EQ(mistake("include other.prm\n"),
+  EXPECT_EQ(input_mistake("include other.prm\n"),
             "f.prm:1: found 'include other.prm', allowed: subsection NAME, set "
             "KEY = VALUE, end, # comment");
 }

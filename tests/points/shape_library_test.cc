@@ -45,7 +45,7 @@ namespace
 
   template <int dim>
   std::string
-  complaint(const std::string &text, const NamedShapes<dim> &known = {})
+  shape_complaint(const std::string &text, const NamedShapes<dim> &known = {})
   {
     try
       {
@@ -197,41 +197,44 @@ TEST(ShapeLibrary, OperandsInAnyOrder)
 
 TEST(ShapeLibrary, Mistakes)
 {
-  EXPECT_EQ(complaint<2>("set Shape = disc\nset Centre = 0, 0"),
+  EXPECT_EQ(shape_complaint<2>("set Shape = disc\nset Centre = 0, 0"),
             section + "key 'Radius': not set, or zero. The shape 'disc' "
                       "needs: Centre, Radius");
-  EXPECT_EQ(complaint<2>("set Lower corner = 0, 0\nset Upper corner = 1, 1\n"
-                         "set Radius = 2"),
+  EXPECT_EQ(shape_complaint<2>(
+              "set Lower corner = 0, 0\nset Upper corner = 1, 1\n"
+              "set Radius = 2"),
             section + "key 'Radius': set, but the shape 'box' does not use "
                       "it. It uses: Lower corner, Upper corner");
-  EXPECT_EQ(complaint<2>("set Lower corner = 0, 0\nset Upper corner = 1, 0"),
+  EXPECT_EQ(shape_complaint<2>(
+              "set Lower corner = 0, 0\nset Upper corner = 1, 0"),
             section + "key 'Upper corner': found '1, 0', allowed: more than "
                       "Lower corner (0, 0) in each coordinate");
-  EXPECT_EQ(complaint<2>("set Lower corner = 0\nset Upper corner = 1, 1"),
+  EXPECT_EQ(shape_complaint<2>("set Lower corner = 0\nset Upper corner = 1, 1"),
             section + "key 'Lower corner': found '0', allowed: 2 numbers");
-  EXPECT_EQ(complaint<2>("set Shape = ring\nset Centre = 0, 0\n"
-                         "set Radius = 1\nset Inner radius = 1.5"),
+  EXPECT_EQ(shape_complaint<2>("set Shape = ring\nset Centre = 0, 0\n"
+                               "set Radius = 1\nset Inner radius = 1.5"),
             section + "key 'Inner radius': found '1.5', allowed: from 0 to "
                       "less than Radius (1)");
-  EXPECT_EQ(complaint<2>("set Shape = half-space\nset Point = 0, 0\n"
-                         "set Normal = 0, 0"),
+  EXPECT_EQ(shape_complaint<2>("set Shape = half-space\nset Point = 0, 0\n"
+                               "set Normal = 0, 0"),
             section + "key 'Normal': found '0, 0', allowed: a vector that is "
                       "not 0");
-  EXPECT_EQ(complaint<3>("set Shape = cylinder\nset Axis start = 0, 0, 1\n"
-                         "set Axis end = 0, 0, 1\nset Radius = 1"),
+  EXPECT_EQ(shape_complaint<3>(
+              "set Shape = cylinder\nset Axis start = 0, 0, 1\n"
+              "set Axis end = 0, 0, 1\nset Radius = 1"),
             section + "key 'Axis end': found '0, 0, 1', allowed: another "
                       "point than Axis start");
-  EXPECT_EQ(complaint<3>("set Lower corner = 0, 0, 0\n"
-                         "set Upper corner = 1, 1, 1\n"
-                         "set Rotation angle = 30"),
+  EXPECT_EQ(shape_complaint<3>("set Lower corner = 0, 0, 0\n"
+                               "set Upper corner = 1, 1, 1\n"
+                               "set Rotation angle = 30"),
             section + "key 'Rotation axis': not set. A rotation in 3D needs "
                       "it");
-  EXPECT_EQ(complaint<2>("set Shape = union\nset Operands = p"),
+  EXPECT_EQ(shape_complaint<2>("set Shape = union\nset Operands = p"),
             section + "key 'Operands': found 'p', allowed: two or more names");
-  EXPECT_EQ(complaint<2>("set Shape = expression\nset Expression = 1 -* x")
-              .rfind(section + "key 'Expression': found '1 -* x': Unexpected",
-                     0),
-            0u);
+  EXPECT_EQ(
+    shape_complaint<2>("set Shape = expression\nset Expression = 1 -* x")
+      .rfind(section + "key 'Expression': found '1 -* x': Unexpected", 0),
+    0u);
   EXPECT_THROW(from_text<2>("set Shape = sphere"), dealii::ExceptionBase);
   EXPECT_THROW(from_text<2>("set Radius = -1"), dealii::ExceptionBase);
 
@@ -254,7 +257,8 @@ TEST(ShapeLibrary, Mistakes)
 TEST(ShapeLibrary, BadPolygons)
 {
   const auto polygon = [](const std::string &vertices) {
-    return complaint<2>("set Shape = polygon\nset Vertices = " + vertices);
+    return shape_complaint<2>("set Shape = polygon\nset Vertices = " +
+                              vertices);
   };
   EXPECT_EQ(polygon("0 0; 1 0"),
             section + "key 'Vertices': found '0 0; 1 0', allowed: at least "

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
+# debug: no
 """A soft column under its own weight comes down to half its height."""
 
 from math import exp, log2
