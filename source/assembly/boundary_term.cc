@@ -37,6 +37,21 @@ namespace moraine
 
 
 
+    /**
+     * @f$B = (1 + A/2)^{-1}@f$ at finite strain, else 1: the gradient of a step
+     * with respect to its middle is @f$A B@f$, and a change of A changes it by
+     * @f$B\, dA\, B@f$.
+     */
+    template <int dim>
+    Tensor<2, dim>
+    to_middle(const Tensor<2, dim> &A, const StrainMeasure measure)
+    {
+      const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+      return measure == StrainMeasure::finite ? invert(one + 0.5 * A) : one;
+    }
+
+
+
     /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$. */
     template <int dim>
     SymmetricTensor<2, dim>
@@ -60,6 +75,7 @@ namespace moraine
                     const ConstraintState<dim> &constraint,
                     const Enforcement          &how,
                     const LameConstants        &C,
+                    const StrainMeasure         measure,
                     const Tensor<2, dim>       &grad_du)
   {
     const Tensor<1, dim> &n = constraint.normal;
@@ -68,8 +84,9 @@ namespace moraine
     Tensor<1, dim> traction = point.reaction;
     if (&n != &point.normal && n != point.normal)
       traction = (point.reaction * point.normal) * n;
+    const Tensor<2, dim>          A = Tensor<2, dim>(weights(how, M)) * grad_du;
     const SymmetricTensor<2, dim> strain =
-      symmetrize(Tensor<2, dim>(weights(how, M)) * grad_du);
+      symmetrize(A * to_middle(A, measure));
     traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
     traction -= penalty(how, point.h, n, M, C) * constraint.violation;
     return traction;
@@ -83,31 +100,31 @@ namespace moraine
                      const ConstraintState<dim> &constraint,
                      const Enforcement          &how,
                      const LameConstants        &C,
+                     const StrainMeasure         measure,
                      const double               *N,
                      const Tensor<1, dim>       *grad_N,
                      const Tensor<2, dim>       &grad_du,
                      const bool                  tangent,
                      LocalSystem<dim>           &local)
   {
-    const Tensor<1, dim>         &n       = constraint.normal;
-    const auto                   &M       = constraint.M;
-    const SymmetricTensor<2, dim> W       = weights(how, M);
-    const unsigned int            n_nodes = local.dofs.size() / dim;
-    const Tensor<1, dim>          traction =
-      boundary_traction(point, constraint, how, C, grad_du);
+    const Tensor<1, dim> &n       = constraint.normal;
+    const auto           &M       = constraint.M;
+    const Tensor<2, dim>  W       = weights(how, M);
+    const unsigned int    n_nodes = local.dofs.size() / dim;
+    const Tensor<1, dim>  traction =
+      boundary_traction(point, constraint, how, C, measure, grad_du);
     const Tensor<1, dim> gap = point.gap + constraint.violation;
 
     // f[b*dim+j] = flux of the unit displacement j of node b
-    std::vector<Tensor<1, dim>> &f = local.fluxes;
+    std::vector<Tensor<1, dim>> &f        = local.fluxes;
+    const auto                   evaluate = [&](const Tensor<2, dim> &B) {
+      const Tensor<2, dim> W_columns = transpose(B * W);
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int j = 0; j < dim; ++j)
+          f[dim * b + j] = flux(W_columns[j], grad_N[b] * B, n, M, C);
+    };
     f.resize(dim * n_nodes);
-    for (unsigned int b = 0; b < n_nodes; ++b)
-      for (unsigned int j = 0; j < dim; ++j)
-        {
-          Tensor<1, dim> w;
-          for (unsigned int i = 0; i < dim; ++i)
-            w[i] = W[i][j];
-          f[dim * b + j] = flux(w, grad_N[b], n, M, C);
-        }
+    evaluate(unit_symmetric_tensor<dim>());
 
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
@@ -117,15 +134,23 @@ namespace moraine
     if (!tangent)
       return;
 
+    // f lies in the range of M, so M e_j acts as e_j on it.
     const SymmetricTensor<2, dim> beta = penalty(how, point.h, n, M, C);
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int b = 0; b < n_nodes; ++b)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            // f lies in the range of M, so M e_j acts as e_j on it.
             local.matrix(dim * a + i, dim * b + j) +=
-              point.JxW * (N[a] * N[b] * beta[i][j] - N[a] * f[dim * b + j][i] -
+              point.JxW * (N[a] * N[b] * beta[i][j] -
                            how.adjoint_sign * f[dim * a + i][j] * N[b]);
+    if (measure == StrainMeasure::finite)
+      evaluate(to_middle(W * grad_du, measure));
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            local.matrix(dim * a + i, dim * b + j) -=
+              point.JxW * N[a] * f[dim * b + j][i];
   }
 
 
@@ -135,11 +160,13 @@ namespace moraine
                                             const ConstraintState<dim> &,  \
                                             const Enforcement &,           \
                                             const LameConstants &,         \
+                                            const StrainMeasure,           \
                                             const Tensor<2, dim> &);       \
   template void           add_boundary_point(const BoundaryPoint<dim> &,   \
                                              const ConstraintState<dim> &, \
                                              const Enforcement &,          \
                                              const LameConstants &,        \
+                                             const StrainMeasure,          \
                                              const double *,               \
                                              const Tensor<1, dim> *,       \
                                              const Tensor<2, dim> &,       \

@@ -91,6 +91,7 @@ namespace moraine
                             t,
                             reach,
                             state.mesh_after_step() != MeshAfterStep::keep,
+                            state.strain_measure(),
                             cells_moved);
     }
     // On a mesh that does not reset, places stay in their cells.
@@ -121,10 +122,9 @@ namespace moraine
     prescribed.entries.clear();
     if (!conditions.empty())
       prescribed = find_prescribed_nodes(conditions, space, t_start);
-    any_prescribed =
-      Utilities::MPI::logical_or(!prescribed.entries.empty(),
-                                 space.communicator()) &&
-      !state.is_linear();
+    any_prescribed = Utilities::MPI::logical_or(!prescribed.entries.empty(),
+                                                space.communicator()) &&
+                     !state.is_linear();
     make_constraints();
 
     // deal.II 9.4 takes a rank without rows for one with too many of them,
@@ -217,12 +217,14 @@ namespace moraine
   bool
   MechanicsSystem<dim>::symmetric() const
   {
+    // At finite strain a flux and its adjoint refer to different places.
+    const bool small = state.strain_measure() == StrainMeasure::small;
     return std::all_of(boundaries.begin(),
                        boundaries.end(),
-                       [](const auto &boundary) {
-                         return boundary.enforcement().adjoint_sign >= 0 &&
-                                (boundary.enforcement().adjoint_sign > 0 ||
-                                 boundary.enforcement().w_free == 0);
+                       [small](const auto &boundary) {
+                         const Enforcement &how = boundary.enforcement();
+                         return how.w_free == 0 ||
+                                (small && how.adjoint_sign > 0);
                        });
   }
 
@@ -261,7 +263,7 @@ namespace moraine
     assembled_at             = x;
     const bool first_of_step = !assembled;
     assembled                = true;
-    predicting = first_of_step && tangent && any_prescribed;
+    predicting               = first_of_step && tangent && any_prescribed;
     if (predicting)
       {
         predicted = state.nodal_increments();
@@ -401,6 +403,7 @@ namespace moraine
                   boundary.constraint_state(points[end], du),
                   boundary.enforcement(),
                   state.material(body_of_cell[cell]).elastic_stiffness(),
+                  state.strain_measure(),
                   boundary.N(end),
                   boundary.grad_N(end),
                   grad_du,
@@ -440,6 +443,7 @@ namespace moraine
           constraint,
           boundary.enforcement(),
           state.material(body_of_cell[points[q].cell]).elastic_stiffness(),
+          state.strain_measure(),
           grad_du);
       }
   }
@@ -489,6 +493,7 @@ namespace moraine
                 constraint,
                 no_flux,
                 state.material(body_of_cell[point.cell]).elastic_stiffness(),
+                state.strain_measure(),
                 Tensor<2, dim>());
             }
         }

@@ -367,8 +367,7 @@ namespace moraine
       return around;
     CellIterator result  = start;
     double       nearest = std::numeric_limits<double>::infinity();
-    const auto  &tree =
-      background.search_cache().get_used_vertices_rtree();
+    const auto  &tree    = background.search_cache().get_used_vertices_rtree();
     for (auto it = tree.qbegin(boost::geometry::index::nearest(x, 1));
          it != tree.qend();
          ++it)

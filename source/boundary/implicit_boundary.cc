@@ -126,11 +126,14 @@ namespace moraine
                                     const double          t,
                                     const double          reach,
                                     const bool            moves_points,
+                                    const StrainMeasure   measure,
                                     const bool            cells_changed)
   {
     t_start           = t;
     moves_with_points = moves_points;
-    lands             = moves_points && at_start.curved() &&
+    turns_reaction    = moves_points && measure == StrainMeasure::finite &&
+                     constraint.kind == Constraint<dim>::fixed;
+    lands = moves_points && at_start.curved() &&
             constraint.kind == Constraint<dim>::roller;
     const bool moves = moves_points && motion.moves();
     if (placed && !cells_changed && !moves)
@@ -238,14 +241,17 @@ namespace moraine
   {
     const Pose<dim> &pose = at_start.pose();
 
-    // Carried vectors in the frame of the surface, of all ranks, because a
-    // moving surface takes its points from rank to rank.
+    // Of all ranks, because a moving surface takes its points from rank to
+    // rank. What a roller carries goes along with its normal.
+    const Tensor<2, dim> turn =
+      constraint.kind == Constraint<dim>::roller ?
+        pose.rotation() * transpose(previous_pose.rotation()) :
+        Tensor<2, dim>(unit_symmetric_tensor<dim>());
     std::vector<std::array<Tensor<1, dim>, 3>> carried;
     for (const auto &point : previous)
-      carried.push_back(
-        {{Tensor<1, dim>(previous_pose.inverse(point.x)),
-          transpose(previous_pose.rotation()) * point.committed_reaction,
-          transpose(previous_pose.rotation()) * point.gap}});
+      carried.push_back({{Tensor<1, dim>(previous_pose.inverse(point.x)),
+                          turn * point.committed_reaction,
+                          turn * point.gap}});
     const auto everyones = Utilities::MPI::all_gather(communicator, carried);
 
     std::vector<Point<dim>>                    places;
@@ -266,8 +272,8 @@ namespace moraine
              it != tree.qend();
              ++it)
           {
-            point.committed_reaction = pose.rotate(all[*it][1]);
-            point.gap                = pose.rotate(all[*it][2]);
+            point.committed_reaction = all[*it][1];
+            point.gap                = all[*it][2];
           }
       }
   }
@@ -280,14 +286,18 @@ namespace moraine
   {
     const Pose<dim> start = motion.pose(t_start), end = motion.pose(t_end);
     at_end.set_pose(moves_with_points ? end : at_start.pose());
+    const Tensor<2, dim> turn = turns_reaction ?
+                                  end.rotation() * transpose(start.rotation()) :
+                                  Tensor<2, dim>(unit_symmetric_tensor<dim>());
     for (auto &point : boundary_points)
       {
         const Point<dim> X = at_start.pose().inverse(point.x);
         point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
-        point.reaction =
-          how.carries_reaction ? point.committed_reaction : Tensor<1, dim>();
+        point.reaction = how.carries_reaction ?
+                           turn * point.committed_reaction :
+                           Tensor<1, dim>();
       }
   }
 

@@ -45,6 +45,26 @@ namespace moraine
       return 1e-14 * (cell[0].norm() + (cell[1] - cell[0]).norm());
     }
 
+    /** Whether all edges of one direction are the same vector. */
+    template <int dim>
+    bool
+    is_prism(const CellVertices<dim> &cell, const double tolerance)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int next = 1u << d;
+          bool               same = true;
+          for (unsigned int v = 0; v < cell.size() && same; ++v)
+            if (!(v & next))
+              same =
+                ((cell[v | next] - cell[v]) - (cell[next] - cell[0])).norm() <=
+                tolerance;
+          if (same)
+            return true;
+        }
+      return false;
+    }
+
     /**
      * The place at which the gradients of bilinear functions have their mean
      * over the part of a cell: in the unit cell, detJ grad N is linear, so it
@@ -290,9 +310,9 @@ namespace moraine
                                   std::vector<SeededPoint<dim>> &points) const
   {
     const CellMap<dim> map(cell);
-    const bool         rule_is_exact =
-      dim == 2 || layout == PointLayout::gauss ||
-      is_parallelepiped<dim>(cell, round_off<dim>(cell));
+    // detJ and detJ grad N are linear in each unit coordinate of such a cell.
+    const bool rule_is_exact = dim == 2 || layout == PointLayout::gauss ||
+                               is_prism<dim>(cell, round_off<dim>(cell));
     for (unsigned int q = 0; q < rule.size(); ++q)
       if (rule_is_exact)
         points.push_back(

@@ -245,9 +245,9 @@ namespace moraine
       for (const auto &boundary : boundaries)
         if (boundary.enforcement().w_constrained > 0)
           notes.push_back(boundary.name() +
-                          ": its flux is linear in the increment of a step; "
-                          "'Enforcement = weighted' with the reaction carried "
-                          "is right at any rotation");
+                          ": its flux is elastic and of the increment of a "
+                          "step; 'Enforcement = weighted' with the reaction "
+                          "carried holds at any strain");
     probes->check_places(
       grid_evaluation<dim>(*space, state->nodal_increments()));
     const ExactSolution<dim> exact = scene.exact.solution();

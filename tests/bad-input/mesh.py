@@ -14,7 +14,7 @@ square = {"Mesh/Type": "generator", "Mesh/Generator": "subdivided_hyper_rectangl
           "Mesh/Arguments": "8, 8 : 0, 0 : 8, 8 : true"}
 
 
-def refused(name, settings, scene=plane, until=None):
+def refused(name, settings, scene=plane, until="\n"):
     file = folder / "scene.prm"
     file.write_text(scene)
     result = run(file, settings, expect=2)

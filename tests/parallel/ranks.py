@@ -1,4 +1,5 @@
 # ranks: 1
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """One, two and three ranks give the same numbers."""

@@ -36,6 +36,8 @@ for method in METHODS:
 HEIGHT = 2
 for method, scene in (
         ("finite element", "prm/wang-2018/twist-80-fe.prm"),
+        ("material point", "prm/wang-2018/twist-80-mpm.prm"),
+        ("CPDI1", "prm/wang-2018/twist-80-cpdi1.prm"),
         ("CPDI2", "prm/wang-2018/twist-80-cpdi2.prm")):
     settings = {**NO_FILES, "Method/Method": method}
     if method == "finite element":

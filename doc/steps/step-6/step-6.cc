@@ -103,8 +103,8 @@ make_mesh_motion()
 //
 // A line that is moved as a rigid body. Of the enforcements of step-3 we take
 // the Dirichlet-weighted basis: it carries the reaction of the plate and has no
-// flux. The flux of Nitsche's methods is that of linear elasticity, which is
-// not the traction of a body whose length changes by 40 %.
+// flux. The flux of Nitsche's methods is that of a small elastic strain in every
+// step, which is not all of the traction of a body pressed by 40 %.
 ImplicitBoundary<dim>
 make_plate()
 {

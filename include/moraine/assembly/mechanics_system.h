@@ -295,22 +295,22 @@ namespace moraine
     /** Prescribed increments, while assemble() linearises about their start. */
     std::vector<dealii::Tensor<1, dim>> predicted;
     /** Whether any rank has prescribed nodes, whose increments matter. */
-    bool                                any_prescribed = false;
-    bool                                predicting     = false;
-    MeshMotion<dim>                     mesh_motion;
-    BackgroundMesh<dim>                *moving_mesh = nullptr;
-    std::string                         local_fault;
-    std::vector<LA::Vector>             rigid_modes;
-    double                              scale          = 0;
-    double                              scale_at_start = 0;
-    double                              external_scale = 0;
-    double                              local_scale    = 0;
-    double                              empty_scale    = 0;
-    double                              t_start        = 0;
-    double                              t_target       = 0;
-    double                              reach          = 0;
-    double                              last_violation = 0;
-    bool                                changed        = true;
+    bool                    any_prescribed = false;
+    bool                    predicting     = false;
+    MeshMotion<dim>         mesh_motion;
+    BackgroundMesh<dim>    *moving_mesh = nullptr;
+    std::string             local_fault;
+    std::vector<LA::Vector> rigid_modes;
+    double                  scale          = 0;
+    double                  scale_at_start = 0;
+    double                  external_scale = 0;
+    double                  local_scale    = 0;
+    double                  empty_scale    = 0;
+    double                  t_start        = 0;
+    double                  t_target       = 0;
+    double                  reach          = 0;
+    double                  last_violation = 0;
+    bool                    changed        = true;
   };
 } // namespace moraine
 

@@ -94,6 +94,14 @@ namespace moraine
    * The traction on the body at a point of an implicit boundary, t plus what
    * the trial state adds; @p grad_du is the gradient of its increment there.
    * See Enforcement for the weak form.
+   *
+   * At finite strain the strain of the flux is that of the gradient with
+   * respect to the middle of the step, @f$A (1 + A/2)^{-1}@f$ for
+   * @f$A = W \nabla \Delta u@f$: a rotation has none, and a stretch differs
+   * from its logarithm in the third order only (Hughes and Winget 1980). It
+   * sees the elastic stiffness; what that leaves out goes into the reaction by
+   * the penalty. The flux of the test function stays that of the start, so that
+   * the derivative is exact.
    */
   template <int dim>
   dealii::Tensor<1, dim>
@@ -101,6 +109,7 @@ namespace moraine
                     const ConstraintState<dim>   &constraint,
                     const Enforcement            &enforcement,
                     const LameConstants          &stiffness,
+                    const StrainMeasure           measure,
                     const dealii::Tensor<2, dim> &grad_du);
 
   /** Adds the force of such a point and, if asked, its derivative. */
@@ -110,6 +119,7 @@ namespace moraine
                      const ConstraintState<dim>   &constraint,
                      const Enforcement            &enforcement,
                      const LameConstants          &stiffness,
+                     const StrainMeasure           measure,
                      const double                 *N,
                      const dealii::Tensor<1, dim> *grad_N,
                      const dealii::Tensor<2, dim> &grad_du,

@@ -43,7 +43,10 @@ namespace moraine
     bool   augments;         ///< within a step, until the constraint holds
   };
 
-  /** The keys that choose an Enforcement. */
+  /**
+   * The keys that choose an Enforcement. At finite strain prefer "weighted"
+   * with a band of 0.01, as scenes do: it has no flux, which would be elastic.
+   */
   struct EnforcementParameters
   {
     std::string enforcement    = "skew Nitsche";

@@ -7,6 +7,7 @@
 #include <moraine/boundary/enforcement.h>
 #include <moraine/boundary/rigid_motion.h>
 #include <moraine/boundary/surface.h>
+#include <moraine/material/spectral.h>
 #include <moraine/mesh/grid_space.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -70,7 +71,10 @@ namespace moraine
   /**
    * A surface with a constraint that need not follow the mesh. Each step its
    * pieces in the active cells of this rank are found again if anything moved,
-   * and what the surface carries is handed over in the frame of the surface.
+   * and what a place of the surface carries is handed over to the same place:
+   * a roller's reaction with its normal, any other as the vector it is. At
+   * finite strain a fixed surface turns the body beside it, and thus its
+   * reaction, by the rotation of the step.
    *
    * A piece in a cell without unknowns that lies within @p reach of an active
    * cell belongs to the nearest one and sees its functions continued over the
@@ -110,6 +114,7 @@ namespace moraine
                const double          t,
                const double          reach,
                const bool            moves_points,
+               const StrainMeasure   measure,
                const bool            cells_changed);
 
     /** Set the prescribed increments of a step to @p t_end. */
@@ -235,6 +240,7 @@ namespace moraine
     bool                                placed            = false;
     bool                                moves_with_points = true;
     bool                                lands             = false;
+    bool                                turns_reaction    = false;
     unsigned int                        n_nodes           = 0;
     std::vector<BoundaryPoint<dim>>     boundary_points;
     std::vector<double>                 values;

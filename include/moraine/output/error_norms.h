@@ -65,10 +65,11 @@ namespace moraine
    * | mean_sigma   | as max_sigma, the mean by volume [stress]                |
    * | max_sigma    | largest Frobenius norm of the error [stress]             |
    *
-   * Volumes are those at the start. r_* are equations 29 and 30 of Cortis et al., Int. J. Numer. Meth. Engng
-   * (2017). Points where the exact value is zero (below 1e-12 of its largest)
-   * are measured against its largest value; a component that is zero everywhere
-   * (below 1e-12 of the largest component) has no relative error.
+   * Volumes are those at the start. r_* are equations 29 and 30 of Cortis et
+   * al., Int. J. Numer. Meth. Engng (2017). Points where the exact value is
+   * zero (below 1e-12 of its largest) are measured against its largest value; a
+   * component that is zero everywhere (below 1e-12 of the largest component)
+   * has no relative error.
    *
    * The exact solution is evaluated where the point was at the start.
    *
