@@ -213,29 +213,51 @@ namespace moraine
     this->order.clear();
     windows.clear();
 
-    std::vector<std::pair<Window, unsigned int>> in_cell;
+    // A window within that of another point of the cell joins it: more zeros in
+    // a stencil cost less than another scatter.
+    std::vector<std::pair<Window, unsigned int>> in_cell; // and the point
+    std::vector<unsigned int>                    group_of;
     for (const auto &cell : this->points.cells())
       {
         in_cell.clear();
         for (unsigned int p = cell.first; p < cell.last; ++p)
           in_cell.emplace_back(window_of(p), p);
-        std::sort(in_cell.begin(), in_cell.end());
-        for (unsigned int k = 0; k < in_cell.size(); ++k)
+        std::sort(in_cell.begin(),
+                  in_cell.end(),
+                  [](const auto &a, const auto &b) {
+                    const unsigned int n_a = a.first.n_cells(),
+                                       n_b = b.first.n_cells();
+                    return n_a != n_b ? n_a > n_b : a < b;
+                  });
+        const unsigned int first_group = this->groups.size();
+        group_of.clear();
+        for (const auto &[window, p] : in_cell)
           {
-            if (k == 0 || in_cell[k - 1].first < in_cell[k].first)
+            unsigned int g = first_group;
+            while (g < this->groups.size() && !windows[g].contains(window))
+              ++g;
+            if (g == this->groups.size())
               {
                 const unsigned int first_node = this->group_node_list.size();
-                append_nodes(in_cell[k].first);
-                windows.push_back(in_cell[k].first);
+                append_nodes(window);
+                windows.push_back(window);
                 this->groups.push_back(
-                  {static_cast<unsigned int>(this->order.size()),
+                  {0,
                    0,
                    first_node,
                    static_cast<unsigned int>(this->group_node_list.size()) -
                      first_node});
               }
-            this->order.push_back(in_cell[k].second);
-            ++this->groups.back().n_points;
+            group_of.push_back(g);
+          }
+        for (unsigned int g = first_group; g < this->groups.size(); ++g)
+          {
+            this->groups[g].first_point = this->order.size();
+            for (unsigned int k = 0; k < in_cell.size(); ++k)
+              if (group_of[k] == g)
+                this->order.push_back(in_cell[k].second);
+            this->groups[g].n_points =
+              this->order.size() - this->groups[g].first_point;
           }
       }
     return this->group_node_list != previous_nodes;

@@ -135,6 +135,25 @@ namespace moraine
       {
         return std::tie(first, last) < std::tie(other.first, other.last);
       }
+
+      unsigned int
+      n_cells() const
+      {
+        unsigned int n = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          n *= last[d] - first[d] + 1;
+        return n;
+      }
+
+      bool
+      contains(const Window &other) const
+      {
+        bool inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          inside =
+            inside && first[d] <= other.first[d] && other.last[d] <= last[d];
+        return inside;
+      }
     };
 
     const BoxGrid<dim> &
