@@ -106,31 +106,30 @@ namespace moraine
 
 
   template <int dim>
-  typename CpdiBasis<dim>::Key
-  CpdiBasis<dim>::key_of(const unsigned int p) const
+  typename CpdiBasis<dim>::CornerCells
+  CpdiBasis<dim>::cells_of(const unsigned int p) const
   {
-    Key key;
-    std::copy_n(&corner_cells[p * n_corners], n_corners, key.begin());
-    std::sort(key.begin(), key.end());
-    std::fill(std::unique(key.begin(), key.end()),
-              key.end(),
-              GridSpace<dim>::no_cell);
-    return key;
+    CornerCells found;
+    auto       &cells = found.cells;
+    std::copy_n(&corner_cells[p * n_corners], n_corners, cells.begin());
+    std::sort(cells.begin(), cells.end());
+    const auto end = std::unique(cells.begin(), cells.end());
+    found.n        = end - cells.begin();
+    std::fill(end, cells.end(), GridSpace<dim>::no_cell);
+    return found;
   }
 
 
 
   template <int dim>
   void
-  CpdiBasis<dim>::append_group(const Key &key)
+  CpdiBasis<dim>::append_group(const CornerCells &cells)
   {
     const unsigned int first_node = this->group_node_list.size();
     first_place.push_back(places_of_nodes.size());
-    for (const unsigned int cell : key)
+    for (unsigned int i = 0; i < cells.n; ++i)
       {
-        if (cell == GridSpace<dim>::no_cell)
-          break;
-        const unsigned int *nodes = this->space.cell_nodes(cell);
+        const unsigned int *nodes = this->space.cell_nodes(cells.cells[i]);
         for (unsigned int a = 0; a < n_corners; ++a)
           {
             const auto begin = this->group_node_list.begin() + first_node;
@@ -142,7 +141,7 @@ namespace moraine
           }
       }
     this->groups.push_back(
-      {static_cast<unsigned int>(this->order.size()),
+      {0,
        0,
        first_node,
        static_cast<unsigned int>(this->group_node_list.size()) - first_node});
@@ -164,24 +163,32 @@ namespace moraine
     places_of_nodes.clear();
     cell_in_group.resize(corner_cells.size());
 
-    std::vector<std::pair<Key, unsigned int>> in_cell;
+    std::vector<std::pair<CornerCells, unsigned int>> in_cell;
+    std::vector<CornerCells>                          of_groups;
     for (const auto &cell : this->points.cells())
       {
         in_cell.clear();
         for (unsigned int p = cell.first; p < cell.last; ++p)
-          in_cell.emplace_back(key_of(p), p);
-        std::sort(in_cell.begin(), in_cell.end());
-        for (unsigned int i = 0; i < in_cell.size(); ++i)
+          in_cell.emplace_back(cells_of(p), p);
+        const unsigned int first_group = this->groups.size();
+        this->group_points_of_cell(in_cell,
+                                   of_groups,
+                                   [this](const CornerCells &cells) {
+                                     append_group(cells);
+                                   });
+        for (unsigned int i = 0; i < of_groups.size(); ++i)
           {
-            const auto &[key, p] = in_cell[i];
-            if (i == 0 || in_cell[i - 1].first < key)
-              append_group(key);
-            this->order.push_back(p);
-            ++this->groups.back().n_points;
-            for (unsigned int k = p * n_corners; k < (p + 1) * n_corners; ++k)
-              cell_in_group[k] =
-                std::find(key.begin(), key.end(), corner_cells[k]) -
-                key.begin();
+            const auto &group = this->groups[first_group + i];
+            const auto &cells = of_groups[i].cells;
+            for (unsigned int q = 0; q < group.n_points; ++q)
+              {
+                const unsigned int first =
+                  this->order[group.first_point + q] * n_corners;
+                for (unsigned int k = first; k < first + n_corners; ++k)
+                  cell_in_group[k] =
+                    std::find(cells.begin(), cells.end(), corner_cells[k]) -
+                    cells.begin();
+              }
           }
       }
     return this->group_node_list != previous_nodes;

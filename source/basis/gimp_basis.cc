@@ -177,8 +177,9 @@ namespace moraine
 
   template <int dim>
   void
-  GimpBasis<dim>::append_nodes(const Window &window)
+  GimpBasis<dim>::append_group(const Window &window)
   {
+    const unsigned int          first_node = this->group_node_list.size();
     std::array<unsigned int, 3> n_nodes{{1, 1, 1}};
     for (unsigned int d = 0; d < dim; ++d)
       n_nodes[d] = window.last[d] - window.first[d] + 2;
@@ -198,6 +199,11 @@ namespace moraine
             this->group_node_list.push_back(
               this->space.cell_nodes(neighbours.box_cell(cell))[corner]);
           }
+    this->groups.push_back(
+      {0,
+       0,
+       first_node,
+       static_cast<unsigned int>(this->group_node_list.size()) - first_node});
   }
 
 
@@ -213,52 +219,19 @@ namespace moraine
     this->order.clear();
     windows.clear();
 
-    // A window within that of another point of the cell joins it: more zeros in
-    // a stencil cost less than another scatter.
-    std::vector<std::pair<Window, unsigned int>> in_cell; // and the point
-    std::vector<unsigned int>                    group_of;
+    std::vector<std::pair<Window, unsigned int>> in_cell;
+    std::vector<Window>                          of_groups;
     for (const auto &cell : this->points.cells())
       {
         in_cell.clear();
         for (unsigned int p = cell.first; p < cell.last; ++p)
           in_cell.emplace_back(window_of(p), p);
-        std::sort(in_cell.begin(),
-                  in_cell.end(),
-                  [](const auto &a, const auto &b) {
-                    const unsigned int n_a = a.first.n_cells(),
-                                       n_b = b.first.n_cells();
-                    return n_a != n_b ? n_a > n_b : a < b;
-                  });
-        const unsigned int first_group = this->groups.size();
-        group_of.clear();
-        for (const auto &[window, p] : in_cell)
-          {
-            unsigned int g = first_group;
-            while (g < this->groups.size() && !windows[g].contains(window))
-              ++g;
-            if (g == this->groups.size())
-              {
-                const unsigned int first_node = this->group_node_list.size();
-                append_nodes(window);
-                windows.push_back(window);
-                this->groups.push_back(
-                  {0,
-                   0,
-                   first_node,
-                   static_cast<unsigned int>(this->group_node_list.size()) -
-                     first_node});
-              }
-            group_of.push_back(g);
-          }
-        for (unsigned int g = first_group; g < this->groups.size(); ++g)
-          {
-            this->groups[g].first_point = this->order.size();
-            for (unsigned int k = 0; k < in_cell.size(); ++k)
-              if (group_of[k] == g)
-                this->order.push_back(in_cell[k].second);
-            this->groups[g].n_points =
-              this->order.size() - this->groups[g].first_point;
-          }
+        this->group_points_of_cell(in_cell,
+                                   of_groups,
+                                   [this](const Window &window) {
+                                     append_group(window);
+                                   });
+        windows.insert(windows.end(), of_groups.begin(), of_groups.end());
       }
     return this->group_node_list != previous_nodes;
   }

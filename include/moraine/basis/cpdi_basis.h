@@ -100,14 +100,39 @@ namespace moraine
     }
 
   private:
-    /** Cells of the corners, sorted, each once, the rest filled up. */
-    using Key = std::array<unsigned int, n_corners>;
+    /** Cells of the corners of a point, sorted, each once. */
+    struct CornerCells
+    {
+      std::array<unsigned int, n_corners> cells; ///< the rest is no_cell
+      unsigned int                        n;
 
-    Key
-    key_of(const unsigned int p) const;
+      unsigned int
+      n_cells() const
+      {
+        return n;
+      }
+
+      bool
+      operator<(const CornerCells &other) const
+      {
+        return cells < other.cells;
+      }
+
+      bool
+      contains(const CornerCells &other) const
+      {
+        return std::includes(cells.begin(),
+                             cells.begin() + n,
+                             other.cells.begin(),
+                             other.cells.begin() + other.n);
+      }
+    };
+
+    CornerCells
+    cells_of(const unsigned int p) const;
 
     void
-    append_group(const Key &key);
+    append_group(const CornerCells &cells);
 
     const CellSeeder<dim>               seeder;
     const std::string                   name;

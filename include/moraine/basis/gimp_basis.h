@@ -180,7 +180,7 @@ namespace moraine
     window_of(const unsigned int point) const;
 
     void
-    append_nodes(const Window &window);
+    append_group(const Window &window);
 
     const CellNeighbours<dim> neighbours;
     const unsigned int        points_per_direction;
