@@ -63,3 +63,8 @@ show("a step that would turn points inside out", run(stretch, {
     "Grid conditions/right/Displacement": "-0.0125*t^5; 0",
     "Time/End time": 4, "Time/Steps": 2, "Time/Smallest step": 0.9},
     expect=1))
+show("corners of CPDI2 that would be turned inside out", run(stretch, {
+    "Method/Method": "CPDI2",
+    "Grid conditions/right/Displacement": "-0.0125*t^5; 0",
+    "Time/End time": 4, "Time/Steps": 2, "Time/Smallest step": 0.9},
+    expect=1))
