@@ -5,6 +5,8 @@
 
 #include <moraine/core/silent_errors.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <Amesos.h>
 #include <Epetra_LinearProblem.h>
 #include <Epetra_MultiVector.h>
@@ -101,7 +103,8 @@ namespace moraine
     Amesos                      factory;
     std::array<const char *, 3> choices{{"Mumps", "Umfpack", "Klu"}};
     // One process with little to factorise: no set-up to pay.
-    if (matrix.m() <= klu_limit && matrix.m() == matrix.local_size())
+    if (matrix.m() <= klu_limit &&
+        Utilities::MPI::n_mpi_processes(matrix.get_mpi_communicator()) == 1)
       std::swap(choices[0], choices[2]);
     for (const char *choice : choices)
       if (factory.Query(std::string("Amesos_") + choice))
