@@ -52,7 +52,7 @@ namespace moraine
     back_substitute(LA::Vector &x, const LA::Vector &b);
 
     bool
-    singular();
+    singular(const bool or_inaccurate);
 
     LA::Vector
     arbitrary_vector() const;
