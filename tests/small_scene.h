@@ -9,7 +9,9 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
+#include <moraine/points/seeding.h>
 #include <moraine/points/straight_shapes.h>
+#include <moraine/state/trial_points.h>
 
 #include <memory>
 
@@ -33,18 +35,21 @@ namespace moraine
     }
 
     static PointFields
-    fields(const bool gimp)
+    fields(const bool gimp, const StrainMeasure measure)
     {
       PointFields layout;
       if (gimp)
         GimpBasis<dim>::request_fields(layout);
+      StateFields<dim>(layout, measure, false);
       return layout;
     }
 
-    explicit SmallScene(const bool gimp = false, const unsigned int n = 2)
+    explicit SmallScene(const bool          gimp    = false,
+                        const unsigned int  n       = 2,
+                        const StrainMeasure measure = StrainMeasure::small)
       : mesh(mesh_parameters(), MPI_COMM_WORLD)
       , space(mesh, 1)
-      , points(mesh, fields(gimp))
+      , points(mesh, fields(gimp, measure))
     {
       dealii::Point<dim> lower, upper;
       for (unsigned int d = 0; d < dim; ++d)

@@ -21,13 +21,17 @@ namespace
   /** A small system with one straight boundary that cuts cells. */
   struct System
   {
-    System(const bool gimp, const std::string &enforcement, const bool roller)
-      : scene(gimp)
+    System(const bool          gimp,
+           const std::string  &enforcement,
+           const bool          roller,
+           const StrainMeasure measure = StrainMeasure::small)
+      : scene(gimp, 2, measure)
       , state(scene.space,
               scene.points,
               *scene.basis,
               {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
-              MeshAfterStep::reset)
+              MeshAfterStep::reset,
+              measure)
     {
       EnforcementParameters parameters;
       parameters.enforcement = enforcement;
@@ -113,6 +117,32 @@ namespace
     Kv -= difference;
     // The system is linear, so the difference quotient is exact.
     EXPECT_LT(Kv.l2_norm(), 1e-12 * size);
+  }
+
+
+
+  TEST_P(EveryEnforcement, TangentIsTheDerivativeAtFiniteStrain)
+  {
+    const auto [gimp, enforcement, roller] = GetParam();
+    System           s(gimp, enforcement, roller, StrainMeasure::finite);
+    const LA::Vector x = s.field(0.05), v = s.field(1e-6);
+    s.system->assemble(x, true);
+    LA::Vector Kv = s.scene.space.vector();
+    s.system->tangent().vmult(Kv, v);
+    EXPECT_EQ(s.system->symmetric(),
+              enforcement == "weighted" || enforcement == "penalty");
+
+    LA::Vector there = x, difference = x;
+    there += v;
+    s.system->assemble(there, false);
+    difference = s.system->residual();
+    there.add(-2., v);
+    s.system->assemble(there, false);
+    difference -= s.system->residual();
+    const double size = Kv.l2_norm();
+    ASSERT_GT(size, 1e-6);
+    Kv.add(0.5, difference);
+    EXPECT_LT(Kv.l2_norm(), 1e-7 * size);
   }
 
 
