@@ -6,8 +6,8 @@
 measured and what is allowed, and exit with 1 if a threshold is missed.
 
 Ratios compare runs on the same machine a moment apart; times are medians. Of
-one process they are processor seconds, of several ranks wall seconds, so only
-the case "ranks" needs an idle machine.
+one process they are processor seconds, of several ranks wall seconds, so the
+cases "ranks", "plastic3d" and "peers" need an idle machine.
 """
 
 import argparse
@@ -18,6 +18,8 @@ import pathlib
 import statistics
 import subprocess
 import sys
+import tempfile
+import time
 
 COLUMNS = ["case", "quantity", "value", "unit", "allowed", "holds", "revision",
            "host", "load_before"]
@@ -183,6 +185,55 @@ class Bench:
         self.record("plastic3d", "assembly", r["points assembly"], "s")
         self.record("plastic3d", "peak memory", r["memory_peak_mib"] / 1024,
                     "GiB", 12)
+        wall = [self.run("assembly", ranks=ranks, dimension=3, cells=n, repeats=3,
+                         strain="finite", material="plastic", wall=1)
+                ["points assembly"] for ranks in (1, 2)]
+        self.record("plastic3d", "assembly, 1 rank / 2 ranks",
+                    wall[0] / wall[1], "-", 1.5, at_least=True)
+
+    # Whole runs, start of the program included, against the seconds that other
+    # programs took on a machine of the same kind: AMPLE 1.1 under Octave 7.3,
+    # and a step of geomechanics/mpm (sparse LDL^T).
+    def case_peers(self):
+        program = pathlib.Path(self.program).parents[2] / "moraine"
+        column = "prm/large-deformation/column-gimp.prm"
+        collapse = "prm/large-deformation/collapse.prm"
+        beam = "prm/large-deformation/beam-gimp.prm"
+        block = "prm/large-deformation/block-100.prm"
+        six = {"Method/Points per direction": 6}
+        for title, scene, settings, seconds, n_steps, allowed in (
+                ("AMPLE, column, 64 cells", column, {}, 34.6, 1, 300),
+                ("AMPLE, collapse, h = 1", collapse, {"Mesh/Cell size": 1},
+                 68, 1, None),
+                ("AMPLE, collapse, h = 0.5", collapse, {}, 288, 1, 300),
+                ("AMPLE, cantilever, 6x6, h = 0.5", beam, six, 383, 1, None),
+                ("AMPLE, cantilever, 6x6, h = 0.25", beam,
+                 {**six, "Mesh/Cell size": 0.25}, 1784, 1, None),
+                ("mpm, block, a step, small strain", block, {}, 0.36, 10, 5),
+                ("mpm, block, a step, finite strain", block,
+                 {"Method/Strain": "finite"}, 0.60, 10, 5)):
+            if self.smoke and scene != block:
+                continue
+            if self.smoke:
+                settings = {**settings, "Mesh/Cells": "10, 11", "Mesh/Upper corner":
+                            "1, 1.1", "Time/Steps": 1}
+            if scene == block:
+                settings = {**settings, "Solver/Solver": "amg-cg"}
+            times = []
+            for _ in range(min(3, self.repeats)):
+                with tempfile.TemporaryDirectory() as output:
+                    command = [program, "run", pathlib.Path(self.source) / scene,
+                               "--output", output + "/o"]
+                    for key, value in {**settings, "Output/Points": "false",
+                                       "Output/Mesh": "false"}.items():
+                        command += ["--set", f"{key} = {value}"]
+                    start = time.monotonic()
+                    subprocess.run(command, check=True, capture_output=True)
+                    times.append(time.monotonic() - start)
+            taken = statistics.median(times)
+            self.record("peers", f"{title}, whole run", taken, "s")
+            self.record("peers", f"{title}, times faster",
+                        seconds * n_steps / taken, "-", allowed, at_least=True)
 
     # Cells of points on a mesh that is no box against a box.
     def case_search(self):
@@ -203,7 +254,7 @@ class Bench:
 
 
 CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
-         "plastic3d"]
+         "plastic3d", "peers"]
 
 
 def main():
