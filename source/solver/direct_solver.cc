@@ -169,7 +169,8 @@ namespace moraine
    * For a singular matrix x is a null vector magnified to |A x| ~ epsilon |A|
    * |x|, so that the change is of the size of x, but for the part 1/sqrt(n)
    * of an arbitrary vector that lies along it. Bad scaling of rows alone, as
-   * from stiff boundary terms, does not raise it.
+   * from stiff boundary terms, does not raise it. @p or_inaccurate: true also
+   * if x is not good to twelve digits.
    */
   bool
   DirectSolver::singular(const bool or_inaccurate)
@@ -181,7 +182,7 @@ namespace moraine
     const double relative = matrix.residual(w, x, probe) / probe.l2_norm();
     // The part of the probe along k null vectors of n cannot be balanced:
     // sqrt(k/n) of it is left.
-    if (relative < (or_inaccurate ? 1e-9 : 1e-6))
+    if (relative < (or_inaccurate ? 1e-12 : 1e-6))
       return false;
     if (or_inaccurate)
       return true;

@@ -18,7 +18,10 @@ for row in rows:
     band = row["Constants/band"]
     name = f"{row['Series']}, {row['Constants/angle']} degrees"
     error = float(row["error"])
-    if row["Series"] == "weighted, no reaction":
+    if row["Series"] == "weighted, no reaction" and float(band) < 1e-7:
+        # Round-off, which is the solver's, not the band's.
+        bound(f"{name}, band {band}", error, 5e-8)
+    elif row["Series"] == "weighted, no reaction":
         number(f"{name}, band {band}", error, 1)
     elif row["Series"] == "weighted":
         # The smaller the band, the more digits the stiff terms cost.
