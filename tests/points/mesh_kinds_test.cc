@@ -133,7 +133,7 @@ TEST(SeedAnyMesh, VolumesAndCentroids)
       // Points at the middle of a part in the unit cell miss the centroid by
       // second order; that of all cells shows what is left.
       fill_mesh<2>(PointLayout::equal, n, 0.1 / (n * n));
-      fill_mesh<3>(PointLayout::equal, n, 0.1 / (n * n));
+      fill_mesh<3>(PointLayout::equal, n, 0.005 / (n * n));
       if (n > 1)
         {
           fill_mesh<2>(PointLayout::gauss, n, 1e-13);

@@ -60,6 +60,6 @@ for name, scene in SCENES.items():
                   for found, row in zip(history, exact)) / largest, 1e-8)
     slopes, line = orders(result.output)
     text(f"{name}, steps with an order", len(slopes))
-    number(f"{name}, mean order", mean(slopes), 2)
+    bound(f"{name}, mean order - 2", mean(slopes) - 2, 0.01)
     at_least(f"{name}, smallest order", min(slopes), 1.95)
-    number(f"{name}, line", line, 2)
+    bound(f"{name}, line - 2", line - 2, 0.01)
