@@ -140,4 +140,39 @@ namespace moraine
       study_case.label = label_of(keys, study_case.choices);
     return cases;
   }
+
+
+
+  bool
+  names_choice(const std::string &key, const std::string &path)
+  {
+    return key == path || (path.size() > key.size() &&
+                           path.compare(path.size() - key.size() - 1,
+                                        std::string::npos,
+                                        "/" + key) == 0);
+  }
+
+
+
+  std::string
+  value_of(const StudyCase &study_case, const std::string &key)
+  {
+    for (const auto &[path, value] : study_case.choices)
+      if (names_choice(key, path))
+        return value;
+    return "";
+  }
+
+
+
+  std::vector<std::string>
+  choice_paths(const std::vector<StudyCase> &cases)
+  {
+    std::vector<std::string> paths;
+    for (const StudyCase &study_case : cases)
+      for (const auto &choice : study_case.choices)
+        if (std::find(paths.begin(), paths.end(), choice.first) == paths.end())
+          paths.push_back(choice.first);
+    return paths;
+  }
 } // namespace moraine

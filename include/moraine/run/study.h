@@ -7,7 +7,7 @@
 #include <moraine/core/console.h>
 #include <moraine/core/input_file.h>
 #include <moraine/output/summary.h>
-#include <moraine/run/study_expansion.h>
+#include <moraine/run/study_report.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -40,14 +40,6 @@ namespace moraine
    */
   std::vector<StudyCase>
   study_cases(const InputFile &input);
-
-  /** One row of a study. */
-  struct StudyResult
-  {
-    StudyCase             study_case;
-    Summary               summary;
-    std::optional<double> error; ///< the one that is plotted
-  };
 
   /**
    * Runs the cases of a study one after the other in this process and keeps,
@@ -83,18 +75,8 @@ namespace moraine
     std::optional<double>
     error_of(const Summary &summary) const;
 
-    void
-    write_csv() const;
-
-    void
-    print_table() const;
-
-    void
-    plot() const;
-
-    /** Curves of the plot: name, and rows sorted by time. */
-    std::vector<std::pair<std::string, std::vector<const StudyResult *>>>
-    curves() const;
+    StudyReport
+    report() const;
 
     std::string              folder;
     MPI_Comm                 communicator;

@@ -38,6 +38,18 @@ namespace moraine
    */
   std::vector<StudyCase>
   expand_study(const InputFile &input);
+
+  /** Whether @p key, as written by the user, means the choice @p path. */
+  bool
+  names_choice(const std::string &key, const std::string &path);
+
+  /** What a case chose for a key, as written by the user; empty if nothing. */
+  std::string
+  value_of(const StudyCase &study_case, const std::string &key);
+
+  /** The paths of all choices, in the order in which the cases bring them. */
+  std::vector<std::string>
+  choice_paths(const std::vector<StudyCase> &cases);
 } // namespace moraine
 
 #endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_study_report_h
+#define moraine_run_study_report_h
+
+#include <moraine/core/console.h>
+#include <moraine/output/summary.h>
+#include <moraine/run/study_expansion.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /** One row of a study. */
+  struct StudyResult
+  {
+    StudyCase             study_case;
+    Summary               summary;
+    std::optional<double> error; ///< the one that is plotted
+  };
+
+  /** A number with so many digits. */
+  std::string
+  text_of(const double value, const unsigned int digits);
+
+  /**
+   * What a study leaves for its reader: study.csv, a table on the console,
+   * study.gp and study.png.
+   */
+  struct StudyReport
+  {
+    std::string                     folder;
+    std::string                     title;
+    std::string                     error;    ///< its name; empty: the first
+    std::string                     group_by; ///< see StudyParameters
+    const std::vector<StudyCase>   &cases;
+    const std::vector<StudyResult> &results;
+
+    /** A row for each result so far. On one rank only. */
+    void
+    write_csv() const;
+
+    void
+    print_table(Console &console) const;
+
+    /** Error over wall time. On one rank only. */
+    void
+    plot(Console &console) const;
+
+    /** Curves of the plot: name, and rows sorted by time. */
+    std::vector<std::pair<std::string, std::vector<const StudyResult *>>>
+    curves() const;
+  };
+} // namespace moraine
+
+#endif
