@@ -90,7 +90,11 @@ namespace moraine
      * @throw ComputationError if a body is not held.
      */
     bool
-    hold_empty_parts(const std::string &reason);
+    hold_empty_parts(const NewtonReport &report);
+
+    /** Why the solution @p x of a step cannot be accepted; empty if it can. */
+    std::string
+    reason_to_reject(const NewtonReport &report, const LA::Vector &x);
 
     /** Say what became of domains and points in the last step. Collective. */
     void
