@@ -39,6 +39,7 @@ namespace moraine
       json["points"]            = summary.points;
       json["steps"]             = summary.steps;
       json["rejected_steps"]    = summary.rejected_steps;
+      json["jumps"]             = summary.jumps;
       json["newton_iterations"] = summary.newton_iterations;
       json["linear_iterations"] = summary.linear_iterations;
       if (summary.condition_number)

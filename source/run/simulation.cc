@@ -129,11 +129,15 @@ namespace moraine
             system->check_that_it_is_held(false);
             system->start_over();
           }
-        const NewtonReport report = newton.solve(*system, *linear_solver, x);
-        newton_iterations += report.iterations;
-        linear_iterations += report.linear_iterations;
-        solver_name      = report.linear_solver;
-        condition_number = std::max(condition_number, report.condition_number);
+        NewtonReport report = newton.solve(*system, *linear_solver, x);
+        count(report);
+        const bool jumped = !report.converged() && !time.can_cut() &&
+                            scene.newton.limit_points == "jump";
+        if (jumped)
+          {
+            report = newton.jump(*system, *linear_solver, x);
+            count(report);
+          }
         if (report.status == NewtonStatus::linear_solver_failed &&
             hold_empty_parts(report))
           continue;
@@ -145,6 +149,8 @@ namespace moraine
                 return mesh_motion.map(X, time.time(), time.trial_time());
               });
             check_that_points_stay(time, x);
+            if (jumped)
+              note_jump(time);
             time.accept(report.iterations);
             print_step(time, report);
             break;
@@ -152,7 +158,14 @@ namespace moraine
         console << "  step to t = " << time.trial_time()
                 << " rejected: " << reason << std::endl;
         if (!time.reject(reason))
-          throw ComputationError(time.message());
+          throw ComputationError(
+            time.message() +
+            (scene.newton.limit_points == "stop" &&
+                 (report.status == NewtonStatus::diverged ||
+                  report.status == NewtonStatus::too_many_iterations) ?
+               " If a path of equilibria ends here, 'Limit points = jump' in "
+               "section 'Solver' looks for one beyond." :
+               ""));
       }
     note_domains();
     first_step = false;
@@ -161,6 +174,18 @@ namespace moraine
     last_increments = state->nodal_increments();
     reports         = system->accept(x);
     write_results(time, scene.output.times.due(time));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::count(const NewtonReport &report)
+  {
+    newton_iterations += report.iterations;
+    linear_iterations += report.linear_iterations;
+    solver_name      = report.linear_solver;
+    condition_number = std::max(condition_number, report.condition_number);
   }
 
 

@@ -89,6 +89,22 @@ namespace moraine
 
   template <int dim>
   void
+  Simulation<dim>::note_jump(const TimeControl &time)
+  {
+    ++n_jumps;
+    double distance = 0;
+    for (const auto &u : state->nodal_increments())
+      distance = std::max(distance, u.norm());
+    console << "  note: the path of equilibria ends at t = " << time.time()
+            << "; jumped to another equilibrium, "
+            << Utilities::MPI::max(distance, communicator) << " away"
+            << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::note_domains()
   {
     const auto n_far =
@@ -236,6 +252,7 @@ namespace moraine
     summary.points            = points->n_global();
     summary.steps             = time.n_accepted();
     summary.rejected_steps    = time.n_rejected();
+    summary.jumps             = n_jumps;
     summary.newton_iterations = newton_iterations;
     summary.linear_iterations = linear_iterations;
     summary.condition_number  = condition_number;
@@ -326,8 +343,9 @@ namespace moraine
           }
       }
     console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
-            << " rejected, " << summary.newton_iterations
-            << " Newton iterations, "
+            << " rejected, "
+            << (n_jumps > 0 ? std::to_string(n_jumps) + " jumps, " : "")
+            << summary.newton_iterations << " Newton iterations, "
             << (solver_name.empty() ? "" : solver_name + ", ")
             << std::setprecision(4) << summary.peak_memory_mib
             << " MiB at most\n";
@@ -339,6 +357,7 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)                                                          \
+  template void    Simulation<dim>::note_jump(const TimeControl &);               \
   template void    Simulation<dim>::describe();                                   \
   template void    Simulation<dim>::note_domains();                               \
   template void    Simulation<dim>::write_results(const TimeControl &,            \

@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/solver/newton.h>
+#include <moraine/solver/pseudo_transient.h>
 
 #include <deal.II/base/parameter_handler.h>
-
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +76,10 @@ namespace moraine
 
       NewtonReport
       run();
+
+      /** From x, which @p found; the same report goes on. */
+      NewtonReport
+      go_on(const NewtonReport &found);
 
     private:
       const NewtonParameters &parameters;
@@ -327,6 +331,20 @@ namespace moraine
       report.condition_number = linear_solver.condition_number();
       return report;
     }
+
+
+
+    NewtonReport
+    Iteration::go_on(const NewtonReport &found)
+    {
+      report = found;
+      evaluate(true);
+      scale_at_start = system.force_scale();
+      if (iterate())
+        settle_multipliers();
+      report.condition_number = linear_solver.condition_number();
+      return report;
+    }
   } // namespace
 
 
@@ -373,6 +391,21 @@ namespace moraine
 
 
 
+  NewtonReport
+  Newton::jump(NonlinearSystem &system,
+               LinearSolver    &linear_solver,
+               LA::Vector      &x)
+  {
+    NewtonReport report =
+      come_to_rest(system, linear_solver, parameters.tolerance, x);
+    if (report.converged())
+      report = Iteration(parameters, system, linear_solver, x).go_on(report);
+    linear_solver.clear();
+    return report;
+  }
+
+
+
   void
   NewtonParameters::add_parameters(ParameterHandler &prm)
   {
@@ -391,6 +424,12 @@ namespace moraine
     prm.add_parameter("Line search",
                       line_search,
                       "shorten corrections that do not reduce the residual");
+    prm.add_parameter("Limit points",
+                      limit_points,
+                      "where even the smallest step finds no equilibrium "
+                      "nearby: stop, or jump to the one at which the body "
+                      "would come to rest in a viscous medium",
+                      Patterns::Selection("stop|jump"));
     prm.add_parameter("Maximum augmentations",
                       maximum_augmentations,
                       "updates of the boundaries' reactions in one step",

@@ -103,19 +103,28 @@ namespace moraine
 
 
   bool
+  TimeControl::can_cut() const
+  {
+    return parameters.cut * (trial - current) >=
+           one_step * parameters.smallest_step * (1. - same_time);
+  }
+
+
+
+  bool
   TimeControl::reject(const std::string &reason)
   {
     Assert(trial > current, ExcMessage("next() comes before reject()."));
     ++rejected;
-    const double failed   = trial - current;
-    const double smallest = one_step * parameters.smallest_step;
-    size                  = parameters.cut * failed;
+    const bool repeat = can_cut();
+    size              = parameters.cut * (trial - current);
     text = "The step from t = " + in_words(current) + " to " + in_words(trial) +
            " failed: " + reason + ".";
     trial = current;
-    if (size >= smallest * (1. - same_time))
+    if (repeat)
       return true;
-    text += " A cut would go below the smallest step, " + in_words(smallest) +
+    text += " A cut would go below the smallest step, " +
+            in_words(one_step * parameters.smallest_step) +
             " (Smallest step = " + in_words(parameters.smallest_step) +
             " of a step).";
     return false;

@@ -449,3 +449,98 @@ TEST(Newton, ReadsItsKeys)
   EXPECT_EQ(newton.tolerance, 1e-6);
   EXPECT_EQ(linear_solver.solver, "gmres");
 }
+
+namespace
+{
+  /**
+   * A spring with the force x_0^3 - x_0 under a load; another one of stiffness
+   * 2 hangs on it. Without load it stands at -1, 0 or 1.
+   */
+  SmallSystem
+  snap_through(const double load)
+  {
+    return SmallSystem(
+      {-0.6, -0.6},
+      [load](const Values &x) {
+        return Values{load - x[0] * x[0] * x[0] + x[0] - 2. * (x[0] - x[1]),
+                      -2. * (x[1] - x[0])};
+      },
+      [](const Values &x) {
+        return two_by_two(3. * x[0] * x[0] + 1., -2., -2., 2.);
+      });
+  }
+
+  Outcome
+  jump(NonlinearSystem &system)
+  {
+    LinearSolver linear_solver(LinearSolverParameters(), 2);
+    LA::Vector   x;
+    Outcome      outcome;
+    outcome.report    = Newton({}).jump(system, linear_solver, x);
+    outcome.x         = SmallSystem::everywhere(x);
+    outcome.n_set_ups = linear_solver.n_set_ups();
+    return outcome;
+  }
+} // namespace
+
+TEST(Newton, JumpsWhereThePathEnds)
+{
+  // Beyond 2 / sqrt(27) = 0.3849 there is no equilibrium with x < 0.
+  SmallSystem near_the_end = snap_through(0.3848);
+  EXPECT_TRUE(solve(near_the_end).report.converged());
+  SmallSystem system = snap_through(0.39);
+  EXPECT_FALSE(solve(system).report.converged());
+  SmallSystem again   = snap_through(0.39);
+  const auto  outcome = jump(again);
+  EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+  const double x = outcome.x[0];
+  EXPECT_GT(x, 1.);
+  EXPECT_NEAR(x * x * x - x, 0.39, 1e-8);
+  EXPECT_NEAR(outcome.x[1], x, 1e-8);
+  EXPECT_LT(outcome.report.iterations, 60u);
+}
+
+TEST(Newton, AJumpEndsAtTheNearestRest)
+{
+  // An equilibrium on the way is where a viscous body stops.
+  SmallSystem system  = snap_through(0.3);
+  const auto  outcome = jump(system);
+  EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+  EXPECT_LT(outcome.x[0], -1. / std::sqrt(3.));
+  EXPECT_NEAR(std::pow(outcome.x[0], 3) - outcome.x[0], 0.3, 1e-8);
+}
+
+TEST(Newton, AJumpSaysWhenThereIsNoRest)
+{
+  // A load of twice what the spring can carry, however far it goes.
+  SmallSystem system(
+    {0., 0.},
+    [](const Values &x) {
+      return Values{1. - 0.5 * std::sin(x[0]), -x[1]};
+    },
+    [](const Values &x) {
+      return two_by_two(0.5 * std::cos(x[0]), 0., 0., 1.);
+    });
+  const auto outcome = jump(system);
+  EXPECT_FALSE(outcome.report.converged());
+  EXPECT_NE(outcome.report.message.find("at rest"), std::string::npos)
+    << outcome.report.message;
+
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SmallSystem  undefined(
+    {1., 1.},
+    [nan](const Values &) {
+      return Values{nan, 0.};
+    },
+    [](const Values &) { return two_by_two(1., 0., 0., 1.); });
+  EXPECT_EQ(jump(undefined).report.status, NewtonStatus::not_a_number);
+}
+
+TEST(Newton, AJumpAugmentsToo)
+{
+  double     multiplier = 0.;
+  Augmented  system(0.5, multiplier);
+  const auto outcome = jump(system);
+  EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+  EXPECT_NEAR(outcome.x[1], 0.1, 1e-13);
+}

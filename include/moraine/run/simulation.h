@@ -92,9 +92,17 @@ namespace moraine
     bool
     hold_empty_parts(const NewtonReport &report);
 
+    /** Add what a solve took to the sums. */
+    void
+    count(const NewtonReport &report);
+
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
+
+    /** Say how far the trial state is from that at @p time. Collective. */
+    void
+    note_jump(const TimeControl &time);
 
     /** Say what became of domains and points in the last step. Collective. */
     void
@@ -166,6 +174,7 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> last_increments;
     unsigned int                        newton_iterations = 0;
     unsigned int                        linear_iterations = 0;
+    unsigned int                        n_jumps           = 0;
     std::optional<double>               condition_number;
     std::string                         solver_name;
     unsigned int                        n_put_back        = 0;

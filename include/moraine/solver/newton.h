@@ -14,7 +14,7 @@
 namespace moraine
 {
   /**
-   * Keys of the section "Newton".
+   * Keys of the section "Solver" that steer Newton's method.
    */
   struct NewtonParameters
   {
@@ -31,6 +31,9 @@ namespace moraine
     unsigned int maximum_iterations = 25;
 
     bool line_search = true;
+
+    /** stop, or jump to another equilibrium. */
+    std::string limit_points = "stop";
 
     /** Updates of carried multipliers in one step. */
     unsigned int maximum_augmentations = 30;
@@ -115,6 +118,13 @@ namespace moraine
      */
     NewtonReport
     solve(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
+
+    /**
+     * The same, but along come_to_rest(): to an equilibrium that may be far
+     * away, where a path of equilibria ends.
+     */
+    NewtonReport
+    jump(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
 
   private:
     const NewtonParameters parameters;

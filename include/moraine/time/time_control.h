@@ -89,6 +89,10 @@ namespace moraine
     void
     accept(const unsigned int iterations);
 
+    /** Whether the trial step may be cut if it fails. */
+    bool
+    can_cut() const;
+
     /**
      * Forget the trial time and cut the size. False if the size would fall
      * below the smallest: then message() tells the story.

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/solver/pseudo_transient.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int maximum_steps = 200;
+
+    /** What a step without answer, or uphill, raises lambda to at least. */
+    constexpr double least_resistance = 1e-4;
+
+
+
+    double
+    more_resistance(const double lambda)
+    {
+      return std::max(least_resistance, 4 * lambda);
+    }
+
+
+
+    /**
+     * The resistance of the next step. Twice a negative stiffness keeps K +
+     * lambda D positive along the way; one that turned the residual round was
+     * too small.
+     */
+    double
+    next_resistance(const double lambda,
+                    const double work_before,
+                    const double work_after,
+                    const double stiffness)
+    {
+      if (stiffness < 0)
+        return std::max(0.5 * lambda, -2 * stiffness);
+      if (work_after < -0.5 * work_before)
+        return std::max(least_resistance, 2 * lambda);
+      return (std::abs(work_after) < 0.1 * work_before ? 0.1 : 0.5) * lambda;
+    }
+
+
+
+    /** |diag A| */
+    LA::Vector
+    resistances(const LA::SparseMatrix &A, const LA::Vector &like)
+    {
+      LA::Vector d(like);
+      for (const auto i : d.locally_owned_elements())
+        d(i) = std::abs(A.diag_element(i));
+      d.compress(VectorOperation::insert);
+      return d;
+    }
+
+
+
+    void
+    add_resistance(const double      lambda,
+                   const LA::Vector &d,
+                   LA::SparseMatrix &A)
+    {
+      for (const auto i : d.locally_owned_elements())
+        A.add(i, i, lambda * d(i));
+      A.compress(VectorOperation::add);
+    }
+  } // namespace
+
+
+
+  NewtonReport
+  come_to_rest(NonlinearSystem &system,
+               LinearSolver    &linear_solver,
+               const double     tolerance,
+               LA::Vector      &x)
+  {
+    NewtonReport report;
+    double       lambda = 1;
+    const auto   record = [&]() {
+      report.residuals.push_back(
+        relative_to(system.residual().l2_norm(), system.force_scale()));
+      return std::isfinite(report.residuals.back());
+    };
+    const auto fail = [&](const NewtonStatus status, const std::string &why) {
+      report.status  = status;
+      report.message = why;
+    };
+
+    system.initial_guess(x);
+    system.assemble(x, true);
+    if (!record())
+      fail(NewtonStatus::not_a_number,
+           "the residual is not a number at the start of the step");
+    LA::SparseMatrix damped;
+    while (report.converged() &&
+           (report.residuals.back() > tolerance || system.linearised()))
+      {
+        if (report.iterations++ == maximum_steps)
+          {
+            fail(NewtonStatus::too_many_iterations,
+                 "nothing at rest after " + std::to_string(maximum_steps) +
+                   " steps through a viscous medium");
+            break;
+          }
+        const LA::Vector d = resistances(system.tangent(), x);
+        damped.copy_from(system.tangent());
+        add_resistance(lambda, d, damped);
+        linear_solver.set_up(damped,
+                             system.symmetric(),
+                             system.near_null_space());
+        LA::Vector         dx(x);
+        const LinearReport linear = linear_solver.solve(dx, system.residual());
+        report.linear_solver      = linear.solver;
+        report.linear_iterations += linear.iterations;
+        system.apply_constraints(dx);
+        const double work_before = dx * system.residual();
+        if (!linear.converged || !(work_before > 0))
+          {
+            lambda = more_resistance(lambda);
+            continue;
+          }
+
+        const LA::Vector x_start(x);
+        x += dx;
+        system.assemble(x, true);
+        if (!record())
+          {
+            report.residuals.pop_back();
+            x = x_start;
+            system.assemble(x, true);
+            lambda = more_resistance(lambda);
+            continue;
+          }
+        const double work_after = dx * system.residual();
+        LA::Vector   d_dx(dx);
+        d_dx.scale(d);
+        lambda = next_resistance(lambda,
+                                 work_before,
+                                 work_after,
+                                 (work_before - work_after) / (dx * d_dx));
+      }
+    linear_solver.clear();
+    return report;
+  }
+} // namespace moraine
