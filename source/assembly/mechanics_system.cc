@@ -155,7 +155,8 @@ namespace moraine
           couple(nodes.data(), nodes.size());
       }
     pattern.compress();
-    matrix.reinit(pattern);
+    matrix = std::make_shared<LA::SparseMatrix>();
+    matrix->reinit(pattern);
     for (LA::Vector *vector :
          {&residual_vector, &external, &unbalanced, &assembled_at})
       vector->reinit(space.locally_owned(), space.communicator());
@@ -249,7 +250,7 @@ namespace moraine
           node_forces[local.nodes[a]][c] += f;
         }
     if (tangent)
-      constraints.distribute_local_to_global(local.matrix, local.dofs, matrix);
+      constraints.distribute_local_to_global(local.matrix, local.dofs, *matrix);
   }
 
 
@@ -270,7 +271,7 @@ namespace moraine
         state.reject();
       }
     if (tangent)
-      matrix = 0;
+      *matrix = 0;
     local_scale = 0;
     local_fault.clear();
     node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
@@ -278,7 +279,7 @@ namespace moraine
     assemble_boundaries(tangent);
     assemble_empty_parts(tangent);
     if (tangent)
-      matrix.compress(VectorOperation::add);
+      matrix->compress(VectorOperation::add);
     state.grid().sum_node_values(node_forces, unbalanced);
     unbalanced += external;
     residual_vector = unbalanced;

@@ -85,7 +85,7 @@ namespace moraine
     for (unsigned int m = 0; m < n_modes; ++m)
       {
         constraints.set_zero(modes[m]);
-        matrix.vmult(forces[m], modes[m]);
+        matrix->vmult(forces[m], modes[m]);
       }
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
@@ -97,7 +97,7 @@ namespace moraine
           const bool         prescribed_dof = constraints.is_constrained(dof);
           if (!prescribed_dof)
             {
-              diagonal[k] += std::abs(matrix.diag_element(dof));
+              diagonal[k] += std::abs(matrix->diag_element(dof));
               ++n_rows[k];
             }
           for (unsigned int i = 0; i < n_modes; ++i)

@@ -94,6 +94,7 @@ namespace moraine
   DirectSolver::DirectSolver(const LA::SparseMatrix &matrix,
                              const bool              transposed)
     : matrix(matrix)
+    , transposed(transposed)
     , matrix_norm(matrix.linfty_norm())
     , factors(std::make_unique<Factors>())
   {
@@ -101,6 +102,14 @@ namespace moraine
     // options to Amesos; hence Amesos itself.
     factors->problem.SetOperator(
       const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+    choose_package();
+  }
+
+
+
+  void
+  DirectSolver::choose_package()
+  {
     Amesos                         factory;
     const std::vector<std::string> choices =
       matrix.m() <= klu_limit && !transposed &&
@@ -115,16 +124,37 @@ namespace moraine
             factory.Create("Amesos_" + choice, factors->problem));
           // Before the factorisation: MUMPS looks at it there only.
           factors->solver->SetUseTranspose(transposed);
-          const bool may_try_another = choice != choices.back();
-          failure.clear();
-          factorise();
-          if (failure.empty() && !transposed &&
-              singular(choice == "Klu" && may_try_another))
-            failure = "the matrix is singular to working precision";
+          factorise(true);
           // KLU is less careful with its pivots.
-          if (failure.empty() || choice != "Klu")
+          if (succeeded(choice != choices.back()) || choice != "Klu")
             break;
         }
+  }
+
+
+
+  bool
+  DirectSolver::succeeded(const bool may_try_another)
+  {
+    if (failure.empty() && !transposed &&
+        singular(package == "Klu" && may_try_another))
+      failure = "the matrix is singular to working precision";
+    return failure.empty();
+  }
+
+
+
+  void
+  DirectSolver::refactorise()
+  {
+    matrix_norm = matrix.linfty_norm();
+    if (failure.empty())
+      {
+        factorise(false);
+        if (succeeded(true))
+          return;
+      }
+    choose_package();
   }
 
 
@@ -134,16 +164,19 @@ namespace moraine
 
 
   void
-  DirectSolver::factorise()
+  DirectSolver::factorise(const bool is_new)
   {
     Teuchos::ParameterList options;
     options.set("OutputLevel", 0);
     options.set("PrintTiming", false);
     options.set("PrintStatus", false);
+    // KLU: the pivots of the last factorisation, as long as they are good.
+    options.set("Refactorize", true);
     factors->solver->SetParameters(options);
     // Amesos writes its error codes whatever its options say.
     const SilentErrors silence;
-    if (factors->solver->SymbolicFactorization() != 0 ||
+    failure.clear();
+    if ((is_new && factors->solver->SymbolicFactorization() != 0) ||
         factors->solver->NumericFactorization() != 0)
       failure = "the factorisation failed; the matrix is singular";
   }

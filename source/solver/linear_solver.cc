@@ -25,6 +25,14 @@ namespace moraine
   namespace
   {
     /**
+     * Building a multigrid hierarchy takes about as long as this many
+     * iterations.
+     */
+    constexpr double worth_a_hierarchy = 25;
+
+
+
+    /**
      * ML's options for elasticity, and the modes it needs while they are used.
      */
     class MultigridOptions
@@ -136,12 +144,18 @@ namespace moraine
     double                                             set_up_seconds    = 0;
     double                                             solve_seconds     = 0;
     double                                             condition_seconds = 0;
-    const LA::SparseMatrix                            *matrix = nullptr;
+    std::shared_ptr<const LA::SparseMatrix>            matrix;
     Method                                             method = Method::direct;
-    bool                                               is_finite = true;
+    bool                                               is_symmetric = true;
+    bool                                               is_finite    = true;
+    std::vector<LA::Vector>                            near_null_space;
     std::string                                        fall_back_reason;
     std::optional<DirectSolver>                        direct;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
+    /** Iterations for a digit with the values of its set-up; 0: not known. */
+    double iterations_per_digit = 0;
+    /** Iterations that later values took on top of that. */
+    double extra_iterations = 0;
 
     Implementation(const LinearSolverParameters &parameters,
                    const unsigned int            dim)
@@ -152,9 +166,45 @@ namespace moraine
     Method
     choose(const bool symmetric) const;
 
+    void
+    make_multigrid();
+
+    /** Compare with the iterations that a new hierarchy took. */
+    void
+    watch_multigrid(const LinearReport &report);
+
+    /** An old hierarchy has to do it at about what a new one would cost. */
+    unsigned int
+    allowed_iterations(const double reduction) const;
+
     LinearReport
-    solve_iteratively(LA::Vector &x, const LA::Vector &b);
+    solve_iteratively(LA::Vector &x, const LA::Vector &b, const double enough);
   };
+
+
+
+  void
+  LinearSolver::Implementation::make_multigrid()
+  {
+    multigrid.reset();
+    const MultigridOptions options(*matrix, is_symmetric, near_null_space, dim);
+    multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    multigrid->initialize(*matrix, options.list);
+    iterations_per_digit = extra_iterations = 0;
+  }
+
+
+
+  void
+  LinearSolver::Implementation::watch_multigrid(const LinearReport &report)
+  {
+    const double digits = -std::log10(report.relative_residual);
+    if (!(digits >= 1))
+      return;
+    if (iterations_per_digit == 0)
+      iterations_per_digit = report.iterations / digits;
+    extra_iterations += report.iterations - iterations_per_digit * digits;
+  }
 
 
 
@@ -174,15 +224,31 @@ namespace moraine
 
 
 
+  unsigned int
+  LinearSolver::Implementation::allowed_iterations(const double reduction) const
+  {
+    if (iterations_per_digit == 0)
+      return parameters.maximum_iterations;
+    const double as_new =
+      iterations_per_digit * std::max(1., -std::log10(reduction));
+    return std::min(parameters.maximum_iterations,
+                    static_cast<unsigned int>(as_new + worth_a_hierarchy));
+  }
+
+
+
   LinearReport
   LinearSolver::Implementation::solve_iteratively(LA::Vector       &x,
-                                                  const LA::Vector &b)
+                                                  const LA::Vector &b,
+                                                  const double      enough)
   {
     LinearReport report;
-    report.solver        = method == Method::amg_cg ? "amg-cg" : "gmres";
-    const double  norm_b = b.l2_norm();
-    SolverControl control(parameters.maximum_iterations,
-                          parameters.relative_tolerance * norm_b,
+    report.solver       = method == Method::amg_cg ? "amg-cg" : "gmres";
+    const double norm_b = b.l2_norm();
+    const double goal =
+      std::max(parameters.relative_tolerance * norm_b, enough);
+    SolverControl control(allowed_iterations(goal / norm_b),
+                          goal,
                           false,
                           false);
     x = 0.;
@@ -206,8 +272,7 @@ namespace moraine
     const double norm        = matrix->residual(residual, x, b);
     report.relative_residual = relative_to(norm, norm_b);
     // The residual that the iteration carries along drifts from the true one.
-    report.converged = report.message.empty() &&
-                       norm <= 10. * parameters.relative_tolerance * norm_b;
+    report.converged = report.message.empty() && norm <= 10. * goal;
     if (!report.converged && report.message.empty())
       report.message = report.solver + " lost its residual to round-off";
     return report;
@@ -227,34 +292,40 @@ namespace moraine
 
 
   void
-  LinearSolver::set_up(const LA::SparseMatrix        &matrix,
-                       const bool                     symmetric,
+  LinearSolver::set_up(const std::shared_ptr<const LA::SparseMatrix> &matrix,
+                       const bool                                     symmetric,
                        const std::vector<LA::Vector> &near_null_space)
   {
     auto         &s = *implementation;
     const AddTime timing(s.set_up_seconds);
     ++s.n_set_ups;
-    clear();
-    s.matrix = &matrix;
-    s.method = s.choose(symmetric);
+    if (matrix != s.matrix || symmetric != s.is_symmetric)
+      clear();
+    s.matrix       = matrix;
+    s.is_symmetric = symmetric;
+    s.method       = s.choose(symmetric);
     s.fall_back_reason.clear();
-    s.is_finite = std::isfinite(matrix.frobenius_norm());
+    s.is_finite = std::isfinite(matrix->frobenius_norm());
     if (!s.is_finite)
       return;
     if (s.method == Implementation::Method::direct)
       {
-        s.direct.emplace(matrix);
+        if (s.direct)
+          s.direct->refactorise();
+        else
+          s.direct.emplace(*matrix);
         return;
       }
-    const MultigridOptions options(matrix, symmetric, near_null_space, s.dim);
-    s.multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    s.multigrid->initialize(matrix, options.list);
+    s.direct.reset();
+    s.near_null_space = near_null_space;
+    if (!s.multigrid || s.extra_iterations > worth_a_hierarchy)
+      s.make_multigrid();
   }
 
 
 
   LinearReport
-  LinearSolver::solve(LA::Vector &x, const LA::Vector &b)
+  LinearSolver::solve(LA::Vector &x, const LA::Vector &b, const double enough)
   {
     auto         &s = *implementation;
     const AddTime timing(s.solve_seconds);
@@ -270,7 +341,14 @@ namespace moraine
       }
     if (!s.direct)
       {
-        const LinearReport report = s.solve_iteratively(x, b);
+        const bool   is_new = s.iterations_per_digit == 0;
+        LinearReport report = s.solve_iteratively(x, b, enough);
+        if (!report.converged && !is_new)
+          {
+            s.make_multigrid();
+            report = s.solve_iteratively(x, b, enough);
+          }
+        s.watch_multigrid(report);
         if (!report.converged)
           x = 0.;
         if (report.converged || s.parameters.solver != "auto")
@@ -308,7 +386,7 @@ namespace moraine
   {
     implementation->direct.reset();
     implementation->multigrid.reset();
-    implementation->matrix = nullptr;
+    implementation->matrix.reset();
   }
 
 

@@ -99,6 +99,10 @@ namespace moraine
       void
       factorise();
 
+      /** The residual norm to reach. */
+      double
+      goal() const;
+
       bool
       small() const;
 
@@ -154,12 +158,20 @@ namespace moraine
 
 
 
+    double
+    Iteration::goal() const
+    {
+      return std::max({parameters.tolerance * system.force_scale(),
+                       parameters.absolute_tolerance,
+                       cancelled * scale_at_start});
+    }
+
+
+
     bool
     Iteration::small() const
     {
-      return norm <= std::max({parameters.tolerance * system.force_scale(),
-                               parameters.absolute_tolerance,
-                               cancelled * scale_at_start});
+      return norm <= goal();
     }
 
 
@@ -203,8 +215,9 @@ namespace moraine
                     "no equilibrium after " +
                       std::to_string(iterations_since_pass) + " iterations");
       LA::Vector         dx(system.residual());
-      const LinearReport linear = linear_solver.solve(dx, system.residual());
-      report.linear_solver      = linear.solver;
+      const LinearReport linear =
+        linear_solver.solve(dx, system.residual(), 0.1 * goal());
+      report.linear_solver = linear.solver;
       report.linear_iterations += linear.iterations;
       if (!linear.converged)
         return stop(NewtonStatus::linear_solver_failed,
@@ -382,11 +395,7 @@ namespace moraine
                 LinearSolver    &linear_solver,
                 LA::Vector      &x)
   {
-    const NewtonReport report =
-      Iteration(parameters, system, linear_solver, x).run();
-    // The system may build its matrix anew before the next step.
-    linear_solver.clear();
-    return report;
+    return Iteration(parameters, system, linear_solver, x).run();
   }
 
 
@@ -400,7 +409,6 @@ namespace moraine
       come_to_rest(system, linear_solver, parameters.tolerance, x);
     if (report.converged())
       report = Iteration(parameters, system, linear_solver, x).go_on(report);
-    linear_solver.clear();
     return report;
   }
 

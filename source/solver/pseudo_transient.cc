@@ -96,7 +96,6 @@ namespace moraine
     if (!record())
       fail(NewtonStatus::not_a_number,
            "the residual is not a number at the start of the step");
-    LA::SparseMatrix damped;
     while (report.converged() &&
            (report.residuals.back() > tolerance || system.linearised()))
       {
@@ -107,9 +106,10 @@ namespace moraine
                    " steps through a viscous medium");
             break;
           }
-        const LA::Vector d = resistances(system.tangent(), x);
-        damped.copy_from(system.tangent());
-        add_resistance(lambda, d, damped);
+        const LA::Vector d      = resistances(*system.tangent(), x);
+        const auto       damped = std::make_shared<LA::SparseMatrix>();
+        damped->copy_from(*system.tangent());
+        add_resistance(lambda, d, *damped);
         linear_solver.set_up(damped,
                              system.symmetric(),
                              system.near_null_space());

@@ -430,7 +430,7 @@ namespace
       LA::SparsityPattern pattern(owned, owned, relevant, MPI_COMM_WORLD);
       DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
       pattern.compress();
-      matrix.reinit(pattern);
+      matrix->reinit(pattern);
       rhs.reinit(owned, MPI_COMM_WORLD);
       solution.reinit(owned, MPI_COMM_WORLD);
       relevant_solution.reinit(owned, relevant, MPI_COMM_WORLD);
@@ -486,8 +486,8 @@ namespace
     void
     assemble()
     {
-      matrix = 0;
-      rhs    = 0;
+      *matrix = 0;
+      rhs     = 0;
       FEValues<dim>                        fe_values(mesh.mapping(),
                               fe,
                               quadrature,
@@ -526,9 +526,9 @@ namespace
                 }
             cell->get_dof_indices(dofs);
             constraints.distribute_local_to_global(
-              cell_matrix, cell_rhs, dofs, matrix, rhs);
+              cell_matrix, cell_rhs, dofs, *matrix, rhs);
           }
-      matrix.compress(VectorOperation::add);
+      matrix->compress(VectorOperation::add);
       rhs.compress(VectorOperation::add);
     }
 
@@ -557,12 +557,13 @@ namespace
           }
     }
 
-    const BackgroundMesh<dim>         &mesh;
-    const FESystem<dim>                fe;
-    const QGauss<dim>                  quadrature;
-    DoFHandler<dim>                    dof_handler;
-    AffineConstraints<double>          constraints;
-    LA::SparseMatrix                   matrix;
+    const BackgroundMesh<dim>              &mesh;
+    const FESystem<dim>                     fe;
+    const QGauss<dim>                       quadrature;
+    DoFHandler<dim>                         dof_handler;
+    AffineConstraints<double>               constraints;
+    const std::shared_ptr<LA::SparseMatrix> matrix =
+      std::make_shared<LA::SparseMatrix>();
     LA::Vector                         rhs;
     LA::Vector                         relevant_solution;
     std::vector<std::vector<bool>>     constant_modes;

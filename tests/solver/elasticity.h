@@ -41,9 +41,10 @@ namespace moraine::testing_solver
     const dealii::FESystem<dim>                  fe;
     dealii::DoFHandler<dim>                      dof_handler;
     dealii::AffineConstraints<double>            constraints;
-    LA::SparseMatrix                             matrix;
-    LA::Vector                                   rhs;
-    std::vector<LA::Vector>                      modes;
+    const std::shared_ptr<LA::SparseMatrix>      matrix =
+      std::make_shared<LA::SparseMatrix>();
+    LA::Vector              rhs;
+    std::vector<LA::Vector> modes;
 
     Elasticity(const unsigned int n,
                const bool         held       = true,
@@ -95,7 +96,7 @@ namespace moraine::testing_solver
                                                        owned,
                                                        MPI_COMM_WORLD,
                                                        relevant);
-    matrix.reinit(owned, owned, pattern, MPI_COMM_WORLD);
+    matrix->reinit(owned, owned, pattern, MPI_COMM_WORLD);
     rhs.reinit(owned, MPI_COMM_WORLD);
     assemble(convection);
     make_modes();
@@ -145,9 +146,9 @@ namespace moraine::testing_solver
               }
           cell->get_dof_indices(dofs);
           constraints.distribute_local_to_global(
-            local, load, dofs, matrix, rhs);
+            local, load, dofs, *matrix, rhs);
         }
-    matrix.compress(VectorOperation::add);
+    matrix->compress(VectorOperation::add);
     rhs.compress(VectorOperation::add);
   }
 

@@ -50,7 +50,7 @@ namespace
       for (const auto i : owned)
         for (unsigned int j = 0; j < n; ++j)
           pattern.add(i, j);
-      matrix.reinit(owned, owned, pattern, MPI_COMM_WORLD);
+      matrix->reinit(owned, owned, pattern, MPI_COMM_WORLD);
       rhs.reinit(owned, MPI_COMM_WORLD);
     }
 
@@ -78,11 +78,11 @@ namespace
       const auto full = k(values);
       for (const auto i : owned)
         for (unsigned int j = 0; j < full.n(); ++j)
-          matrix.set(i, j, full(i, j));
-      matrix.compress(dealii::VectorOperation::insert);
+          matrix->set(i, j, full(i, j));
+      matrix->compress(dealii::VectorOperation::insert);
     }
 
-    const LA::SparseMatrix &
+    std::shared_ptr<const LA::SparseMatrix>
     tangent() const override
     {
       return matrix;
@@ -130,12 +130,13 @@ namespace
     unsigned int n_tangents  = 0;
 
   private:
-    const Values            start;
-    const Residual          r;
-    const Tangent           k;
-    const double            scale;
-    dealii::IndexSet        owned;
-    LA::SparseMatrix        matrix;
+    const Values                            start;
+    const Residual                          r;
+    const Tangent                           k;
+    const double                            scale;
+    dealii::IndexSet                        owned;
+    const std::shared_ptr<LA::SparseMatrix> matrix =
+      std::make_shared<LA::SparseMatrix>();
     LA::Vector              rhs;
     std::vector<LA::Vector> modes;
   };

@@ -139,7 +139,7 @@ namespace moraine
     void
     assemble(const LA::Vector &x, const bool tangent) override;
 
-    const LA::SparseMatrix &
+    std::shared_ptr<const LA::SparseMatrix>
     tangent() const override
     {
       return matrix;
@@ -283,7 +283,7 @@ namespace moraine
     std::vector<unsigned int>                    body_of_cell;
     PrescribedNodes<dim>                         prescribed;
     dealii::AffineConstraints<double>            constraints;
-    LA::SparseMatrix                             matrix;
+    std::shared_ptr<LA::SparseMatrix>            matrix;
     LA::Vector                                   residual_vector;
     LA::Vector                                   external;
     /** The residual with the forces that grid conditions take. */

@@ -28,6 +28,10 @@ namespace moraine
 
     ~DirectSolver();
 
+    /** The same for new values of the matrix in the same pattern. */
+    void
+    refactorise();
+
     /** Solve with iterative refinement; the report says how well. */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b);
@@ -40,13 +44,22 @@ namespace moraine
     struct Factors;
 
     const LA::SparseMatrix  &matrix;
-    const double             matrix_norm;
+    const bool               transposed;
+    double                   matrix_norm;
     std::string              package;
     std::unique_ptr<Factors> factors;
     std::string              failure;
 
+    /** Take the first package that can. */
     void
-    factorise();
+    choose_package();
+
+    /** With the order of elimination that is there or, if new, another. */
+    void
+    factorise(const bool is_new);
+
+    bool
+    succeeded(const bool may_try_another);
 
     bool
     back_substitute(LA::Vector &x, const LA::Vector &b);

@@ -70,24 +70,26 @@ namespace moraine
     ~LinearSolver();
 
     /**
-     * Factorise @p matrix or build its preconditioner. The matrix must live
-     * until the next set_up() or clear(): what Amesos and ML build refers to
-     * it, even while they are destroyed.
+     * Factorise @p matrix or build its preconditioner. A matrix that is set up
+     * again with other values keeps its order of elimination and, while the
+     * iteration does not suffer, the multigrid hierarchy of the old values;
+     * the pattern must not have changed.
      *
      * The rigid-body modes @p near_null_space are for algebraic multigrid; they
      * may be empty.
      */
     void
-    set_up(const LA::SparseMatrix        &matrix,
-           const bool                     symmetric,
-           const std::vector<LA::Vector> &near_null_space);
+    set_up(const std::shared_ptr<const LA::SparseMatrix> &matrix,
+           const bool                                     symmetric,
+           const std::vector<LA::Vector>                 &near_null_space);
 
     /**
      * Solve with what set_up() built. The start value of @p x is not used; if
-     * the report says not converged, @p x is zero.
+     * the report says not converged, @p x is zero. Iterative solvers may stop
+     * at a residual norm of @p enough.
      */
     LinearReport
-    solve(LA::Vector &x, const LA::Vector &b);
+    solve(LA::Vector &x, const LA::Vector &b, const double enough = 0.);
 
     /**
      * An estimate of the condition number of the matrix given to set_up(), in
@@ -101,7 +103,7 @@ namespace moraine
     std::optional<double>
     condition_number() const;
 
-    /** Forget what set_up() built; the matrix may go or change its pattern. */
+    /** Forget what set_up() built, and the matrix. */
     void
     clear();
 

@@ -6,6 +6,7 @@
 
 #include <moraine/core/linear_algebra.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,10 @@ namespace moraine
     }
 
     /**
-     * The tangent of the last assemble(x, true).
+     * The tangent of the last assemble(x, true). A new object whenever its
+     * sparsity pattern is new: solvers keep what they know of the old one.
      */
-    virtual const LA::SparseMatrix &
+    virtual std::shared_ptr<const LA::SparseMatrix>
     tangent() const = 0;
 
     /**
