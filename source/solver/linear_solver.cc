@@ -148,6 +148,7 @@ namespace moraine
     Method                                             method = Method::direct;
     bool                                               is_symmetric = true;
     bool                                               is_finite    = true;
+    bool                                               auto_failed  = false;
     std::vector<LA::Vector>                            near_null_space;
     std::string                                        fall_back_reason;
     std::optional<DirectSolver>                        direct;
@@ -214,7 +215,7 @@ namespace moraine
     const unsigned int limit =
       dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     if (parameters.solver == "direct" ||
-        (parameters.solver == "auto" && matrix->m() <= limit))
+        (parameters.solver == "auto" && (matrix->m() <= limit || auto_failed)))
       return Method::direct;
     if (parameters.solver == "amg-cg" ||
         (parameters.solver == "auto" && symmetric))
@@ -354,6 +355,7 @@ namespace moraine
         if (report.converged || s.parameters.solver != "auto")
           return report;
         s.fall_back_reason = report.message + "; solved directly";
+        s.auto_failed      = true;
         s.multigrid.reset();
         s.direct.emplace(*s.matrix);
       }
@@ -387,6 +389,7 @@ namespace moraine
     implementation->direct.reset();
     implementation->multigrid.reset();
     implementation->matrix.reset();
+    implementation->auto_failed = false;
   }
 
 
@@ -430,7 +433,7 @@ namespace moraine
                       solver,
                       "direct factorises; amg-cg is for symmetric tangents, "
                       "gmres for unsymmetric ones; auto chooses by size and "
-                      "falls back to direct",
+                      "falls back to direct until the matrix has a new pattern",
                       Patterns::Selection("auto|direct|amg-cg|gmres"));
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,

@@ -278,6 +278,9 @@ TEST(LinearSolver, AutoChoosesBySizeAndFallsBack)
   EXPECT_EQ(report.message,
             "amg-cg did not converge in 3 iterations; solved directly");
   EXPECT_LT(true_residual(problem, x), 1e-11);
+  // It does not try again.
+  impatient.set_up(problem.matrix, true, problem.modes);
+  EXPECT_EQ(impatient.solve(x, problem.rhs).message, "");
 
   parameters.solver = "amg-cg";
   LinearSolver stubborn(parameters, 2);

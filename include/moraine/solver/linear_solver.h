@@ -35,7 +35,7 @@ namespace moraine
     unsigned int maximum_iterations = 500;
 
     /** In 2D, auto solves directly up to this many unknowns. */
-    unsigned int direct_limit_2d = 100000;
+    unsigned int direct_limit_2d = 20000;
 
     /** In 3D, auto solves directly up to this many unknowns. */
     unsigned int direct_limit_3d = 5000;
