@@ -3,8 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """Draw a VTU file of a run as a PNG picture, or write its values as a CSV table.
 
-Points are drawn as discs (balls in 3D) of the size of their volume, meshes as
-cells with their edges; walls can be added as lines. Several files become panels
+Points are drawn as discs (balls in 3D) of the size of their volume, meshes and
+the domains of points as cells with their edges; walls can be added as lines. Several files become panels
 of one picture, with the same axes and colours. Needs the Debian packages
 python3-vtk9 and xvfb (without a display the program starts itself under
 xvfb-run).
@@ -286,7 +286,8 @@ def arguments():
     parser = argparse.ArgumentParser(
         description="Draw a VTU file of a run as a PNG picture.")
     parser.add_argument("files", nargs="+", metavar="file",
-                        help="VTU file of points or of a mesh; one per panel")
+                        help="VTU file of points, their domains or a mesh; one "
+                        "per panel")
     parser.add_argument("--label", nargs="+", default=[],
                         help="above each panel")
     parser.add_argument("--columns", type=int, default=1, help="of panels")
@@ -330,7 +331,8 @@ class Panel:
         self.data = read(args.files[number])
         self.range = add_value(self.data, args.field, args.component)
         self.flat = is_flat(self.data)
-        self.is_points = self.data.GetPointData().HasArray("volume")
+        # The domains of points have their fields too.
+        self.is_points = self.data.GetCellType(0) == vtk.VTK_VERTEX
         self.shapes = as_glyphs(self.data, args.point_scale) \
             if self.is_points else self.data
         self.walls = args.wall + [wall[1:] for wall in args.wall_of

@@ -73,7 +73,11 @@ CSV
 beam() { run "$1" large-deformation/beam-gimp "${@:2}"; }
 beam fe "Method/Method = finite element" "Method/Degree = 2" "Mesh/Cell size = 0.25" \
   "Method/Empty stiffness = 0" "${quiet[@]}"
-beam b2 "${quiet[@]}"
+beam b2
+render beam-domains b2/domains/000{10,50}.vtu --mesh b2/mesh/000{10,50}.vtu --columns 2 \
+  --label "20 kN" "100 kN" --field stress --component xx --diverging --range -2000000 2000000 --size 400 460 \
+  --heading "Cantilever, GIMP, h = 0.5 m, 2² points per cell: their domains" \
+  --title "stress σ_xx" --unit Pa --length-unit m
 beam b6 "Method/Points per direction = 6" "Mesh/Cell size = 0.25"
 plot large-beam 900,640 <<'GP'
 set title 'Cantilever bent by a force at its end: how far the end moves'

@@ -41,8 +41,15 @@ GP
 
 for method in fe mpm cpdi1 cpdi2; do
   run "twist-80-$method" "wang-2018/twist-80-$method" "${quiet[@]}"
+  for n in 1 2; do
+    run "twist-80-$method-$n" "wang-2018/twist-80-$method" "Mesh/Refinements = $n" \
+      "Method/Put back = 0.3" "Solver/Limit points = jump" "${quiet[@]}"
+  done
   run "ellipse-$method" "wang-2018/ellipse-$method"
 done
+# With 2² points the fine cells along the hole run out of points.
+run twist-80-mpm-3 wang-2018/twist-80-mpm "Mesh/Refinements = 2" "Method/Points per direction = 3" \
+  "Method/Put back = 0.3" "Solver/Limit points = jump" "${quiet[@]}"
 run shear wang-2018/shear
 
 # curves of four methods over the angle: torque and force of the hole over E
@@ -69,6 +76,19 @@ plot for [i=1:4] 'twist-80-'.Method[i].'/history.csv' using 't':@f w lp lt Type[
 set ylabel 'torque  |M| / (2π · 5² E)  [-]'
 plot for [i=1:4] 'twist-80-'.Method[i].'/history.csv' using 't':@tau w lp lt Type[i] notitle
 GP
+plot twist-fine 1000,560 <<'GP'
+set multiplot layout 1,2 title 'Doughnut twist, 2×2 points per cell, steps of at most 5°, Limit points = jump'
+load 'curves.gp'
+set xrange [0:82]
+set ylabel 'torque  |M| / (2π · 5² E)  [-]'
+set yrange [0:1]
+set label 1 '10×36 cells' at graph 0.05,0.93
+plot for [i=1:4] 'twist-80-'.Method[i].'-1/history.csv' using 't':@tau w lp lt Type[i] ps 0.7 title Words[i]
+set label 1 '20×72 cells, standard MPM 3×3 points'
+array Run[4] = ['fe-2', 'mpm-3', 'cpdi1-2', 'cpdi2-2']
+plot for [i=1:4] 'twist-80-'.Run[i].'/history.csv' using 't':@tau w lp lt Type[i] ps 0.7 notitle, \
+     'twist-80-mpm-2/history.csv' using 't':@tau w l lt 1 dt 3 title 'standard MPM, 2×2 points'
+GP
 plot ellipse-torque 900,560 <<'GP'
 set title 'Elliptical hole 6×4, 232 cells, 2×2 points per cell, steps of 5°'
 load 'curves.gp'
@@ -89,3 +109,6 @@ for method in mpm cpdi2; do
     --field plastic_strain --range 0 2 --point-scale 0.7 --size 460 460 \
     --heading "Elliptical hole, ${method^^}: points and mesh" --title "plastic strain" --unit "-"
 done
+render ellipse-domains ellipse-cpdi2/domains/000{04,06,12}.vtu --columns 3 --label "20°" "30°" "60°" \
+  --field plastic_strain --range 0 2 --size 460 460 \
+  --heading "Elliptical hole, CPDI2: domains of the points" --title "plastic strain" --unit "-"
