@@ -65,7 +65,9 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::begin_step(const double t)
+  MechanicsSystem<dim>::begin_step(
+    const double                 t,
+    const std::function<void()> &before_new_tangent)
   {
     {
       TimerOutput::Scope scope(timer, "stencils");
@@ -98,6 +100,8 @@ namespace moraine
     if (changed || state.mesh_after_step() == MeshAfterStep::reset)
       for (auto &load : loads.carried)
         load.find_cells(state.grid(), reach);
+    if (changed && before_new_tangent)
+      before_new_tangent();
     if (changed)
       set_up_unknowns();
     else if (cells_moved)
@@ -111,7 +115,8 @@ namespace moraine
   void
   MechanicsSystem<dim>::set_up_unknowns()
   {
-    TimerOutput::Scope    scope(timer, "set up unknowns");
+    TimerOutput::Scope scope(timer, "set up unknowns");
+    matrix.reset();
     const GridSpace<dim> &space = state.grid();
 
     body_of_cell.assign(space.mesh().triangulation().n_active_cells(), 0);

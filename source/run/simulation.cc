@@ -115,7 +115,7 @@ namespace moraine
   Simulation<dim>::advance(TimeControl &time)
   {
     if (!first_step)
-      system->begin_step(time.time());
+      system->begin_step(time.time(), [this]() { linear_solver->clear(); });
     Newton     newton(scene.newton);
     LA::Vector x;
     for (;;)
@@ -131,16 +131,16 @@ namespace moraine
           }
         NewtonReport report = newton.solve(*system, *linear_solver, x);
         count(report);
-        const bool jumped = !report.converged() && !time.can_cut() &&
-                            scene.newton.limit_points == "jump";
-        if (jumped)
-          {
-            report = newton.jump(*system, *linear_solver, x);
-            count(report);
-          }
         if (report.status == NewtonStatus::linear_solver_failed &&
             hold_empty_parts(report))
           continue;
+        const bool jumps =
+          !report.converged() && !time.can_cut() &&
+          report.status != NewtonStatus::linear_solver_failed &&
+          scene.newton.limit_points == "jump";
+        if (jumps)
+          report = jump(newton, time, report, x);
+        condition_number = std::max(condition_number, report.condition_number);
         const std::string reason = reason_to_reject(report, x);
         if (reason.empty())
           {
@@ -149,7 +149,7 @@ namespace moraine
                 return mesh_motion.map(X, time.time(), time.trial_time());
               });
             check_that_points_stay(time, x);
-            if (jumped)
+            if (jumps)
               note_jump(time);
             time.accept(report.iterations);
             print_step(time, report);
@@ -184,8 +184,25 @@ namespace moraine
   {
     newton_iterations += report.iterations;
     linear_iterations += report.linear_iterations;
-    solver_name      = report.linear_solver;
-    condition_number = std::max(condition_number, report.condition_number);
+    solver_name = report.linear_solver;
+  }
+
+
+
+  template <int dim>
+  NewtonReport
+  Simulation<dim>::jump(Newton             &newton,
+                        const TimeControl  &time,
+                        const NewtonReport &failed,
+                        LA::Vector         &x)
+  {
+    // Forget multipliers that the failed solution changed.
+    system->set_target(time.trial_time());
+    NewtonReport report = newton.jump(*system, *linear_solver, x);
+    count(report);
+    if (!report.converged())
+      report.message = failed.message + "; no jump: " + report.message;
+    return report;
   }
 
 
@@ -201,7 +218,7 @@ namespace moraine
              " (nodes that too few points touch can be the cause; "
              "'Empty stiffness = 1e-6' in section 'Method' holds them)";
     if (!report.converged())
-      return report.message;
+      return report.message.empty() ? to_string(report.status) : report.message;
     if (holds_empty_parts &&
         system->share_of_empty_parts() > largest_empty_share)
       return "what points leave empty would carry the load: too few points in "

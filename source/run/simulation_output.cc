@@ -95,8 +95,8 @@ namespace moraine
     double distance = 0;
     for (const auto &u : state->nodal_increments())
       distance = std::max(distance, u.norm());
-    console << "  note: the path of equilibria ends at t = " << time.time()
-            << "; jumped to another equilibrium, "
+    console << "  note: no way on from t = " << time.time()
+            << "; came to rest at an equilibrium "
             << Utilities::MPI::max(distance, communicator) << " away"
             << std::endl;
   }

@@ -126,7 +126,7 @@ namespace moraine
           factors->solver->SetUseTranspose(transposed);
           factorise(true);
           // KLU is less careful with its pivots.
-          if (succeeded(choice != choices.back()) || choice != "Klu")
+          if (check_factors(choice != choices.back()) || choice != "Klu")
             break;
         }
   }
@@ -134,7 +134,7 @@ namespace moraine
 
 
   bool
-  DirectSolver::succeeded(const bool may_try_another)
+  DirectSolver::check_factors(const bool may_try_another)
   {
     if (failure.empty() && !transposed &&
         singular(package == "Klu" && may_try_another))
@@ -151,7 +151,7 @@ namespace moraine
     if (failure.empty())
       {
         factorise(false);
-        if (succeeded(true))
+        if (check_factors(true))
           return;
       }
     choose_package();
@@ -190,7 +190,11 @@ namespace moraine
     factors->problem.SetLHS(&x.trilinos_vector());
     factors->problem.SetRHS(
       const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
-    return factors->solver->Solve() == 0;
+    const bool solved = factors->solver->Solve() == 0;
+    // The vectors may go before the factors are used again.
+    factors->problem.SetLHS(nullptr);
+    factors->problem.SetRHS(nullptr);
+    return solved;
   }
 
 

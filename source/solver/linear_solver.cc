@@ -30,6 +30,9 @@ namespace moraine
      */
     constexpr double worth_a_hierarchy = 25;
 
+    /** Set-ups that auto does directly once an iterative solver failed. */
+    constexpr unsigned int direct_after_failure = 10;
+
 
 
     /**
@@ -148,11 +151,12 @@ namespace moraine
     Method                                             method = Method::direct;
     bool                                               is_symmetric = true;
     bool                                               is_finite    = true;
-    bool                                               auto_failed  = false;
+    unsigned int                                       stay_direct  = 0;
     std::vector<LA::Vector>                            near_null_space;
     std::string                                        fall_back_reason;
     std::optional<DirectSolver>                        direct;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
+    bool hierarchy_is_new = false; ///< made of the values of the matrix
     /** Iterations for a digit with the values of its set-up; 0: not known. */
     double iterations_per_digit = 0;
     /** Iterations that later values took on top of that. */
@@ -191,6 +195,7 @@ namespace moraine
     const MultigridOptions options(*matrix, is_symmetric, near_null_space, dim);
     multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     multigrid->initialize(*matrix, options.list);
+    hierarchy_is_new     = true;
     iterations_per_digit = extra_iterations = 0;
   }
 
@@ -200,11 +205,13 @@ namespace moraine
   LinearSolver::Implementation::watch_multigrid(const LinearReport &report)
   {
     const double digits = -std::log10(report.relative_residual);
-    if (!(digits >= 1))
+    if (!(digits >= 1) || !std::isfinite(digits))
       return;
-    if (iterations_per_digit == 0)
+    if (hierarchy_is_new)
       iterations_per_digit = report.iterations / digits;
-    extra_iterations += report.iterations - iterations_per_digit * digits;
+    else if (iterations_per_digit > 0)
+      extra_iterations +=
+        std::max(0., report.iterations - iterations_per_digit * digits);
   }
 
 
@@ -215,7 +222,8 @@ namespace moraine
     const unsigned int limit =
       dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     if (parameters.solver == "direct" ||
-        (parameters.solver == "auto" && (matrix->m() <= limit || auto_failed)))
+        (parameters.solver == "auto" &&
+         (matrix->m() <= limit || stay_direct > 0)))
       return Method::direct;
     if (parameters.solver == "amg-cg" ||
         (parameters.solver == "auto" && symmetric))
@@ -228,7 +236,7 @@ namespace moraine
   unsigned int
   LinearSolver::Implementation::allowed_iterations(const double reduction) const
   {
-    if (iterations_per_digit == 0)
+    if (hierarchy_is_new)
       return parameters.maximum_iterations;
     const double as_new =
       iterations_per_digit * std::max(1., -std::log10(reduction));
@@ -305,7 +313,10 @@ namespace moraine
     s.matrix       = matrix;
     s.is_symmetric = symmetric;
     s.method       = s.choose(symmetric);
-    s.fall_back_reason.clear();
+    if (s.stay_direct > 0)
+      --s.stay_direct;
+    else
+      s.fall_back_reason.clear();
     s.is_finite = std::isfinite(matrix->frobenius_norm());
     if (!s.is_finite)
       return;
@@ -319,8 +330,11 @@ namespace moraine
       }
     s.direct.reset();
     s.near_null_space = near_null_space;
-    if (!s.multigrid || s.extra_iterations > worth_a_hierarchy)
+    if (!s.multigrid || s.iterations_per_digit == 0 ||
+        s.extra_iterations > worth_a_hierarchy)
       s.make_multigrid();
+    else
+      s.hierarchy_is_new = false;
   }
 
 
@@ -342,20 +356,22 @@ namespace moraine
       }
     if (!s.direct)
       {
-        const bool   is_new = s.iterations_per_digit == 0;
-        LinearReport report = s.solve_iteratively(x, b, enough);
-        if (!report.converged && !is_new)
+        LinearReport report  = s.solve_iteratively(x, b, enough);
+        unsigned int in_vain = 0;
+        if (!report.converged && !s.hierarchy_is_new)
           {
+            in_vain = report.iterations;
             s.make_multigrid();
             report = s.solve_iteratively(x, b, enough);
           }
         s.watch_multigrid(report);
+        report.iterations += in_vain;
         if (!report.converged)
           x = 0.;
         if (report.converged || s.parameters.solver != "auto")
           return report;
         s.fall_back_reason = report.message + "; solved directly";
-        s.auto_failed      = true;
+        s.stay_direct      = direct_after_failure;
         s.multigrid.reset();
         s.direct.emplace(*s.matrix);
       }
@@ -389,7 +405,8 @@ namespace moraine
     implementation->direct.reset();
     implementation->multigrid.reset();
     implementation->matrix.reset();
-    implementation->auto_failed = false;
+    // Of another layout, a Trilinos vector cannot be assigned to.
+    implementation->near_null_space.clear();
   }
 
 
@@ -433,7 +450,7 @@ namespace moraine
                       solver,
                       "direct factorises; amg-cg is for symmetric tangents, "
                       "gmres for unsymmetric ones; auto chooses by size and "
-                      "falls back to direct until the matrix has a new pattern",
+                      "falls back to direct where they fail",
                       Patterns::Selection("auto|direct|amg-cg|gmres"));
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,

@@ -82,6 +82,9 @@ namespace moraine
       go_on(const NewtonReport &found);
 
     private:
+      NewtonReport
+      end();
+
       const NewtonParameters &parameters;
       NonlinearSystem        &system;
       LinearSolver           &linear_solver;
@@ -216,7 +219,7 @@ namespace moraine
                       std::to_string(iterations_since_pass) + " iterations");
       LA::Vector         dx(system.residual());
       const LinearReport linear =
-        linear_solver.solve(dx, system.residual(), 0.1 * goal());
+        linear_solver.solve(dx, system.residual(), small() ? 0. : 0.1 * goal());
       report.linear_solver = linear.solver;
       report.linear_iterations += linear.iterations;
       if (!linear.converged)
@@ -322,6 +325,16 @@ namespace moraine
 
 
     NewtonReport
+    Iteration::end()
+    {
+      if (tangent_is_factorised)
+        report.condition_number = linear_solver.condition_number();
+      return report;
+    }
+
+
+
+    NewtonReport
     Iteration::run()
     {
       system.initial_guess(x);
@@ -341,8 +354,7 @@ namespace moraine
       report.observed_order = observed_order(report.residuals);
       if (balanced)
         settle_multipliers();
-      report.condition_number = linear_solver.condition_number();
-      return report;
+      return end();
     }
 
 
@@ -355,8 +367,7 @@ namespace moraine
       scale_at_start = system.force_scale();
       if (iterate())
         settle_multipliers();
-      report.condition_number = linear_solver.condition_number();
-      return report;
+      return end();
     }
   } // namespace
 
@@ -405,8 +416,7 @@ namespace moraine
                LinearSolver    &linear_solver,
                LA::Vector      &x)
   {
-    NewtonReport report =
-      come_to_rest(system, linear_solver, parameters.tolerance, x);
+    NewtonReport report = come_to_rest(parameters, system, linear_solver, x);
     if (report.converged())
       report = Iteration(parameters, system, linear_solver, x).go_on(report);
     return report;

@@ -14,7 +14,7 @@ namespace moraine
   {
     constexpr unsigned int maximum_steps = 200;
 
-    /** What a step without answer, or uphill, raises lambda to at least. */
+    /** Where lambda is to grow, it is at least this. */
     constexpr double least_resistance = 1e-4;
 
 
@@ -74,40 +74,49 @@ namespace moraine
 
 
   NewtonReport
-  come_to_rest(NonlinearSystem &system,
-               LinearSolver    &linear_solver,
-               const double     tolerance,
-               LA::Vector      &x)
+  come_to_rest(const NewtonParameters &parameters,
+               NonlinearSystem        &system,
+               LinearSolver           &linear_solver,
+               LA::Vector             &x)
   {
     NewtonReport report;
-    double       lambda = 1;
-    const auto   record = [&]() {
-      report.residuals.push_back(
-        relative_to(system.residual().l2_norm(), system.force_scale()));
-      return std::isfinite(report.residuals.back());
-    };
-    const auto fail = [&](const NewtonStatus status, const std::string &why) {
+    const auto   fail = [&](const NewtonStatus status, const std::string &why) {
       report.status  = status;
       report.message = why;
     };
+    const auto assemble = [&]() {
+      system.assemble(x, true);
+      return std::isfinite(system.residual().l2_norm());
+    };
+    const auto at_rest = [&]() {
+      const double norm = system.residual().l2_norm();
+      return !system.linearised() &&
+             norm <= std::max(parameters.tolerance * system.force_scale(),
+                              parameters.absolute_tolerance);
+    };
+    const auto record = [&]() {
+      report.residuals.push_back(
+        relative_to(system.residual().l2_norm(), system.force_scale()));
+    };
 
     system.initial_guess(x);
-    system.assemble(x, true);
-    if (!record())
+    if (!assemble())
       fail(NewtonStatus::not_a_number,
            "the residual is not a number at the start of the step");
-    while (report.converged() &&
-           (report.residuals.back() > tolerance || system.linearised()))
+    record();
+    // One object, so that the linear solver may keep what it can.
+    const auto damped = std::make_shared<LA::SparseMatrix>();
+    double     lambda = 1;
+    for (unsigned int n = 0; report.converged() && !at_rest(); ++n)
       {
-        if (report.iterations++ == maximum_steps)
+        if (n == maximum_steps)
           {
             fail(NewtonStatus::too_many_iterations,
                  "nothing at rest after " + std::to_string(maximum_steps) +
                    " steps through a viscous medium");
             break;
           }
-        const LA::Vector d      = resistances(*system.tangent(), x);
-        const auto       damped = std::make_shared<LA::SparseMatrix>();
+        const LA::Vector d = resistances(*system.tangent(), x);
         damped->copy_from(*system.tangent());
         add_resistance(lambda, d, *damped);
         linear_solver.set_up(damped,
@@ -127,15 +136,18 @@ namespace moraine
 
         const LA::Vector x_start(x);
         x += dx;
-        system.assemble(x, true);
-        if (!record())
+        if (!assemble())
           {
-            report.residuals.pop_back();
-            x = x_start;
-            system.assemble(x, true);
+            x      = x_start;
             lambda = more_resistance(lambda);
+            // Not linearised any more, what was finite may not be.
+            if (!assemble())
+              fail(NewtonStatus::not_a_number,
+                   "the residual is not a number on the way to rest");
             continue;
           }
+        ++report.iterations;
+        record();
         const double work_after = dx * system.residual();
         LA::Vector   d_dx(dx);
         d_dx.scale(d);

@@ -545,3 +545,15 @@ TEST(Newton, AJumpAugmentsToo)
   EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
   EXPECT_NEAR(outcome.x[1], 0.1, 1e-13);
 }
+
+TEST(Newton, NoTangentNoConditionNumber)
+{
+  LinearSolverParameters parameters;
+  parameters.estimate_condition_number = true;
+  LinearSolver linear_solver(parameters, 2);
+  LA::Vector   x;
+  SmallSystem  loaded = linear(), free = linear(0.);
+  Newton       newton({});
+  EXPECT_TRUE(newton.solve(loaded, linear_solver, x).condition_number);
+  EXPECT_FALSE(newton.solve(free, linear_solver, x).condition_number);
+}

@@ -17,6 +17,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -84,10 +85,12 @@ namespace moraine
 
     /**
      * Start a step at @p t: bring cells, unknowns, sparsity pattern and pieces
-     * of boundaries up to date.
+     * of boundaries up to date. @p before_new_tangent is called before memory
+     * is taken for a new pattern: whoever holds the old tangent may let it go.
      */
     void
-    begin_step(const double t);
+    begin_step(const double                 t,
+               const std::function<void()> &before_new_tangent = {});
 
     /** Aim at @p t_end from the committed state; undoes an earlier trial. */
     void

@@ -33,7 +33,7 @@ namespace moraine
     std::uint64_t points            = 0;
     unsigned int  steps             = 0;
     unsigned int  rejected_steps    = 0;
-    /** Steps that ended at an equilibrium away from the path. */
+    /** Steps that ended by Newton::jump(). */
     unsigned int  jumps             = 0;
     unsigned int  newton_iterations = 0;
     unsigned int  linear_iterations = 0;

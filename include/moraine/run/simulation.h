@@ -96,11 +96,18 @@ namespace moraine
     void
     count(const NewtonReport &report);
 
+    /** Newton::jump() after a solution that @p failed. */
+    NewtonReport
+    jump(Newton             &newton,
+         const TimeControl  &time,
+         const NewtonReport &failed,
+         LA::Vector         &x);
+
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
 
-    /** Say how far the trial state is from that at @p time. Collective. */
+    /** Say how far the trial state is from the accepted one. Collective. */
     void
     note_jump(const TimeControl &time);
 

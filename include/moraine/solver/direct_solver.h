@@ -50,7 +50,7 @@ namespace moraine
     std::unique_ptr<Factors> factors;
     std::string              failure;
 
-    /** Take the first package that can. */
+    /** The first one that is there; another one if KLU fails. */
     void
     choose_package();
 
@@ -58,8 +58,9 @@ namespace moraine
     void
     factorise(const bool is_new);
 
+    /** Whether factorise() gave good factors; if not, failure says why. */
     bool
-    succeeded(const bool may_try_another);
+    check_factors(const bool may_try_another);
 
     bool
     back_substitute(LA::Vector &x, const LA::Vector &b);

@@ -71,9 +71,9 @@ namespace moraine
 
     /**
      * Factorise @p matrix or build its preconditioner. A matrix that is set up
-     * again with other values keeps its order of elimination and, while the
-     * iteration does not suffer, the multigrid hierarchy of the old values;
-     * the pattern must not have changed.
+     * again with other values in the same pattern keeps its order of
+     * elimination and, while the iteration does not suffer, the coarse levels
+     * of the multigrid hierarchy and its estimates of eigenvalues.
      *
      * The rigid-body modes @p near_null_space are for algebraic multigrid; they
      * may be empty.
@@ -86,7 +86,9 @@ namespace moraine
     /**
      * Solve with what set_up() built. The start value of @p x is not used; if
      * the report says not converged, @p x is zero. Iterative solvers may stop
-     * at a residual norm of @p enough.
+     * at a residual norm of @p enough. Where auto has to solve directly what
+     * was meant for an iterative solver, the report says so; it does the same
+     * for the next ten set-ups.
      */
     LinearReport
     solve(LA::Vector &x, const LA::Vector &b, const double enough = 0.);

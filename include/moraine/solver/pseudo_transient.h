@@ -16,26 +16,24 @@ namespace moraine
    *
    * Implicit Euler, one linearisation a step: (K + lambda D) dx = r with lambda
    * = 1/dtau, which ends as Newton's method (pseudo-transient continuation,
-   * Kelley and Keyes 1998, doi 10.1137/S0036142996304796). There the norm of
-   * the residual chooses lambda. It grows on the way through unstable states;
-   * here lambda follows the stiffness c = (g_0 - g_1) / (dx D dx) found along
-   * the last correction, where g_0 and g_1 are the work dx r per step before
-   * and after it.
+   * Kelley and Keyes 1998, doi 10.1137/S0036142996304796). They let lambda
+   * follow the norm of the residual. That norm grows on the way through
+   * unstable states, so here lambda follows the stiffness
+   * c = (g_0 - g_1) / (dx D dx) found along the last correction, where g_0 and
+   * g_1 are the work dx r per step before and after it.
    *
    * @param system the equations; its multipliers stay as they are
    * @param linear_solver left without a matrix
-   * @param tolerance of the residual, relative to
-   * NonlinearSystem::force_scale()
+   * @param parameters the tolerances are those of Newton's method
    * @param x at the end the last iterate; it starts from
    * NonlinearSystem::initial_guess()
-   * @return converged, linear_solver_failed, too_many_iterations or
-   * not_a_number
+   * @return converged, too_many_iterations or not_a_number
    */
   NewtonReport
-  come_to_rest(NonlinearSystem &system,
-               LinearSolver    &linear_solver,
-               const double     tolerance,
-               LA::Vector      &x);
+  come_to_rest(const NewtonParameters &parameters,
+               NonlinearSystem        &system,
+               LinearSolver           &linear_solver,
+               LA::Vector             &x);
 } // namespace moraine
 
 #endif
