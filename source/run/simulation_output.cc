@@ -87,6 +87,7 @@ namespace moraine
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::note_jump(const TimeControl &time)
@@ -126,6 +127,7 @@ namespace moraine
               << std::endl;
     n_put_back = n_back;
   }
+
 
 
   template <int dim>
@@ -172,6 +174,7 @@ namespace moraine
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::write_vtu(const double t)
@@ -192,6 +195,7 @@ namespace moraine
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::write_points(const double t)
@@ -210,6 +214,7 @@ namespace moraine
       *basis, *points, directory->file(domains), t, n_vtu_written);
     domains_pvd->add(t, domains);
   }
+
 
 
   template <int dim>
@@ -236,6 +241,7 @@ namespace moraine
       }
     console << line.str() << std::endl;
   }
+
 
 
   template <int dim>
@@ -289,6 +295,7 @@ namespace moraine
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::keep_summary_of_failure(const TimeControl &time,
@@ -308,6 +315,7 @@ namespace moraine
         // The first error is the one to report.
       }
   }
+
 
 
   template <int dim>
