@@ -208,13 +208,22 @@ namespace moraine
   void
   MechanicsSystem<dim>::set_target(const double t_end)
   {
-    t_target       = t_end;
+    t_target = t_end;
+    start_over();
+    TimerOutput::Scope scope(timer, "external forces");
+    assemble_external_forces();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::start_over()
+  {
     assembled      = false;
     last_violation = std::numeric_limits<double>::max();
     for (auto &boundary : boundaries)
-      boundary.set_target(t_end);
-    TimerOutput::Scope scope(timer, "external forces");
-    assemble_external_forces();
+      boundary.set_target(t_target);
   }
 
 

@@ -139,7 +139,7 @@ namespace moraine
           report.status != NewtonStatus::linear_solver_failed &&
           scene.newton.limit_points == "jump";
         if (jumps)
-          report = jump(newton, time, report, x);
+          report = jump(newton, report, x);
         condition_number = std::max(condition_number, report.condition_number);
         const std::string reason = reason_to_reject(report, x);
         if (reason.empty())
@@ -192,12 +192,9 @@ namespace moraine
   template <int dim>
   NewtonReport
   Simulation<dim>::jump(Newton             &newton,
-                        const TimeControl  &time,
                         const NewtonReport &failed,
                         LA::Vector         &x)
   {
-    // Forget multipliers that the failed solution changed.
-    system->set_target(time.trial_time());
     NewtonReport report = newton.jump(*system, *linear_solver, x);
     count(report);
     if (!report.converged())

@@ -416,6 +416,7 @@ namespace moraine
                LinearSolver    &linear_solver,
                LA::Vector      &x)
   {
+    system.start_over();
     NewtonReport report = come_to_rest(parameters, system, linear_solver, x);
     if (report.converged())
       report = Iteration(parameters, system, linear_solver, x).go_on(report);

@@ -206,6 +206,17 @@ namespace
   }
 
   SmallSystem
+  not_a_number()
+  {
+    return SmallSystem(
+      {1., 1.},
+      [](const Values &) {
+        return Values{std::numeric_limits<double>::quiet_NaN(), 0.};
+      },
+      [](const Values &) { return two_by_two(1., 0., 0., 1.); });
+  }
+
+  SmallSystem
   linear(const double load = 1.)
   {
     return SmallSystem(
@@ -289,13 +300,7 @@ TEST(Newton, StepsBackFromAStateThatDoesNotExist)
 
 TEST(Newton, ReportsWhatWentWrong)
 {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  SmallSystem  undefined(
-    {1., 1.},
-    [nan](const Values &) {
-      return Values{nan, 0.};
-    },
-    [](const Values &) { return two_by_two(1., 0., 0., 1.); });
+  SmallSystem undefined = not_a_number();
   EXPECT_EQ(solve(undefined).report.status, NewtonStatus::not_a_number);
 
   SmallSystem singular(
@@ -374,6 +379,12 @@ namespace
         return false;
       multiplier += b * gap;
       return true;
+    }
+
+    void
+    start_over() override
+    {
+      multiplier = 0.;
     }
 
     static constexpr double b = 1e3;
@@ -527,13 +538,7 @@ TEST(Newton, AJumpSaysWhenThereIsNoRest)
   EXPECT_NE(outcome.report.message.find("at rest"), std::string::npos)
     << outcome.report.message;
 
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  SmallSystem  undefined(
-    {1., 1.},
-    [nan](const Values &) {
-      return Values{nan, 0.};
-    },
-    [](const Values &) { return two_by_two(1., 0., 0., 1.); });
+  SmallSystem undefined = not_a_number();
   EXPECT_EQ(jump(undefined).report.status, NewtonStatus::not_a_number);
 }
 
@@ -556,4 +561,16 @@ TEST(Newton, NoTangentNoConditionNumber)
   Newton       newton({});
   EXPECT_TRUE(newton.solve(loaded, linear_solver, x).condition_number);
   EXPECT_FALSE(newton.solve(free, linear_solver, x).condition_number);
+}
+
+TEST(Newton, AJumpForgetsMultipliersThatFailed)
+{
+  const auto residuals = [](const double left_by_failure) {
+    double     multiplier = left_by_failure;
+    Augmented  system(0.5, multiplier);
+    const auto outcome = jump(system);
+    EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+    return outcome.report.residuals;
+  };
+  EXPECT_EQ(residuals(-300.), residuals(0.));
 }

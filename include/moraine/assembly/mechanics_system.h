@@ -115,12 +115,8 @@ namespace moraine
     void
     check_that_it_is_held(const bool first_step) const;
 
-    /** Let the next assemble() be the first of the step again. */
     void
-    start_over()
-    {
-      assembled = false;
-    }
+    start_over() override;
 
     bool
     linearised() const override

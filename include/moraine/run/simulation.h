@@ -98,10 +98,7 @@ namespace moraine
 
     /** Newton::jump() after a solution that @p failed. */
     NewtonReport
-    jump(Newton             &newton,
-         const TimeControl  &time,
-         const NewtonReport &failed,
-         LA::Vector         &x);
+    jump(Newton &newton, const NewtonReport &failed, LA::Vector &x);
 
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string

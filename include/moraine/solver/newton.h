@@ -121,7 +121,8 @@ namespace moraine
 
     /**
      * The same, but along come_to_rest(): to an equilibrium that may be far
-     * away, where a path of equilibria ends.
+     * away, where a path of equilibria ends. Begins with start_over(), for a
+     * solution that failed leaves its multipliers.
      */
     NewtonReport
     jump(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);

@@ -103,6 +103,13 @@ namespace moraine
     apply_constraints(LA::Vector &dx) const = 0;
 
     /**
+     * Forget what assemble() and augment() changed: the step begins anew.
+     */
+    virtual void
+    start_over()
+    {}
+
+    /**
      * Called at a converged @p x: update what the system carries along
      * (multipliers of an augmented Lagrangian). True asks for another pass
      * with the same tangent.
