@@ -233,8 +233,10 @@ namespace moraine
     for (const unsigned int index : near)
       {
         const auto X = vertices_of<dim>(cells[index]);
-        if (in_bounding_box<dim>(X, x) &&
-            in_unit_cell(CellShapes<dim, 1>::inverse(x, X.data())))
+        if (!in_bounding_box<dim>(X, x))
+          continue;
+        const auto xi = CellInverse<dim>(X)(x);
+        if (xi && in_unit_cell(*xi))
           return cells[index];
       }
     const auto found =
@@ -257,8 +259,12 @@ namespace moraine
       }
     neighbours.find(cell, cells);
     vertices.clear();
+    inverses.clear();
     for (const unsigned int index : cells)
-      vertices.push_back(vertices_of<dim>(neighbours.cell(index)));
+      {
+        vertices.push_back(vertices_of<dim>(neighbours.cell(index)));
+        inverses.emplace_back(vertices.back());
+      }
   }
 
 
@@ -274,16 +280,19 @@ namespace moraine
     if (neighbours.mesh().box_grid())
       return locate_in_box(inner, x, active_cell_index, N);
     for (unsigned int k = 0; k < cells.size(); ++k)
-      if (in_bounding_box<dim>(vertices[k], inner) &&
-          in_unit_cell(CellShapes<dim, 1>::inverse(inner, vertices[k].data())))
-        {
-          active_cell_index = cells[k];
-          functions_at<dim>(vertices[k],
-                            CellShapes<dim, 1>::inverse(x, vertices[k].data()),
-                            x,
-                            N);
-          return true;
-        }
+      {
+        if (!in_bounding_box<dim>(vertices[k], inner))
+          continue;
+        const auto xi_inner = inverses[k](inner);
+        if (!xi_inner || !in_unit_cell(*xi_inner))
+          continue;
+        active_cell_index = cells[k];
+        functions_at<dim>(vertices[k],
+                          inverses[k](x).value_or(*xi_inner),
+                          x,
+                          N);
+        return true;
+      }
     return locate_outside(x, active_cell_index, N);
   }
 

@@ -23,7 +23,7 @@ namespace moraine
            Triangulation<dim>::none,
            false,
            parallel::shared::Triangulation<dim>::partition_zorder)
-    , cache(tria, q1_mapping)
+    , cache(tria, cell_mapping)
   {
     if (!parameters.is_box())
       {

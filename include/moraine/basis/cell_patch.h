@@ -5,6 +5,7 @@
 #define moraine_basis_cell_patch_h
 
 #include <moraine/mesh/background_mesh.h>
+#include <moraine/mesh/cell_inverse.h>
 
 #include <limits>
 #include <vector>
@@ -136,6 +137,7 @@ namespace moraine
     const CellNeighbours<dim>     &neighbours;
     std::vector<unsigned int>      cells;
     std::vector<CellVertices<dim>> vertices;
+    std::vector<CellInverse<dim>>  inverses;
     std::array<unsigned int, dim>  place_in_box;
   };
 } // namespace moraine

@@ -7,12 +7,11 @@
 #include <moraine/mesh/cell_map.h>
 #include <moraine/mesh/mesh_parameters.h>
 #include <moraine/mesh/mesh_sides.h>
+#include <moraine/mesh/straight_mapping.h>
 
 #include <deal.II/base/point.h>
 
 #include <deal.II/distributed/shared_tria.h>
-
-#include <deal.II/fe/mapping_q1.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
 
@@ -80,7 +79,7 @@ namespace moraine
     const dealii::Mapping<dim> &
     mapping() const
     {
-      return q1_mapping;
+      return cell_mapping;
     }
 
     /** Finds cells around places and vertices. */
@@ -130,7 +129,7 @@ namespace moraine
     measure_cells();
 
     dealii::parallel::shared::Triangulation<dim> tria;
-    dealii::MappingQ1<dim>                       q1_mapping;
+    StraightMapping<dim>                         cell_mapping;
     dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
     MeshSides                                    sides;
