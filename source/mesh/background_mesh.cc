@@ -6,7 +6,10 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/make_mesh.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -22,9 +25,14 @@ namespace moraine
     : tria(communicator,
            Triangulation<dim>::none,
            false,
-           parallel::shared::Triangulation<dim>::partition_zorder)
+           parallel::shared::Triangulation<dim>::partition_custom_signal)
     , cache(tria, cell_mapping)
   {
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      tria.signals.create.connect([this]() {
+        order_cells();
+        cut_curve([](const CellIterator &) { return 1.; });
+      });
     if (!parameters.is_box())
       {
         Triangulation<dim> cells;
@@ -62,6 +70,56 @@ namespace moraine
         largest_edge = std::max(largest_edge, grid.cell_size[d]);
       }
     box = grid;
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::order_cells()
+  {
+    // As many parts as cells give every cell its place on the Z-curve.
+    curve.resize(tria.n_active_cells());
+    GridTools::partition_triangulation_zorder(curve.size(), tria, false);
+    for (const auto &cell : tria.active_cell_iterators())
+      curve[cell->subdomain_id()] = cell;
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::cut_curve(
+    const std::function<double(const CellIterator &)> &work)
+  {
+    double total = 0;
+    for (const auto &cell : curve)
+      total += work(cell);
+    const unsigned int n_parts =
+      Utilities::MPI::n_mpi_processes(tria.get_communicator());
+    double before = 0;
+    for (const auto &cell : curve)
+      {
+        const double of_cell = work(cell);
+        // The middle of the cell's work decides.
+        cell->set_subdomain_id(static_cast<types::subdomain_id>(
+          n_parts * (before + 0.5 * of_cell) / total));
+        before += of_cell;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::share_cells(
+    const std::function<double(const CellIterator &)> &work)
+  {
+    if (curve.empty())
+      return;
+    cut_curve(work);
+    // Nothing is refined; this makes the triangulation see who owns what.
+    tria.execute_coarsening_and_refinement();
   }
 
 

@@ -44,7 +44,15 @@ namespace moraine
             << " cells, " << space->n_active_cells() << " active, "
             << space->n_dofs() << " unknowns\n"
             << "  points      " << points->n_global() << ", "
-            << points->bytes_per_point() << " bytes each\n";
+            << points->bytes_per_point() << " bytes each";
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        const auto shares =
+          Utilities::MPI::min_max_avg(points->n_local(), communicator);
+        console << ", " << shares.min << " to " << shares.max
+                << " on a process";
+      }
+    console << '\n';
     for (unsigned int b = 0; b < body_names.size(); ++b)
       console << "  body        " << body_names[b] << ", volume "
               << std::setprecision(8) << body_volumes[b] << '\n';

@@ -22,6 +22,36 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Of a cell without points over that of one with points. */
+    constexpr double work_of_empty_cell = 0.05;
+
+
+
+    /**
+     * Judged by the bodies before they are seeded: the part of the cell that a
+     * flat surface would leave at the level of the cell's centre.
+     */
+    template <int dim>
+    double
+    work_of_cell(const std::vector<Body<dim>>                     &bodies,
+                 const typename BackgroundMesh<dim>::CellIterator &cell)
+    {
+      const Point<dim> centre = cell->center();
+      const double     size   = cell->diameter() / std::sqrt(dim);
+      double           filled = 0;
+      for (const Body<dim> &body : bodies)
+        filled = std::max(filled,
+                          body.shape == nullptr ?
+                            1. :
+                            0.5 + body.shape->level(centre) / size);
+      return std::clamp(filled, work_of_empty_cell, 1.);
+    }
+  } // namespace
+
+
+
   template <int dim>
   Simulation<dim>::Simulation(Scene<dim>     &scene,
                               const MPI_Comm &communicator,
@@ -33,8 +63,10 @@ namespace moraine
   {
     TimerOutput::Scope scope(timer, "set up");
     mesh   = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
-    space  = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
     bodies = make_bodies(scene);
+    mesh->share_cells(
+      [this](const auto &cell) { return work_of_cell(bodies, cell); });
+    space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
     for (const Body<dim> &body : bodies)
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies);

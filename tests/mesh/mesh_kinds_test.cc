@@ -257,6 +257,63 @@ TEST(MeshKinds, MovedMeshIsSearchedAnew)
 
 
 
+template <int dim>
+void
+share_by_work(const MeshParameters<dim> &parameters)
+{
+  BackgroundMesh<dim> mesh(parameters, MPI_COMM_WORLD);
+  const auto         &tria     = mesh.triangulation();
+  const unsigned int  n_cells  = tria.n_active_cells();
+  const auto          own_work = [&](const auto &work) {
+    double own = 0;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (cell->is_locally_owned())
+        own += work(cell);
+    return own;
+  };
+  const auto alike = [](const auto &) { return 1.; };
+  // Nearly all of the work is in a quarter of the cells.
+  const auto uneven = [](const auto &cell) {
+    const Point<dim> x = cell->center();
+    return x[0] > 0 && x[1] > 0 ? 1. : 0.01;
+  };
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto expect_balance = [&](const auto &work) {
+    const double own   = own_work(work);
+    const double total = dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD);
+    EXPECT_NEAR(own, total / n_ranks, 1. + 1e-9);
+    EXPECT_EQ(dealii::Utilities::MPI::sum(own_work(alike), MPI_COMM_WORLD),
+              n_cells);
+    EXPECT_EQ(tria.n_locally_owned_active_cells(), own_work(alike));
+  };
+  expect_balance(alike);
+  mesh.share_cells(uneven);
+  expect_balance(uneven);
+
+  // Unknowns see who owns what.
+  GridSpace<dim> space(mesh, 1);
+  space.set_active_cells(std::vector<unsigned char>(n_cells, 1));
+  EXPECT_EQ(dealii::Utilities::MPI::sum(space.locally_owned().n_elements(),
+                                        MPI_COMM_WORLD),
+            space.n_dofs());
+}
+
+
+
+TEST(MeshKinds, ProcessesShareTheWork)
+{
+  MeshParameters<2> box;
+  box.lower_corner = Point<2>(-1, -1);
+  box.upper_corner = Point<2>(1, 1);
+  box.cells        = {{17, 12}};
+  share_by_work(box);
+  share_by_work(annulus<2>());
+  share_by_work(annulus<3>());
+}
+
+
+
 TEST(MeshKinds, MotionThatInvertsACellIsRefused)
 {
   BackgroundMesh<2> mesh(annulus<2>(), MPI_COMM_WORLD);

@@ -45,9 +45,24 @@ namespace moraine
   class BackgroundMesh
   {
   public:
-    /** @throws InputError for a mesh that cannot be made; see make_mesh(). */
+    using CellIterator =
+      typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /**
+     * Every process gets about the same number of cells.
+     *
+     * @throws InputError for a mesh that cannot be made; see make_mesh().
+     */
     BackgroundMesh(const MeshParameters<dim> &parameters,
                    const MPI_Comm            &communicator);
+
+    /**
+     * Share the cells anew, so that the sums of @p work over the cells of each
+     * process are about the same: each has a piece of a curve through all
+     * cells. Call it before anything is built on the mesh. Collective.
+     */
+    void
+    share_cells(const std::function<double(const CellIterator &)> &work);
 
     /**
      * Move every vertex x to @p motion(x), the same on all ranks, and renew
@@ -124,6 +139,14 @@ namespace moraine
       const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
         &motion) const;
 
+    /** Put the cells in order along the curve. */
+    void
+    order_cells();
+
+    /** Cut the curve; see share_cells(). */
+    void
+    cut_curve(const std::function<double(const CellIterator &)> &work);
+
     /** Find the largest edge. */
     void
     measure_cells();
@@ -133,7 +156,10 @@ namespace moraine
     dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
     MeshSides                                    sides;
-    double                                       largest_edge = 0;
+    /** Cells in the order in which processes share them, unless there is one.
+     */
+    std::vector<CellIterator> curve;
+    double                    largest_edge = 0;
   };
 
   /** The vertices of a cell in deal.II's lexicographic order. */
