@@ -18,13 +18,14 @@ namespace moraine
 
   namespace
   {
+    /** The forces that act on material points: on all of a body, on some. */
     template <int dim>
     void
-    add_body_forces(const State<dim>                  &state,
-                    const std::vector<BodyForce<dim>> &body_forces,
-                    const double                       t,
-                    const StencilBlock<dim>           &block,
-                    LocalSystem<dim>                  &local)
+    add_forces_on_points(const State<dim>        &state,
+                         const Loads<dim>        &loads,
+                         const double             t,
+                         const StencilBlock<dim> &block,
+                         LocalSystem<dim>        &local)
     {
       const PointSet<dim> &points = state.material_points();
       for (unsigned int p = 0; p < block.n_points; ++p)
@@ -32,12 +33,15 @@ namespace moraine
           const unsigned int point = block.points[p];
           const unsigned int body  = points.body(point);
           Tensor<1, dim>     f;
-          for (const auto &force : body_forces)
+          for (const auto &force : loads.body_forces)
             if (force.acts_on[body])
               f += (force.times_density ? state.material(body).density() *
                                             state.initial_volume(point) :
                                           points.volume(point)) *
                    force.value(points.position(point), t);
+          for (const auto &force : loads.on_points)
+            if (force.acts_on(point))
+              f += force.value(points.position(point), t);
           for (unsigned int a = 0; a < block.n_nodes; ++a)
             for (unsigned int i = 0; i < dim; ++i)
               local.force[dim * a + i] += block.N(p)[a] * f[i];
@@ -119,14 +123,14 @@ namespace moraine
     LocalSystem<dim>      local;
     local_scale = 0;
     node_forces.assign(space.n_nodes(), Tensor<1, dim>());
-    if (!loads.body_forces.empty())
+    if (!loads.body_forces.empty() || !loads.on_points.empty())
       {
         StencilBlock<dim> block;
         for (unsigned int g = 0; g < state.point_basis().n_groups(); ++g)
           {
             state.point_basis().evaluate(g, block);
             local.reinit(state, block.nodes, block.n_nodes, false);
-            add_body_forces(state, loads.body_forces, t_target, block, local);
+            add_forces_on_points(state, loads, t_target, block, local);
             add_to_system(local, false);
           }
       }

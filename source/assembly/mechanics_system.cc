@@ -81,7 +81,8 @@ namespace moraine
                                         return condition.region.has_value();
                                       }));
     t_start = t;
-    if (!boundaries.empty() || !loads.carried.empty())
+    if (!boundaries.empty() || !loads.carried.empty() ||
+        !loads.on_points.empty())
       reach = point_size();
     const bool cells_moved =
       changed || mesh_motion.moves() ||
@@ -100,6 +101,8 @@ namespace moraine
     if (changed || state.mesh_after_step() == MeshAfterStep::reset)
       for (auto &load : loads.carried)
         load.find_cells(state.grid(), reach);
+    for (auto &load : loads.on_points)
+      load.find_points(state.material_points(), reach);
     if (changed && before_new_tangent)
       before_new_tangent();
     if (changed)

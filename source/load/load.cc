@@ -10,6 +10,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -97,6 +98,62 @@ namespace moraine
 
 
   template <int dim>
+  ForceOnPoints<dim>::ForceOnPoints(const std::string         &name,
+                                    const VectorFunction<dim> &value,
+                                    const Point<dim>          &place)
+    : name(name)
+    , function(value)
+    , place(place)
+  {}
+
+
+
+  template <int dim>
+  void
+  ForceOnPoints<dim>::choose(const PointSet<dim> &points, const double reach)
+  {
+    const MPI_Comm communicator =
+      points.mesh().triangulation().get_communicator();
+    double nearest = std::numeric_limits<double>::max();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      nearest = std::min(nearest, points.position(p).distance(place));
+    nearest = Utilities::MPI::min(nearest, communicator);
+    // A place on a long point can be farther from its middle than its size.
+    if (nearest > 2 * reach)
+      {
+        std::ostringstream message;
+        message << "section 'Loads/" << name << "', key 'Location': found ("
+                << place
+                << "), allowed: places on or in the material of a body";
+        throw InputError(message.str());
+      }
+    std::vector<unsigned int> near;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (points.position(p).distance(place) <= nearest + 1e-6 * reach)
+        near.push_back(points.id(p));
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, near))
+      ids.insert(ids.end(), of_rank.begin(), of_rank.end());
+    std::sort(ids.begin(), ids.end());
+  }
+
+
+
+  template <int dim>
+  void
+  ForceOnPoints<dim>::find_points(const PointSet<dim> &points,
+                                  const double         reach)
+  {
+    if (ids.empty())
+      choose(points, reach);
+    local_points.clear();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (std::binary_search(ids.begin(), ids.end(), points.id(p)))
+        local_points.push_back(p);
+  }
+
+
+
+  template <int dim>
   std::vector<typename CarriedLoad<dim>::Place>
   places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
   {
@@ -130,6 +187,8 @@ namespace moraine
 
   template class CarriedLoad<2>;
   template class CarriedLoad<3>;
+  template class ForceOnPoints<2>;
+  template class ForceOnPoints<3>;
   template std::vector<CarriedLoad<2>::Place>
   places_on(const Surface<2> &, const BackgroundMesh<2> &);
   template std::vector<CarriedLoad<3>::Place>

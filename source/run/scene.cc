@@ -284,12 +284,14 @@ namespace moraine
       "body force (force/volume), gravity (acceleration, times density), side "
       "traction (force/area on a side of the mesh), surface traction "
       "(force/area on a surface carried by the material), point force (force "
-      "carried by the material).",
+      "at a place that the mesh carries along), force on points (force on the "
+      "material points nearest to a place at the start).",
       patterns::selection({"body force",
                            "gravity",
                            "side traction",
                            "surface traction",
-                           "point force"}));
+                           "point force",
+                           "force on points"}));
     prm.add_parameter("Value",
                       value,
                       "dim expressions in x, y, z, t separated by ';'.");
@@ -305,7 +307,8 @@ namespace moraine
     prm.add_parameter("Side", side, "Of side traction: a side of the mesh.");
     prm.add_parameter("Location",
                       location,
-                      "Of point force: where it acts at the start.",
+                      "Of point force and force on points: where it acts at "
+                      "the start.",
                       patterns::numbers(0, dim));
     surface.add_parameters(prm);
   }

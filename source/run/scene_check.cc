@@ -36,6 +36,7 @@ namespace moraine
              (type == "gravity" && key == "Bodies") ||
              (type == "side traction" && key == "Side") ||
              (type == "point force" && key == "Location") ||
+             (type == "force on points" && key == "Location") ||
              (type == "surface traction" && is_of_surface);
     }
 

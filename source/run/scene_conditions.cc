@@ -214,11 +214,14 @@ namespace moraine
             places_on(*make_surface<dim>(parameters.surface, section), mesh));
         else
           {
-            Place at;
-            at.x =
+            const Point<dim> at =
               point_from<dim>(parameters.location, place(section, "Location"));
-            at.weight = 1;
-            loads.carried.emplace_back(name, value, std::vector<Place>{at});
+            if (parameters.type == "force on points")
+              loads.on_points.emplace_back(name, value, at);
+            else
+              loads.carried.emplace_back(name,
+                                         value,
+                                         std::vector<Place>{{at, 1.}});
           }
       }
     return loads;

@@ -41,6 +41,9 @@ refused("boundary with the body behind it",
 refused("gravity without density", {"Loads/weight/Type": "gravity"})
 refused("force beside the body", {"Loads/weight/Type": "point force",
                                   "Loads/weight/Location": "6.5, 6.5"})
+refused("force on points beside the body", {
+    "Loads/weight/Type": "force on points",
+    "Loads/weight/Location": "6.5, 6.5"})
 refused("traction on a side away from the body", {
     "Loads/weight/Type": "side traction", "Loads/weight/Side": "top"})
 refused("probe away from the body", {"Probes/tip/Location": "7.5, 7.5"})

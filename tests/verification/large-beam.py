@@ -16,7 +16,7 @@ def tip(result):
 def beam(**settings):
     keys = {"h": "Mesh/Cell size", "n": "Method/Points per direction",
             "method": "Method/Method", "degree": "Method/Degree",
-            "empty": "Method/Empty stiffness"}
+            "empty": "Method/Empty stiffness", "load": "Loads/end/Type"}
     return run(SCENE, {"Output/Points": "false", "Output/Mesh": "false",
                        **{keys[k]: v for k, v in settings.items()}})
 
@@ -34,6 +34,8 @@ for title, settings, limits in (
         ("GIMP 3x3, h = 0.5", dict(h=0.5, n=3), (0.005, 0.005)),
         ("GIMP 6x6, h = 0.5", dict(h=0.5, n=6), (0.02, 0.02)),
         ("GIMP 2x2, h = 0.25", dict(h=0.25, n=2), (0.005, 0.025)),
+        ("GIMP 2x2, h = 0.125, force on points",
+         dict(h=0.125, n=2, load="force on points"), (0.005, 0.02)),
         ("CPDI1 2x2, h = 0.5", dict(h=0.5, n=2, method="CPDI1"), (0.02, 0.02)),
         ("CPDI2 2x2, h = 0.5", dict(h=0.5, n=2, method="CPDI2"), (0.02, 0.02))):
     result = beam(**settings)

@@ -7,6 +7,7 @@ FORCES = {
     "side": (-8 * 60, 1.5 * 60),
     "top": (0.5 * 60, -8 * 60),
     "push": (30, -50),
+    "nail": (-20, 35),
     "drag": (0.004 * 3600, -0.01 * 3600),
     "weight": (0, -10 * 2e-3 * 3600),
 }
@@ -45,7 +46,7 @@ for load in FORCES:
     bound(f"MPM, {load} alone: unbalance",
           unbalance(run(SCENE, without(others)), [load]), 1e-8)
 for name, settings in METHODS.items():
-    result = run(SCENE, {**settings, **without(["push", "drag", "weight"]),
+    result = run(SCENE, {**settings, **without(["push", "nail", "drag", "weight"]),
                          "Loads/side/Value": "-8; 0",
                          "Loads/top/Value": "0; -8",
                          "Method/Mesh after step": "keep"})
@@ -57,7 +58,7 @@ for name, settings in METHODS.items():
 # The traction on a line inside cells, and displacements prescribed on the grid:
 # strain (-0.001, -(1+nu)(1-2nu)/(1-nu)/E*8 + nu/(1-nu)*0.001).
 result = run(SCENE, {
-    **without(["push", "drag", "weight", "side"]),
+    **without(["push", "nail", "drag", "weight", "side"]),
     "Bodies/block/Upper corner": "60, 65",
     "Loads/top/Points": "60 65; 0 65",
     "Loads/top/Value": "0; -8",

@@ -65,8 +65,8 @@ of_all(d) = column('reaction_'.d.' of left [force]') + column('reaction_'.d.' of
 set key maxrows 2
 plot 'loads/history.csv' using 't':(of_all('x')) w p lt 1 ps 2 title 'reactions, x', \
      'loads/history.csv' using 't':(of_all('y')) w p lt 4 ps 2 title 'reactions, y', \
-     405.6 * curve(x) lt 1 title 'minus the loads, x: 405.6 f(t)', \
-     548 * curve(x) lt 4 title 'minus the loads, y: 548 f(t)'
+     425.6 * curve(x) lt 1 title 'minus the loads, x: 425.6 f(t)', \
+     513 * curve(x) lt 4 title 'minus the loads, y: 513 f(t)'
 GP
 
 run motion verification/rigid-motion

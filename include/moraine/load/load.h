@@ -6,9 +6,11 @@
 
 #include <moraine/boundary/surface.h>
 #include <moraine/mesh/grid_space.h>
+#include <moraine/points/point_set.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -102,6 +104,57 @@ namespace moraine
     bool                      placed = false;
   };
 
+  /**
+   * A force on the material points that are nearest to a place at the start;
+   * all that are equally near share it. It goes to the nodes like the weight of
+   * a point, @f$f_a = \sum_p N_a(x_p) F / n@f$, so that it stays on the
+   * material where a place that the grid carries can drift off its edge. Of a
+   * point that is split, the piece that keeps its number keeps the force.
+   */
+  template <int dim>
+  class ForceOnPoints
+  {
+  public:
+    ForceOnPoints(const std::string         &name,
+                  const VectorFunction<dim> &value,
+                  const dealii::Point<dim>  &place);
+
+    /**
+     * Learn the numbers that the points have in this step; the first time
+     * choose them. Collective.
+     * @throws InputError naming the load if at first no point is within twice
+     * @p reach of the place.
+     */
+    void
+    find_points(const PointSet<dim> &points, const double reach);
+
+    /** Whether the point of this rank has a share. */
+    bool
+    acts_on(const unsigned int point) const
+    {
+      return std::binary_search(local_points.begin(),
+                                local_points.end(),
+                                point);
+    }
+
+    /** The share of a point at @p x. */
+    dealii::Tensor<1, dim>
+    value(const dealii::Point<dim> &x, const double t) const
+    {
+      return 1. / ids.size() * function(x, t);
+    }
+
+  private:
+    void
+    choose(const PointSet<dim> &points, const double reach);
+
+    const std::string         name;
+    const VectorFunction<dim> function;
+    const dealii::Point<dim>  place;
+    std::vector<unsigned int> ids;          ///< sorted, the same on all ranks
+    std::vector<unsigned int> local_points; ///< flat numbers, sorted
+  };
+
   /** The places of a traction surface in a mesh, the same on all ranks. */
   template <int dim>
   std::vector<typename CarriedLoad<dim>::Place>
@@ -111,9 +164,10 @@ namespace moraine
   template <int dim>
   struct Loads
   {
-    std::vector<BodyForce<dim>>    body_forces;
-    std::vector<SideTraction<dim>> side_tractions;
-    std::vector<CarriedLoad<dim>>  carried;
+    std::vector<BodyForce<dim>>     body_forces;
+    std::vector<SideTraction<dim>>  side_tractions;
+    std::vector<CarriedLoad<dim>>   carried;
+    std::vector<ForceOnPoints<dim>> on_points;
   };
 } // namespace moraine
 
