@@ -81,8 +81,7 @@ namespace moraine
                                         return condition.region.has_value();
                                       }));
     t_start = t;
-    if (!boundaries.empty() || !loads.carried.empty() ||
-        !loads.on_points.empty())
+    if (!boundaries.empty() || !loads.carried.empty())
       reach = point_size();
     const bool cells_moved =
       changed || mesh_motion.moves() ||
@@ -102,7 +101,7 @@ namespace moraine
       for (auto &load : loads.carried)
         load.find_cells(state.grid(), reach);
     for (auto &load : loads.on_points)
-      load.find_points(state.material_points(), reach);
+      load.find_points(state.material_points());
     if (changed && before_new_tangent)
       before_new_tangent();
     if (changed)

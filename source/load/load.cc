@@ -110,7 +110,7 @@ namespace moraine
 
   template <int dim>
   void
-  ForceOnPoints<dim>::choose(const PointSet<dim> &points, const double reach)
+  ForceOnPoints<dim>::choose(const PointSet<dim> &points)
   {
     const MPI_Comm communicator =
       points.mesh().triangulation().get_communicator();
@@ -118,18 +118,19 @@ namespace moraine
     for (unsigned int p = 0; p < points.n_local(); ++p)
       nearest = std::min(nearest, points.position(p).distance(place));
     nearest = Utilities::MPI::min(nearest, communicator);
-    // A place on a long point can be farther from its middle than its size.
-    if (nearest > 2 * reach)
+    if (nearest > 2 * points.mesh().cell_size())
       {
         std::ostringstream message;
         message << "section 'Loads/" << name << "', key 'Location': found ("
-                << place
-                << "), allowed: places on or in the material of a body";
+                << place << "), which is " << nearest
+                << " from the nearest point, allowed: a place on or beside a "
+                   "body, less than two cells away";
         throw InputError(message.str());
       }
     std::vector<unsigned int> near;
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.position(p).distance(place) <= nearest + 1e-6 * reach)
+      if (points.position(p).distance(place) <=
+          nearest + 1e-6 * points.mesh().cell_size())
         near.push_back(points.id(p));
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, near))
       ids.insert(ids.end(), of_rank.begin(), of_rank.end());
@@ -140,11 +141,10 @@ namespace moraine
 
   template <int dim>
   void
-  ForceOnPoints<dim>::find_points(const PointSet<dim> &points,
-                                  const double         reach)
+  ForceOnPoints<dim>::find_points(const PointSet<dim> &points)
   {
     if (ids.empty())
-      choose(points, reach);
+      choose(points);
     local_points.clear();
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (std::binary_search(ids.begin(), ids.end(), points.id(p)))

@@ -92,20 +92,21 @@ namespace moraine
   BackgroundMesh<dim>::cut_curve(
     const std::function<double(const CellIterator &)> &work)
   {
-    double total = 0;
-    for (const auto &cell : curve)
-      total += work(cell);
-    const unsigned int n_parts =
-      Utilities::MPI::n_mpi_processes(tria.get_communicator());
-    double before = 0;
+    // Work up to the middle of each cell, which decides whose it is.
+    std::vector<double> until_middle;
+    double              total = 0;
     for (const auto &cell : curve)
       {
         const double of_cell = work(cell);
-        // The middle of the cell's work decides.
-        cell->set_subdomain_id(static_cast<types::subdomain_id>(
-          n_parts * (before + 0.5 * of_cell) / total));
-        before += of_cell;
+        until_middle.push_back(total + 0.5 * of_cell);
+        total += of_cell;
       }
+    Assert(total > 0, ExcInternalError());
+    const unsigned int n_parts =
+      Utilities::MPI::n_mpi_processes(tria.get_communicator());
+    for (unsigned int i = 0; i < curve.size(); ++i)
+      curve[i]->set_subdomain_id(
+        static_cast<types::subdomain_id>(n_parts * until_middle[i] / total));
   }
 
 

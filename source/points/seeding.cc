@@ -3,7 +3,7 @@
 
 #include <moraine/points/seeding.h>
 
-#include <moraine/mesh/cell_shapes.h>
+#include <moraine/mesh/cell_inverse.h>
 #include <moraine/points/moment_fitting.h>
 
 #include <deal.II/base/numbers.h>
@@ -78,6 +78,7 @@ namespace moraine
     {
       static const QGauss<2>      rule(8);
       const CellMap<2>            map(cell);
+      const CellInverse<2>        inverse(cell);
       std::vector<SignedPiece<2>> pieces;
       shape.add_pieces(part_of_cell, 1., pieces);
       double       area = 0.;
@@ -91,10 +92,8 @@ namespace moraine
             for (unsigned int q = 0; q < rule.size(); ++q)
               {
                 const double   u = rule.point(q)[0], v = rule.point(q)[1];
-                const Point<2> xi =
-                  CellShapes<2, 1>::inverse(x[0] + u * (a + v * b),
-                                            cell.data());
-                const double weight = piece.sign * rule.weight(q) * u *
+                const Point<2> xi     = inverse(x[0] + u * (a + v * b)).value();
+                const double   weight = piece.sign * rule.weight(q) * u *
                                       twice_area /
                                       determinant(map.jacobian(xi));
                 area += weight;

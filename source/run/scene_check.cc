@@ -122,13 +122,21 @@ namespace moraine
     check_bodies(input);
     check_method(method);
     for (const auto &[name, load] : loads)
-      for (const auto &entry : input.entries())
-        if (entry.section == "Loads/" + name && !entry.value.empty() &&
-            !load_uses(load.type, entry.key))
-          reject(entry.section,
-                 entry.key,
-                 entry.value,
-                 "nothing; a " + load.type + " has no such key");
+      {
+        if (load.type == "force on points" && method.split_domains)
+          reject("Loads/" + name,
+                 "Type",
+                 load.type,
+                 "point force, or 'Split domains = false' in section 'Method': "
+                 "halves of a point would not share the force");
+        for (const auto &entry : input.entries())
+          if (entry.section == "Loads/" + name && !entry.value.empty() &&
+              !load_uses(load.type, entry.key))
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "nothing; a " + load.type + " has no such key");
+      }
     for (const auto &[name, boundary] : boundaries)
       if (!boundary.components.empty() && boundary.constraint != "components")
         reject("Boundaries/" + name,

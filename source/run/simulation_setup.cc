@@ -30,9 +30,33 @@ namespace moraine
 
 
     /**
-     * Judged by the bodies before they are seeded: the part of the cell that a
-     * flat surface would leave at the level of the cell's centre.
+     * The part of a cell of size @p size that a body with a flat surface fills,
+     * by its level at the cell's centre @p x. Where an expression is no number
+     * that is a guess: whoever needs the level there will say so.
      */
+    template <int dim>
+    double
+    filled_part(const Body<dim> &body, const Point<dim> &x, const double size)
+    {
+      if (body.shape == nullptr)
+        return 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < body.shape->bounding_box().lower_bound(d) - size ||
+            x[d] > body.shape->bounding_box().upper_bound(d) + size)
+          return 0.;
+      try
+        {
+          return 0.5 + body.shape->level(x) / size;
+        }
+      catch (const InputError &)
+        {
+          return 1.;
+        }
+    }
+
+
+
+    /** Judged by the bodies before they are seeded. */
     template <int dim>
     double
     work_of_cell(const std::vector<Body<dim>>                     &bodies,
@@ -42,10 +66,7 @@ namespace moraine
       const double     size   = cell->diameter() / std::sqrt(dim);
       double           filled = 0;
       for (const Body<dim> &body : bodies)
-        filled = std::max(filled,
-                          body.shape == nullptr ?
-                            1. :
-                            0.5 + body.shape->level(centre) / size);
+        filled = std::max(filled, filled_part(body, centre, size));
       return std::clamp(filled, work_of_empty_cell, 1.);
     }
   } // namespace

@@ -44,6 +44,10 @@ refused("force beside the body", {"Loads/weight/Type": "point force",
 refused("force on points beside the body", {
     "Loads/weight/Type": "force on points",
     "Loads/weight/Location": "6.5, 6.5"})
+refused("force on points that are split", {
+    "Method/Method": "GIMP", "Method/Strain": "finite",
+    "Method/Split domains": "true", "Loads/weight/Type": "force on points",
+    "Loads/weight/Location": "4, 4"})
 refused("traction on a side away from the body", {
     "Loads/weight/Type": "side traction", "Loads/weight/Side": "top"})
 refused("probe away from the body", {"Probes/tip/Location": "7.5, 7.5"})

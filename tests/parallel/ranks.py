@@ -12,6 +12,13 @@ SCENES = {
                      {"Method/Method": "finite element", "Method/Degree": 2}),
     "motion through the mesh": ("prm/verification/rigid-motion.prm",
                                 {"Boundaries/sides/Rotation angle": "20+t"}),
+    # The expression is no number above the block, where cells are empty.
+    "cut by a root": ("prm/verification/loads.prm",
+                      {"Bodies/body/Shape": "intersection",
+                       "Bodies/body/Operands": "block, root",
+                       "Bodies/root/Shape": "expression",
+                       "Bodies/root/Expression": "1+sqrt(61-y)",
+                       "Loads/drag/Bodies": "body"}),
     "random points": ("prm/verification/patch-random.prm", {}),
     "ring, gmres": ("prm/boundaries/ring.prm", {"Solver/Solver": "gmres"}),
     "ring on a roller": ("prm/boundaries/ring-roller.prm", {}),

@@ -5,8 +5,9 @@
 
 SCENE = "prm/large-deformation/collapse.prm"
 WEIGHT = 640e3
-# Newton iterations of AMPLE 1.1 for the 40 steps.
-AMPLE = {1: 231, 0.5: 233}
+CELL_SIZES = (1, 0.5)
+# AMPLE 1.1 takes 231 and 233; ours with the line search 202 to 217.
+MOST_ITERATIONS = 185
 
 
 def place(name, x, y):
@@ -18,15 +19,16 @@ def place(name, x, y):
 # Biquadratic elements on a mesh that follows: where the points nearest to the
 # toe and to the top on the axis go.
 places = {}
-for h in AMPLE:
+for h in CELL_SIZES:
     n, d = round(4 / h), h / 4
     places |= place(f"toe {n}", 8 - d, d) | place(f"top {n}", d, 8 - d)
 fe = run(SCENE, {"Method/Method": "finite element", "Method/Degree": 2,
                  "Method/Empty stiffness": 0, "Mesh/Cell size": 1,
                  "Output/Points": "false", "Output/Mesh": "false", **places})
 text("FE Q2, h = 1: status", fe.summary["status"])
+bound("FE Q2, h = 1: Newton iterations", fe.summary["newton_iterations"], 200)
 
-cases = [("corners", h, {}) for h in AMPLE] + [
+cases = [("corners", h, {}) for h in CELL_SIZES] + [
     ("stretch", 1, {"Method/Domain update": "stretch"}),
     ("CPDI1", 1, {"Method/Method": "CPDI1"}),
     ("CPDI2", 1, {"Method/Method": "CPDI2"})]
@@ -38,7 +40,7 @@ for name, h, settings in cases:
     text(f"{title}: steps, rejected", (result.summary["steps"],
                                        result.summary["rejected_steps"]))
     bound(f"{title}: Newton iterations",
-          result.summary["newton_iterations"], AMPLE[h])
+          result.summary["newton_iterations"], MOST_ITERATIONS)
     number(f"{title}: x of toe", result.probes["x at toe"], 4)
     number(f"{title}: y of top", result.probes["y at top"], 4)
     bound(f"{title}: x of toe against FE Q2 - 1",

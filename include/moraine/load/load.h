@@ -108,8 +108,8 @@ namespace moraine
    * A force on the material points that are nearest to a place at the start;
    * all that are equally near share it. It goes to the nodes like the weight of
    * a point, @f$f_a = \sum_p N_a(x_p) F / n@f$, so that it stays on the
-   * material where a place that the grid carries can drift off its edge. Of a
-   * point that is split, the piece that keeps its number keeps the force.
+   * material where a place that the grid carries can drift off its edge. Points
+   * that carry must not be split (checked with the input).
    */
   template <int dim>
   class ForceOnPoints
@@ -122,11 +122,11 @@ namespace moraine
     /**
      * Learn the numbers that the points have in this step; the first time
      * choose them. Collective.
-     * @throws InputError naming the load if at first no point is within twice
-     * @p reach of the place.
+     * @throws InputError naming the load if at first no point is within two
+     * cells of the place.
      */
     void
-    find_points(const PointSet<dim> &points, const double reach);
+    find_points(const PointSet<dim> &points);
 
     /** Whether the point of this rank has a share. */
     bool
@@ -146,7 +146,7 @@ namespace moraine
 
   private:
     void
-    choose(const PointSet<dim> &points, const double reach);
+    choose(const PointSet<dim> &points);
 
     const std::string         name;
     const VectorFunction<dim> function;

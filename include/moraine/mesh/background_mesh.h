@@ -59,7 +59,8 @@ namespace moraine
     /**
      * Share the cells anew, so that the sums of @p work over the cells of each
      * process are about the same: each has a piece of a curve through all
-     * cells. Call it before anything is built on the mesh. Collective.
+     * cells. No work is negative, and not all of it zero. Call it before
+     * anything is built on the mesh. Collective.
      */
     void
     share_cells(const std::function<double(const CellIterator &)> &work);
@@ -156,8 +157,7 @@ namespace moraine
     dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
     MeshSides                                    sides;
-    /** Cells in the order in which processes share them, unless there is one.
-     */
+    /** Cells in the order in which processes share them; empty on one. */
     std::vector<CellIterator> curve;
     double                    largest_edge = 0;
   };

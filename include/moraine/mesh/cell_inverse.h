@@ -40,8 +40,8 @@ namespace moraine
     /**
      * The place @f$\xi@f$ with @f$x(\xi) = x@f$, to round-off. Nothing where
      * Newton's method comes across @f$\det \partial x/\partial \xi \le 0@f$ or
-     * does not converge, which only places outside can bring about, or vertices
-     * that make no convex cell.
+     * does not converge, as can happen for places outside and for vertices that
+     * make no convex cell, or hardly one.
      */
     std::optional<dealii::Point<dim>>
     operator()(const dealii::Point<dim> &x) const;

@@ -42,7 +42,8 @@ namespace moraine
 
     /**
      * The place @f$\xi@f$ with @f$x(\xi) = x@f$, also outside the cell, by
-     * Newton's method.
+     * Newton's method. For many places of one cell and degree 1 there is
+     * CellInverse.
      */
     static dealii::Point<dim>
     inverse(const dealii::Point<dim> &x, const dealii::Point<dim> *X);

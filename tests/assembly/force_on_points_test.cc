@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+#include <moraine/load/load.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "../small_scene.h"
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  ForceOnPoints<2>
+  force_at(const Point<2> &place)
+  {
+    return ForceOnPoints<2>(
+      "nail",
+      [](const Point<2> &x, const double t) {
+        return Tensor<1, 2>({x[0], t});
+      },
+      place);
+  }
+
+
+
+  /** Where the points of all ranks are that the force acts on. */
+  std::vector<Point<2>>
+  places_of(const ForceOnPoints<2> &force, const PointSet<2> &points)
+  {
+    std::vector<Point<2>> places;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (force.acts_on(p))
+        places.push_back(points.position(p));
+    std::vector<Point<2>> all;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(MPI_COMM_WORLD, places))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    return all;
+  }
+
+
+
+  TEST(ForceOnPoints, AllThatAreEquallyNearShareIt)
+  {
+    SmallScene<2> scene;
+    auto          force = force_at({2., 2.});
+    force.find_points(scene.points);
+    const auto places = places_of(force, scene.points);
+    ASSERT_EQ(places.size(), 4u);
+    for (const Point<2> &x : places)
+      EXPECT_NEAR(x.distance({2., 2.}), 0.25 * std::sqrt(2.), 1e-12);
+    const Tensor<1, 2> share = force.value({3., 0.}, 8.);
+    EXPECT_DOUBLE_EQ(share[0], 0.75);
+    EXPECT_DOUBLE_EQ(share[1], 2.);
+  }
+
+
+
+  TEST(ForceOnPoints, StaysWithThePointThatIsNearest)
+  {
+    SmallScene<2> scene;
+    auto          force = force_at({1.7, 2.3});
+    force.find_points(scene.points);
+    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
+    EXPECT_NEAR(places_of(force, scene.points)[0].distance({1.75, 2.25}),
+                0.,
+                1e-12);
+
+    // Into other cells, some of other ranks.
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      scene.points.set_position(p,
+                                scene.points.position(p) +
+                                  Tensor<1, 2>({0.6, 0.55}));
+    scene.points.find_cells();
+    force.find_points(scene.points);
+    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
+    EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
+                0.,
+                1e-12);
+  }
+
+
+
+  TEST(ForceOnPoints, NeedsAPointNearby)
+  {
+    SmallScene<2> scene;
+    EXPECT_THROW(force_at({40., 40.}).find_points(scene.points), InputError);
+  }
+} // namespace
