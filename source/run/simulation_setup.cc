@@ -29,6 +29,21 @@ namespace moraine
 
 
 
+    /** Whether @p x is in the box, which may be infinite, or @p size from it.
+     */
+    template <int dim>
+    bool
+    is_near(const BoundingBox<dim> &box, const Point<dim> &x, const double size)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < box.lower_bound(d) - size ||
+            x[d] > box.upper_bound(d) + size)
+          return false;
+      return true;
+    }
+
+
+
     /**
      * The part of a cell of size @p size that a body with a flat surface fills,
      * by its level at the cell's centre @p x. Where an expression is no number
@@ -36,17 +51,11 @@ namespace moraine
      */
     template <int dim>
     double
-    filled_part(const Body<dim> &body, const Point<dim> &x, const double size)
+    filled_part(const Shape<dim> &shape, const Point<dim> &x, const double size)
     {
-      if (body.shape == nullptr)
-        return 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (x[d] < body.shape->bounding_box().lower_bound(d) - size ||
-            x[d] > body.shape->bounding_box().upper_bound(d) + size)
-          return 0.;
       try
         {
-          return 0.5 + body.shape->level(x) / size;
+          return 0.5 + shape.level(x) / size;
         }
       catch (const InputError &)
         {
@@ -56,18 +65,30 @@ namespace moraine
 
 
 
-    /** Judged by the bodies before they are seeded. */
+    /**
+     * What a cell has to do with it, judged by the @p bodies before they are
+     * seeded. Keeps a reference to them.
+     */
     template <int dim>
-    double
-    work_of_cell(const std::vector<Body<dim>>                     &bodies,
-                 const typename BackgroundMesh<dim>::CellIterator &cell)
+    std::function<double(const typename BackgroundMesh<dim>::CellIterator &)>
+    work_by_bodies(const std::vector<Body<dim>> &bodies)
     {
-      const Point<dim> centre = cell->center();
-      const double     size   = cell->diameter() / std::sqrt(dim);
-      double           filled = 0;
+      std::vector<BoundingBox<dim>> boxes;
       for (const Body<dim> &body : bodies)
-        filled = std::max(filled, filled_part(body, centre, size));
-      return std::clamp(filled, work_of_empty_cell, 1.);
+        boxes.push_back(body.shape ? body.shape->bounding_box() :
+                                     BoundingBox<dim>());
+      return [&bodies, boxes](const auto &cell) {
+        const Point<dim> centre = cell->center();
+        const double     size   = cell->diameter() / std::sqrt(dim);
+        double           filled = 0;
+        for (unsigned int b = 0; b < bodies.size(); ++b)
+          if (bodies[b].shape == nullptr)
+            filled = 1.;
+          else if (is_near(boxes[b], centre, size))
+            filled =
+              std::max(filled, filled_part(*bodies[b].shape, centre, size));
+        return std::clamp(filled, work_of_empty_cell, 1.);
+      };
     }
   } // namespace
 
@@ -85,8 +106,7 @@ namespace moraine
     TimerOutput::Scope scope(timer, "set up");
     mesh   = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
     bodies = make_bodies(scene);
-    mesh->share_cells(
-      [this](const auto &cell) { return work_of_cell(bodies, cell); });
+    mesh->share_cells(work_by_bodies(bodies));
     space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
     for (const Body<dim> &body : bodies)
       body_names.push_back(body.name);
