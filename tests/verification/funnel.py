@@ -34,6 +34,18 @@ for name in sorted(result.reactions):
     bound(f"deepest point behind {name} over h",
           max(step[f"penetration of {name}"] for step in history) / h, 1e-2)
 
+# The walls and the pushed end are all that holds the strip, and the frictionless
+# bottom is flat: it carries nothing along x, the wall all of the push.
+for c, names in (("x", ("top", "right")), ("y", ("bottom", "top"))):
+    bound(f"sum of forces along {c} over the largest",
+          max(abs(step[f"reaction_{c} of {names[0]}"] +
+                  step[f"reaction_{c} of {names[1]}"]) /
+              abs(step[f"reaction_{c} of {names[0]}"]) for step in history),
+          1e-7)
+number("push of the last step", -history[-1]["reaction_x of right"], 3)
+number("force on the bottom in the last step",
+       history[-1]["reaction_y of bottom"], 3)
+
 start, end = (positions(result.folder, step) for step in (0, 6))
 text("points in the files", (len(start), len(end)))
 last = [i for i, x in start.items() if x > max(start.values()) - 0.5]

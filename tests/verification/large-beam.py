@@ -28,6 +28,15 @@ number("FE Q2, h = 0.25: u / l", v_u[1], 4)
 for name, a, b in zip("vu", coarse, v_u):
     bound(f"FE Q2: {name} at h = 0.5 over 0.25 - 1", a / b - 1, 1e-3)
 
+# Beam theory with extension and shear, and the end of AMPLE's published curve
+# (6x6 points); the elastica alone is 0.8062, 0.5461.
+for name, found, theory, ample in zip("vu", v_u, (0.8175, 0.5480),
+                                      (0.825, 0.555)):
+    bound(f"FE Q2, h = 0.25: {name} against beam theory - 1",
+          found / theory - 1, 0.015)
+    bound(f"FE Q2, h = 0.25: {name} against AMPLE - 1", found / ample - 1,
+          0.005)
+
 # Limits on v and u against FE Q2.
 for title, settings, limits in (
         ("GIMP 2x2, h = 0.5", dict(h=0.5, n=2), (0.01, 0.04)),
@@ -44,5 +53,8 @@ for title, settings, limits in (
     for name, found, exact, limit in zip("vu", tip(result), v_u, limits):
         number(f"{title}: {name} / l", found, 3)
         bound(f"{title}: {name} against FE Q2 - 1", found / exact - 1, limit)
+    if "6x6" in title:
+        for name, found, ample in zip("vu", tip(result), (0.825, 0.555)):
+            bound(f"{title}: {name} against AMPLE - 1", found / ample - 1, 0.015)
     bound(f"{title}: force at the pin over load - 1",
           result.reactions["pin"][1] / 100e3 - 1, 1e-8)

@@ -30,15 +30,25 @@ for name, settings in METHODS.items():
           turned.errors["max_sigma"] / E, 1e-14)
 
     # Small strain sees cos(angle) - 1 in both directions in each of ten steps.
-    both = run(SCENE, {
-        **settings,
-        "Boundaries/sides/Rotation angle": "20+t",
-        "Exact solution/Displacement":
-            "37*t+(cos(t*pi/180)-1)*x-sin(t*pi/180)*y; "
-            "21*t+sin(t*pi/180)*x+(cos(t*pi/180)-1)*y",
-    })
+    # The points of a cut cell integrate that stress inexactly in the steps that
+    # follow: a penalty with the reaction carried takes up the difference,
+    # Nitsche's flux does not.
     strain = 10 * (1 - cos(radians(0.1)))
     expected = strain * hypot(2 * (LAMBDA + MU), 2 * (LAMBDA + MU), 2 * LAMBDA)
-    bound(f"{name}, translation and 1 degree: r_u", both.errors["r_u"], 1e-6)
-    bound(f"{name}, translation and 1 degree: stress over that of small strain",
-          both.errors["max_sigma"] / expected, 2)
+    for how, enforcement in (("", {}), (", weighted", {
+            "Boundaries/sides/Enforcement": "weighted"})):
+        both = run(SCENE, {
+            **settings, **enforcement,
+            "Boundaries/sides/Rotation angle": "20+t",
+            "Exact solution/Displacement":
+                "37*t+(cos(t*pi/180)-1)*x-sin(t*pi/180)*y; "
+                "21*t+sin(t*pi/180)*x+(cos(t*pi/180)-1)*y",
+        })
+        title = f"{name}{how}, translation and 1 degree"
+        bound(f"{title}: r_u", both.errors["r_u"], 1e-6)
+        ratio = both.errors["max_sigma"] / expected
+        if how:
+            bound(f"{title}: stress over that of small strain - 1", ratio - 1,
+                  0.02)
+        else:
+            number(f"{title}: stress over that of small strain", ratio, 2)
