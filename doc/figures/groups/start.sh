@@ -5,9 +5,9 @@
 
 run footing cortis-2017/footing
 render footing "$(last footing/points)" --mesh "$(last footing/mesh)" \
-  --field stress --component yy --range -600 100 \
+  --field displacement --component y --range -1 0 \
   --heading "Rigid footing, pushed in by 1 m" \
-  --title "vertical stress" --unit "kN/m²" --length-unit m \
+  --title "vertical displacement" --unit m --length-unit m \
   --wall 0 2 0.5 2 0.5 3 --wall 0 3 0 0 3 0 3 3
 
 slope="-21.13 45.32 0 0 90.63 42.26"
