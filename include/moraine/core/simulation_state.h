@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_core_simulation_state_h
+#define moraine_core_simulation_state_h
+
+#include <moraine/core/archive.h>
+
+#include <functional>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Something that outlives a step: points, what surfaces and loads carry, the
+   * mesh, step control, probes, what output has written. It keeps the accepted
+   * state apart from what a step tries.
+   */
+  class StatePart
+  {
+  public:
+    virtual ~StatePart() = default;
+
+    /**
+     * Write the accepted state into data sets of names of its own. What can be
+     * computed from it is not written.
+     */
+    virtual void
+    write(Archive &archive) const = 0;
+
+    /**
+     * Take the accepted state from an archive, bit by bit, and forget what was
+     * tried. Collective.
+     */
+    virtual void
+    read(const Archive &archive) = 0;
+
+    /** Forget what was tried since the state was accepted. Collective. */
+    virtual void
+    undo()
+    {}
+  };
+
+  /**
+   * The owner of everything that outlives a step, kept or undone as a whole:
+   *
+   *     try
+   *       {
+   *         // solve for the end of the step
+   *         state.keep([&]() { ... every part commits ... });
+   *       }
+   *     catch (...)
+   *       {
+   *         state.undo();
+   *         throw;
+   *       }
+   *
+   * Whatever throws, the parts are in the last accepted state afterwards. A
+   * checkpoint is write() and write_file().
+   */
+  class SimulationState
+  {
+  public:
+    /** Parts are written and read in the order in which they were added. The
+     * part must live as long as this object is used. */
+    void
+    add(StatePart &part);
+
+    /**
+     * The one place in which a step is accepted: @p commit writes the state of
+     * all parts. If it throws, on all ranks, they get back what they had.
+     */
+    void
+    keep(const std::function<void()> &commit);
+
+    /** Let all parts forget what was tried. Collective. */
+    void
+    undo();
+
+    void
+    write(Archive &archive) const;
+
+    void
+    read(const Archive &archive);
+
+  private:
+    std::vector<StatePart *> parts;
+  };
+} // namespace moraine
+
+#endif

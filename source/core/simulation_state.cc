@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/simulation_state.h>
+
+namespace moraine
+{
+  void
+  SimulationState::add(StatePart &part)
+  {
+    parts.push_back(&part);
+  }
+
+
+
+  void
+  SimulationState::keep(const std::function<void()> &commit)
+  {
+    Archive accepted;
+    write(accepted);
+    try
+      {
+        commit();
+      }
+    catch (...)
+      {
+        read(accepted);
+        throw;
+      }
+  }
+
+
+
+  void
+  SimulationState::undo()
+  {
+    for (StatePart *part : parts)
+      part->undo();
+  }
+
+
+
+  void
+  SimulationState::write(Archive &archive) const
+  {
+    for (const StatePart *part : parts)
+      part->write(archive);
+  }
+
+
+
+  void
+  SimulationState::read(const Archive &archive)
+  {
+    for (StatePart *part : parts)
+      part->read(archive);
+  }
+} // namespace moraine

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/archive.h>
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "message.h"
+
+using namespace moraine;
+
+namespace
+{
+  const MPI_Comm comm = MPI_COMM_WORLD;
+
+  unsigned int
+  rank()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(comm);
+  }
+
+  unsigned int
+  n_ranks()
+  {
+    return dealii::Utilities::MPI::n_mpi_processes(comm);
+  }
+
+  /** The value of row @p id, component @p c. */
+  double
+  value(const unsigned int id, const unsigned int c)
+  {
+    return std::sin(1. + id) + c;
+  }
+
+  constexpr unsigned int n_rows = 23;
+
+  /** Rows dealt to the ranks in turn, last first. */
+  Archive
+  make_archive()
+  {
+    Archive                   archive;
+    std::vector<unsigned int> ids;
+    std::vector<double>       stress;
+    for (unsigned int id = n_rows; id-- > 0;)
+      if (id % n_ranks() == rank())
+        {
+          ids.push_back(7 * id);
+          for (unsigned int c = 0; c < 4; ++c)
+            stress.push_back(value(id, c));
+        }
+    archive.distribute("points", ids);
+    archive.write("points/stress", stress, 4);
+    archive.write("time/current", 0.1);
+    archive.write("time/accepted", 3u);
+    archive.write_text("history/columns", "t, \u03c3 [kPa]\nline 2");
+    archive.write_text("history/empty", "");
+    archive.write("history/rows", std::vector<double>());
+    archive.write("odd",
+                  std::vector<double>{-0.,
+                                      std::numeric_limits<double>::quiet_NaN(),
+                                      5e-324});
+    return archive;
+  }
+
+  struct TemporaryFile
+  {
+    TemporaryFile()
+    {
+      path = "archive_test_" + std::to_string(n_ranks()) + ".h5";
+    }
+
+    ~TemporaryFile()
+    {
+      MPI_Barrier(comm);
+      if (rank() == 0)
+        std::remove(path.c_str());
+    }
+
+    std::string path;
+  };
+} // namespace
+
+
+
+TEST(Archive, GivesBackWhatWasWritten)
+{
+  const Archive archive = make_archive();
+  EXPECT_EQ(archive.number("time/current"), 0.1);
+  EXPECT_EQ(archive.integer("time/accepted"), 3u);
+  EXPECT_EQ(archive.text("history/columns"), "t, \u03c3 [kPa]\nline 2");
+  EXPECT_EQ(archive.numbers("points/stress", 4).size(),
+            4 * archive.integers("points/id").size());
+  EXPECT_TRUE(archive.is_distributed("points/stress"));
+  EXPECT_FALSE(archive.is_distributed("odd"));
+  EXPECT_TRUE(archive == make_archive());
+}
+
+
+
+TEST(Archive, SaysWhatIsMissing)
+{
+  const Archive archive = make_archive();
+  EXPECT_EQ(message_of<InputError>([&]() { archive.numbers("points/F"); }),
+            "archive: it has no data set 'points/F'");
+  EXPECT_EQ(message_of<InputError>([&]() { archive.text("odd"); }),
+            "archive: the data set 'odd' holds another kind of values");
+  EXPECT_EQ(message_of<InputError>(
+              [&]() { archive.numbers("points/stress", 6); }),
+            "archive: the data set 'points/stress' has 4 components, expected: "
+            "6");
+  EXPECT_EQ(message_of<InputError>([&]() { archive.number("odd"); }),
+            "archive: the data set 'odd' is not one number");
+}
+
+
+
+TEST(Archive, EqualityIsThatOfBits)
+{
+  Archive plus, minus;
+  plus.write("a", 0.);
+  minus.write("a", -0.);
+  EXPECT_TRUE(plus != minus);
+  EXPECT_TRUE(plus != Archive());
+}
+
+
+
+TEST(Archive, GatheredRowsAreInTheOrderOfIds)
+{
+  const Archive whole = make_archive().gathered(comm);
+  if (rank() > 0)
+    {
+      EXPECT_TRUE(whole.data_sets().empty());
+      return;
+    }
+  const auto &ids    = whole.integers("points/id");
+  const auto &stress = whole.numbers("points/stress", 4);
+  ASSERT_EQ(ids.size(), n_rows);
+  for (unsigned int row = 0; row < n_rows; ++row)
+    {
+      EXPECT_EQ(ids[row], 7 * row);
+      for (unsigned int c = 0; c < 4; ++c)
+        EXPECT_EQ(stress[4 * row + c], value(row, c));
+    }
+}
+
+
+
+TEST(Archive, IdsOfTwoNumbersAreOrderedByTheFirst)
+{
+  Archive archive;
+  archive.distribute("surface", {rank(), 1u, rank(), 0u}, 2);
+  archive.write("surface/gap",
+                std::vector<double>{10. * rank() + 1, 10. * rank()});
+  const Archive whole = archive.gathered(comm);
+  for (unsigned int i = 0; rank() == 0 && i < 2 * n_ranks(); ++i)
+    EXPECT_EQ(whole.numbers("surface/gap")[i], 10. * (i / 2) + i % 2);
+}
+
+
+
+TEST(ArchiveFile, RoundTripKeepsEveryBit)
+{
+  const TemporaryFile file;
+  const Archive       archive = make_archive();
+  write_file(archive, file.path, comm);
+  const Archive read = read_file(file.path, comm);
+  EXPECT_TRUE(read.gathered(comm) == archive.gathered(comm));
+  // Every rank has the rest, and its share of the rows.
+  EXPECT_EQ(read.number("time/current"), 0.1);
+  EXPECT_EQ(read.text("history/empty"), "");
+  EXPECT_LE(read.integers("points/id").size(), n_rows / n_ranks() + 1);
+}
+
+
+
+TEST(ArchiveFile, FailuresAreSaid)
+{
+  EXPECT_EQ(
+    message_of<InputError>(
+      [&]() { write_file(Archive(), "no/such/folder/a.h5", comm); }),
+    "no/such/folder/a.h5: cannot be written: No such file or directory");
+  EXPECT_EQ(message_of<InputError>([&]() { read_file("nothing.h5", comm); }),
+            "cannot read 'nothing.h5': HDF5 reports a failure");
+
+  const TemporaryFile file;
+  if (rank() == 0)
+    std::ofstream(file.path) << "no HDF5";
+  MPI_Barrier(comm);
+  EXPECT_EQ(message_of<InputError>([&]() { read_file(file.path, comm); }),
+            "cannot read '" + file.path + "': HDF5 reports a failure");
+}
+
+
+
+TEST(ArchiveFile, AFullDiskLeavesTheOldFile)
+{
+  if (!std::filesystem::exists("/dev/full"))
+    GTEST_SKIP();
+  const TemporaryFile file;
+  write_file(make_archive(), file.path, comm);
+  const std::string part = file.path + ".part";
+  if (rank() == 0)
+    std::filesystem::create_symlink("/dev/full", part);
+  MPI_Barrier(comm);
+  Archive large;
+  large.write("a", std::vector<double>(100000, 1.));
+  EXPECT_NE(
+    message_of<InputError>([&]() { write_file(large, file.path, comm); }), "");
+  EXPECT_TRUE(read_file(file.path, comm).gathered(comm) ==
+              make_archive().gathered(comm));
+}
