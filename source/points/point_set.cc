@@ -31,6 +31,44 @@ namespace moraine
       fields.request("stress", n_stress_components<dim>, "stress");
       return fields;
     }
+
+
+
+    template <int dim>
+    Point<dim>
+    clamp(const Point<dim> &xi, const double margin)
+    {
+      Point<dim> clamped;
+      for (unsigned int d = 0; d < dim; ++d)
+        clamped[d] = std::clamp(xi[d], margin, 1 - margin);
+      return clamped;
+    }
+
+
+
+    /**
+     * The place next to @p x, with the unit place @p xi in @p cell, at which
+     * the search finds this cell. The search has no tolerance: a point on a
+     * face can be outside of the cells on both sides by round-off.
+     */
+    template <int dim>
+    std::pair<Point<dim>, Point<dim>>
+    found_place(const typename PointSet<dim>::CellIterator &cell,
+                const Mapping<dim>                         &mapping,
+                const Point<dim>                           &x,
+                const Point<dim>                           &xi)
+    {
+      std::pair<Point<dim>, Point<dim>> found(x, xi);
+      for (double margin = 1e-14;
+           clamp(found.second, 0.) != found.second && margin < 1e-3;
+           margin *= 4)
+        {
+          found.first =
+            mapping.transform_unit_to_real_cell(cell, clamp(xi, margin));
+          found.second = mapping.transform_real_to_unit_cell(cell, found.first);
+        }
+      return found;
+    }
   } // namespace
 
 
@@ -70,7 +108,9 @@ namespace moraine
     std::vector<double> values(layout.n_values(), 0.);
     values[volume_offset] = volume;
     values[body_offset]   = body;
-    handler.insert_particle(position, reference_position, id, cell, values);
+    const auto [place, reference] =
+      found_place(cell, background.mapping(), position, reference_position);
+    handler.insert_particle(place, reference, id, cell, values);
   }
 
 
@@ -177,8 +217,13 @@ namespace moraine
           if (cell.state() != IteratorState::valid)
             outside = &lost;
           else if (cell->is_locally_owned())
-            handler.insert_particle(place, reference, lost.id, cell)
-              ->set_properties(lost.values);
+            {
+              const auto inside =
+                found_place(cell, background.mapping(), place, reference);
+              handler
+                .insert_particle(inside.first, inside.second, lost.id, cell)
+                ->set_properties(lost.values);
+            }
         }
     handler.update_cached_numbers();
 

@@ -51,7 +51,11 @@ namespace moraine
      */
     PointSet(const BackgroundMesh<dim> &mesh, PointFields fields);
 
-    /** Put a point into a locally owned cell; finish_insertion() ends it. */
+    /**
+     * Put a point into a locally owned cell; finish_insertion() ends it. A
+     * place outside of the cell, as round-off makes it for one on a face, is
+     * moved to the nearest one at which the search finds this cell.
+     */
     void
     insert(const CellIterator       &cell,
            const dealii::Point<dim> &position,
