@@ -10,7 +10,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
 #include <moraine/points/seeding.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/state/trial_points.h>
 
 #include <memory>

@@ -4,7 +4,7 @@
 #include <moraine/points/bodies.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/points/combined_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,6 +4,7 @@
 #include <moraine/points/point_list.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/geometry/shape_library.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -136,8 +137,61 @@ namespace moraine
 
 
 
+  template <int dim>
+  PointList<dim>
+  make_point_grid(const ShapeParameters<dim>      &box,
+                  const std::vector<unsigned int> &n,
+                  const std::string               &section)
+  {
+    const Placement<dim> placement = make_placement(box, section);
+    const auto lower = to_point<dim>(box.lower_corner, section, "Lower corner");
+    Tensor<1, dim> length =
+      to_point<dim>(box.upper_corner, section, "Upper corner") - lower;
+    double       volume   = 1;
+    unsigned int n_points = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        length[d] /= n[d];
+        volume *= length[d];
+        n_points *= n[d];
+      }
+    PointList<dim> points;
+    for (unsigned int i = 0; i < n_points; ++i)
+      {
+        Point<dim>   x    = lower;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; rest /= n[d], ++d)
+          x[d] += (rest % n[d] + 0.5) * length[d];
+        points.positions.push_back(placement.apply(x));
+      }
+    points.volumes.assign(n_points, volume);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        Point<dim> end = lower;
+        end[d] += length[d];
+        const Tensor<1, dim> edge =
+          placement.apply(end) - placement.apply(lower);
+        for (unsigned int i = 0; i < dim; ++i)
+          points.half_edges[i][d] = 0.5 * edge[i];
+      }
+    points.origin = [section](const unsigned int) {
+      return "section '" + section + "', key 'Point grid'";
+    };
+    return points;
+  }
+
+
+
   template PointList<2>
   read_point_file(const std::string &);
   template PointList<3>
   read_point_file(const std::string &);
+  template PointList<2>
+  make_point_grid(const ShapeParameters<2> &,
+                  const std::vector<unsigned int> &,
+                  const std::string &);
+  template PointList<3>
+  make_point_grid(const ShapeParameters<3> &,
+                  const std::vector<unsigned int> &,
+                  const std::string &);
 } // namespace moraine

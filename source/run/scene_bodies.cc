@@ -4,7 +4,7 @@
 #include <moraine/run/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/points/shape_library.h>
+#include <moraine/geometry/shape_library.h>
 
 #include <algorithm>
 #include <fstream>

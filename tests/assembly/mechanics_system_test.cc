@@ -3,7 +3,7 @@
 
 #include <moraine/assembly/mechanics_system.h>
 
-#include <moraine/boundary/straight_surfaces.h>
+#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/material/linear_elastic.h>
 
 #include <deal.II/base/mpi.h>

@@ -7,7 +7,7 @@
 #include <moraine/basis/basis.h>
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/basis/gimp_basis.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <cmath>
 #include <memory>

@@ -13,7 +13,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/material/von_mises.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface_cases.h"
+#include "../geometry/surface_cases.h"
 
 using namespace dealii;
 using namespace moraine;

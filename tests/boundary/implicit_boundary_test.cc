@@ -3,7 +3,7 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
-#include <moraine/boundary/straight_surfaces.h>
+#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/state/state.h>
 

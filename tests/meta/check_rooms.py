@@ -9,8 +9,8 @@ import sys
 
 import meta
 
-LEVELS = [["core"], ["mesh", "material", "solver"], ["points", "time"],
-          ["basis"], ["state"], ["boundary"], ["load"],
+LEVELS = [["core"], ["mesh", "material", "solver"], ["geometry"],
+          ["points", "time"], ["basis"], ["state"], ["boundary"], ["load"],
           ["assembly", "output"], ["run"]]
 LEVEL = {room: n for n, rooms in enumerate(LEVELS) for room in rooms}
 

@@ -4,8 +4,8 @@
 #include <moraine/core/exceptions.h>
 
 #include <moraine/points/bodies.h>
-#include <moraine/points/combined_shapes.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -73,9 +73,8 @@ TEST(SeedBodies, NoPointOfAFittedRuleIsLost)
   PointSet<3>             points(mesh, {});
   const auto              volumes =
     seed_bodies<3>({{"box",
-                     std::make_shared<ConvexShape<3>>(
-                       ConvexShape<3>::box(Point<3>(0.07, 0.1, 0.23),
-                                           Point<3>(0.73, 0.85, 0.9)))}},
+                     std::make_shared<ConvexShape<3>>(ConvexShape<3>::box(
+                       Point<3>(0.07, 0.1, 0.23), Point<3>(0.73, 0.85, 0.9)))}},
                    CellSeeder<3>(3, PointLayout::gauss, 2),
                    points);
   EXPECT_NEAR(volumes[0], 0.66 * 0.75 * 0.67, 1e-14);

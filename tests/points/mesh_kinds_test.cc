@@ -4,7 +4,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/cell_shapes.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

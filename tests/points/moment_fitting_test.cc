@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/points/combined_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
 #include <moraine/points/moment_fitting.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -76,11 +76,10 @@ namespace
     const auto shape = ConvexShape<dim>::half_space(place, normal);
     std::vector<SignedPiece<dim>> pieces;
     shape.add_pieces(ConvexPolytope<dim>(lower, upper), 1., pieces);
-    const auto rule =
-      moment_fitted_rule<dim>(pieces,
-                              shape,
-                              std::pow(s, dim) / factorial(dim),
-                              3);
+    const auto rule = moment_fitted_rule<dim>(pieces,
+                                              shape,
+                                              std::pow(s, dim) / factorial(dim),
+                                              3);
     check_moments<dim>(rule, shape, 3, [s](const auto &exponent) {
       double       value = 1.;
       unsigned int sum   = dim;
@@ -108,7 +107,7 @@ TEST(MomentFitting, PiecesMayBeSubtracted)
     return std::make_shared<ConvexShape<2>>(
       ConvexShape<2>::box(Point<2>(), Point<2>(size, size)));
   };
-  const CombinedShape<2> angle(CombinedShape<2>::Operation::subtract,
+  const CombinedShape<2>      angle(CombinedShape<2>::Operation::subtract,
                                box(2.),
                                box(0.5));
   std::vector<SignedPiece<2>> pieces;

@@ -3,11 +3,11 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/points/combined_shapes.h>
-#include <moraine/points/curved_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/curved_shapes.h>
 #include <moraine/points/point_list.h>
 #include <moraine/points/seeding.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>

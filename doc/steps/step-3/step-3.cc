@@ -6,14 +6,14 @@
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
 #include <moraine/boundary/implicit_boundary.h>
-#include <moraine/boundary/straight_surfaces.h>
+#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/combined_shapes.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>

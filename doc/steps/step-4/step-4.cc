@@ -5,7 +5,7 @@
 // step goes.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/boundary/straight_surfaces.h>
+#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/load/load.h>
 #include <moraine/material/linear_elastic.h>
@@ -13,7 +13,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>

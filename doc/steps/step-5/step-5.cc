@@ -10,7 +10,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>

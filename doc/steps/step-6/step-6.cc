@@ -7,12 +7,12 @@
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/boundary/mesh_motion.h>
-#include <moraine/boundary/straight_surfaces.h>
+#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -103,8 +103,8 @@ make_mesh_motion()
 //
 // A line that is moved as a rigid body. Of the enforcements of step-3 we take
 // the Dirichlet-weighted basis: it carries the reaction of the plate and has no
-// flux. The flux of Nitsche's methods is that of a small elastic strain in every
-// step, which is not all of the traction of a body pressed by 40 %.
+// flux. The flux of Nitsche's methods is that of a small elastic strain in
+// every step, which is not all of the traction of a body pressed by 40 %.
 ImplicitBoundary<dim>
 make_plate()
 {

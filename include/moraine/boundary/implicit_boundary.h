@@ -5,8 +5,8 @@
 #define moraine_boundary_implicit_boundary_h
 
 #include <moraine/boundary/enforcement.h>
-#include <moraine/boundary/rigid_motion.h>
-#include <moraine/boundary/surface.h>
+#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/surface.h>
 #include <moraine/material/spectral.h>
 #include <moraine/mesh/grid_space.h>
 

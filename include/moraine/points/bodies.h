@@ -7,7 +7,7 @@
 #include <moraine/points/point_list.h>
 #include <moraine/points/point_set.h>
 #include <moraine/points/seeding.h>
-#include <moraine/points/shape.h>
+#include <moraine/geometry/shape.h>
 
 #include <memory>
 #include <string>

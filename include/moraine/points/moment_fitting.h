@@ -4,7 +4,7 @@
 #ifndef moraine_points_moment_fitting_h
 #define moraine_points_moment_fitting_h
 
-#include <moraine/points/shape.h>
+#include <moraine/geometry/shape.h>
 
 #include <deal.II/base/quadrature.h>
 

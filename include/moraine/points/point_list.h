@@ -4,6 +4,8 @@
 #ifndef moraine_points_point_list_h
 #define moraine_points_point_list_h
 
+#include <moraine/geometry/shape_parameters.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -42,6 +44,16 @@ namespace moraine
   template <int dim>
   PointList<dim>
   read_point_file(const std::string &file_name);
+
+  /**
+   * The middles of n[d] equal parts in each direction d of a box, turned and
+   * moved with it; their origin is @p section.
+   */
+  template <int dim>
+  PointList<dim>
+  make_point_grid(const ShapeParameters<dim>      &box,
+                  const std::vector<unsigned int> &n,
+                  const std::string               &section);
 } // namespace moraine
 
 #endif

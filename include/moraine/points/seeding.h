@@ -4,7 +4,7 @@
 #ifndef moraine_points_seeding_h
 #define moraine_points_seeding_h
 
-#include <moraine/points/shape.h>
+#include <moraine/geometry/shape.h>
 
 #include <deal.II/base/quadrature.h>
 

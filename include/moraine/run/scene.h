@@ -6,14 +6,14 @@
 
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/boundary/enforcement.h>
-#include <moraine/boundary/rigid_motion.h>
-#include <moraine/boundary/surface_library.h>
+#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/surface_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
-#include <moraine/points/shape_parameters.h>
+#include <moraine/geometry/shape_parameters.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>

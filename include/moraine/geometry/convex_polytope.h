@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_geometry_convex_polytope_h
+#define moraine_geometry_convex_polytope_h
+
+#include <moraine/mesh/cell_map.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/point.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <array>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Volume (area in 2D) and first moment int (x - r) dV of a region about a
+   * reference point r that the caller keeps.
+   */
+  template <int dim>
+  struct VolumeMoments
+  {
+    double                 volume = 0.;
+    dealii::Tensor<1, dim> first;
+
+    /**
+     * Add @p factor times the moments of another region (same reference).
+     */
+    void
+    add(const double factor, const VolumeMoments &other);
+  };
+
+  /**
+   * A convex polygon (2D) or polyhedron (3D) with straight edges, made from a
+   * cell or a box and then clipped by half spaces.
+   *
+   * In 3D the faces are vertex loops, counter-clockwise seen from outside. A
+   * quadrilateral face that is not planar is split into four triangles about
+   * the mean of its vertices: their signed volume is exactly that of the
+   * bilinear face, and two cells that share the face stay watertight. Such a
+   * polyhedron may be slightly non-convex; clip() stays exact for it since
+   * volumes come from the divergence theorem on closed, oriented faces.
+   *
+   * Planes closer to a vertex than about 1e-15 times the size and distance
+   * from the origin of the first polytope pass through this vertex.
+   */
+  template <int dim>
+  class ConvexPolytope
+  {
+  public:
+    using PointList = boost::container::small_vector<dealii::Point<dim>, 8>;
+
+    /**
+     * A cell by its vertices in deal.II's (lexicographic) order.
+     */
+    explicit ConvexPolytope(const CellVertices<dim> &vertices);
+
+    /**
+     * The box with these two opposite corners, lower <= upper.
+     */
+    ConvexPolytope(const dealii::Point<dim> &lower,
+                   const dealii::Point<dim> &upper);
+
+    /**
+     * Keep the part with inward_normal . (x - point) >= 0. The normal need not
+     * have unit length. If the plane cuts the interior, the vertices of the
+     * new face (2D: its two ends) are written to @p cut.
+     */
+    void
+    clip(const dealii::Point<dim>     &point,
+         const dealii::Tensor<1, dim> &inward_normal,
+         PointList                    *cut = nullptr);
+
+    /**
+     * Nothing is left.
+     */
+    bool
+    empty() const;
+
+    /**
+     * Area (2D) or volume (3D); at least 0.
+     */
+    double
+    volume() const;
+
+    /**
+     * Centre of mass; the mean of the vertices if the volume vanishes. The
+     * polytope must not be empty.
+     */
+    dealii::Point<dim>
+    centroid() const;
+
+    /**
+     * Volume and first moment about @p reference.
+     */
+    VolumeMoments<dim>
+    moments(const dealii::Point<dim> &reference) const;
+
+    /**
+     * Mean of the vertices: a cheap point inside.
+     */
+    dealii::Point<dim>
+    vertex_mean() const;
+
+    /**
+     * Largest distance of a vertex from @p point.
+     */
+    double
+    radius(const dealii::Point<dim> &point) const;
+
+    /**
+     * Lengths below this are round-off.
+     */
+    double
+    tolerance() const;
+
+    /**
+     * The vertices; in 2D counter-clockwise.
+     */
+    const boost::container::small_vector<dealii::Point<dim>, 16> &
+    vertices() const;
+
+    /**
+     * Smallest axis-parallel box around it.
+     */
+    dealii::BoundingBox<dim>
+    bounding_box() const;
+
+    /**
+     * Call @p action(loop) for each face, a PointList counter-clockwise seen
+     * from outside (2D: once, with all vertices).
+     */
+    template <typename Action>
+    void
+    for_each_face(const Action &action) const;
+
+    /**
+     * Replace each vertex x by @p map(x), a rigid motion.
+     */
+    template <typename Map>
+    void
+    transform(const Map &map);
+
+    /**
+     * The nearest point on the way from @p point to the centroid that lies in
+     * the polytope; @p point itself if it is inside.
+     */
+    dealii::Point<dim>
+    pull_inside(const dealii::Point<dim> &point) const;
+
+  private:
+    void
+    make_faces(const CellVertices<dim> &cell);
+
+    void
+    add_face(const std::array<unsigned int, 4> &quadrilateral);
+
+    void
+    set_tolerance();
+
+    using Distances = boost::container::small_vector<double, 32>;
+    using Indices   = boost::container::small_vector<unsigned short, 64>;
+
+    void
+    clip_polygon(const Distances &distance, PointList *cut);
+
+    void
+    clip_polyhedron(const Distances &distance, PointList *cut);
+
+    void
+    close_cut(std::vector<std::array<unsigned short, 2>> &rim, PointList *cut);
+
+    boost::container::small_vector<dealii::Point<dim>, 16> corner;
+
+    // 3D only: the loops one after the other, and where each ends
+    Indices                                            loops;
+    boost::container::small_vector<unsigned short, 16> loop_ends;
+
+    double round_off = 0.;
+  };
+
+
+
+  template <int dim>
+  template <typename Action>
+  void
+  ConvexPolytope<dim>::for_each_face(const Action &action) const
+  {
+    PointList loop;
+    if constexpr (dim == 2)
+      {
+        loop.assign(corner.begin(), corner.end());
+        if (!loop.empty())
+          action(loop);
+      }
+    else
+      {
+        unsigned int begin = 0;
+        for (const unsigned int end : loop_ends)
+          {
+            loop.clear();
+            for (unsigned int i = begin; i < end; ++i)
+              loop.push_back(corner[loops[i]]);
+            action(loop);
+            begin = end;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  template <typename Map>
+  void
+  ConvexPolytope<dim>::transform(const Map &map)
+  {
+    for (auto &x : corner)
+      x = map(x);
+    set_tolerance();
+  }
+} // namespace moraine
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_geometry_straight_shapes_h
+#define moraine_geometry_straight_shapes_h
+
+#include <moraine/geometry/shape.h>
+
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The intersection of half spaces.
+   */
+  template <int dim>
+  class ConvexShape : public Shape<dim>
+  {
+  public:
+    /**
+     * The half space n . (x - point) <= 0 with the outward unit normal n.
+     */
+    struct HalfSpace
+    {
+      dealii::Point<dim>     point;
+      dealii::Tensor<1, dim> outward;
+    };
+
+    /**
+     * @p bounding_box must hold the intersection of @p sides.
+     */
+    ConvexShape(const std::vector<HalfSpace>   &sides,
+                const dealii::BoundingBox<dim> &bounding_box);
+
+    /**
+     * The box with these opposite corners, lower < upper.
+     */
+    static ConvexShape
+    box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
+
+    /** All of space: the body is the mesh. */
+    static ConvexShape
+    space();
+
+    /**
+     * The half space behind a plane; the normal need not have unit length.
+     */
+    static ConvexShape
+    half_space(const dealii::Point<dim>     &point,
+               const dealii::Tensor<1, dim> &outward_normal);
+
+    double
+    level(const dealii::Point<dim> &p) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    Overlap
+    overlap(const ConvexPolytope<dim> &cell) const override;
+
+    bool
+    is_straight() const override;
+
+  protected:
+    void
+    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
+                       const double                   sign,
+                       std::vector<SignedPiece<dim>> &pieces) const override;
+
+  private:
+    std::vector<HalfSpace>   sides;
+    dealii::BoundingBox<dim> bounds;
+  };
+
+
+
+  /**
+   * A simple polygon, convex or not, in the x-y plane; in 3D the prism over it
+   * between two values of z.
+   */
+  template <int dim>
+  class PolygonShape : public Shape<dim>
+  {
+  public:
+    /**
+     * The vertices in either sense of rotation, at least three, without
+     * crossing edges (see first_crossing() in polygon.h). @p extent is lower
+     * and upper z, not used in 2D.
+     */
+    PolygonShape(const std::vector<dealii::Point<2>> &vertices,
+                 const std::pair<double, double>     &extent = {0., 1.});
+
+    double
+    level(const dealii::Point<dim> &p) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    bool
+    is_straight() const override;
+
+  protected:
+    /**
+     * The triangles from the first vertex, each counted with the sign of its
+     * area, clipped with the cell.
+     */
+    void
+    add_pieces_of_part(const ConvexPolytope<dim>     &cell,
+                       const double                   sign,
+                       std::vector<SignedPiece<dim>> &pieces) const override;
+
+  private:
+    std::vector<dealii::Point<2>> vertices;
+    std::pair<double, double>     extent;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/convex_polytope.h>
+
+#include <moraine/geometry/polygon.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // where the edge from a (kept, at distance da) to b leaves the half space
+    template <int dim>
+    Point<dim>
+    crossing(const Point<dim> &a,
+             const double      da,
+             const Point<dim> &b,
+             const double      db)
+    {
+      return a + (da / (da - db)) * (b - a);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  VolumeMoments<dim>::add(const double factor, const VolumeMoments &other)
+  {
+    volume += factor * other.volume;
+    first += factor * other.first;
+  }
+
+
+
+  template <int dim>
+  ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
+  {
+    make_faces(vertices);
+  }
+
+
+
+  template <int dim>
+  ConvexPolytope<dim>::ConvexPolytope(const Point<dim> &lower,
+                                      const Point<dim> &upper)
+  {
+    CellVertices<dim> vertices;
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+        vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
+    make_faces(vertices);
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::make_faces(const CellVertices<dim> &cell)
+  {
+    if constexpr (dim == 2)
+      corner = {cell[0], cell[1], cell[3], cell[2]};
+    else
+      corner.assign(cell.begin(), cell.end());
+    set_tolerance();
+    if constexpr (dim == 3)
+      for (const std::array<unsigned int, 4> &face :
+           {std::array<unsigned int, 4>{{0, 4, 6, 2}},
+            {{1, 3, 7, 5}},
+            {{0, 1, 5, 4}},
+            {{2, 6, 7, 3}},
+            {{0, 2, 3, 1}},
+            {{4, 5, 7, 6}}})
+        add_face(face);
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::add_face(const std::array<unsigned int, 4> &q)
+  {
+    if constexpr (dim == 3)
+      {
+        const Tensor<1, 3> diagonal = corner[q[2]] - corner[q[0]];
+        const Tensor<1, 3> normal =
+          cross_product_3d(diagonal, corner[q[3]] - corner[q[1]]);
+        const double height = normal * (corner[q[1]] - corner[q[0]]);
+        if (std::abs(height) <= 4. * round_off * normal.norm())
+          {
+            loops.insert(loops.end(), q.begin(), q.end());
+            loop_ends.push_back(loops.size());
+            return;
+          }
+        const unsigned short centre = corner.size();
+        Point<dim>           mean;
+        for (const unsigned int v : q)
+          mean += 0.25 * corner[v];
+        corner.push_back(mean);
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            loops.push_back(q[i]);
+            loops.push_back(q[(i + 1) % 4]);
+            loops.push_back(centre);
+            loop_ends.push_back(loops.size());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::set_tolerance()
+  {
+    double scale = 0.;
+    for (const auto &x : corner)
+      scale = std::max(scale, (x - corner[0]).norm() + x.norm());
+    round_off =
+      std::max(round_off, 4. * std::numeric_limits<double>::epsilon() * scale);
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::clip(const Point<dim>     &point,
+                            const Tensor<1, dim> &inward_normal,
+                            PointList            *cut)
+  {
+    const double length = inward_normal.norm();
+    Assert(length > 0., ExcMessage("The normal of a plane must not vanish."));
+    Distances distance(corner.size());
+    bool      some_in = false, some_out = false;
+    for (unsigned int i = 0; i < corner.size(); ++i)
+      {
+        distance[i] = inward_normal * (corner[i] - point) / length;
+        if (std::abs(distance[i]) <= round_off)
+          distance[i] = 0.;
+        some_in |= distance[i] > 0.;
+        some_out |= distance[i] < 0.;
+      }
+    if (cut != nullptr)
+      cut->clear();
+    if (!some_in)
+      {
+        corner.clear();
+        loops.clear();
+        loop_ends.clear();
+      }
+    else if (some_out)
+      {
+        if constexpr (dim == 2)
+          clip_polygon(distance, cut);
+        else
+          clip_polyhedron(distance, cut);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::clip_polygon(const Distances &distance, PointList *cut)
+  {
+    const auto         old = corner;
+    const unsigned int n   = old.size();
+    corner.clear();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const unsigned int j = (i + 1) % n;
+        if (distance[i] >= 0.)
+          corner.push_back(old[i]);
+        if (distance[i] == 0. && cut != nullptr)
+          cut->push_back(old[i]);
+        if (distance[i] * distance[j] < 0.)
+          {
+            corner.push_back(
+              distance[i] > 0. ?
+                crossing(old[i], distance[i], old[j], distance[j]) :
+                crossing(old[j], distance[j], old[i], distance[i]));
+            if (cut != nullptr)
+              cut->push_back(corner.back());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::clip_polyhedron(const Distances &distance,
+                                       PointList       *cut)
+  {
+    const auto    old       = corner;
+    const Indices old_loops = loops;
+    const auto    old_ends  = loop_ends;
+    corner.clear();
+    loops.clear();
+    loop_ends.clear();
+
+    constexpr unsigned short                   none = -1;
+    Indices                                    renumber(old.size(), none);
+    std::vector<std::array<unsigned short, 3>> cut_edges;
+    std::vector<bool>                          on_plane;
+
+    const auto kept_vertex = [&](const unsigned short i) {
+      if (renumber[i] == none)
+        {
+          renumber[i] = corner.size();
+          corner.push_back(old[i]);
+          on_plane.push_back(distance[i] == 0.);
+        }
+      return renumber[i];
+    };
+    const auto cut_vertex = [&](const unsigned short in,
+                                const unsigned short out) {
+      for (const auto &edge : cut_edges)
+        if (edge[0] == in && edge[1] == out)
+          return edge[2];
+      const unsigned short index = corner.size();
+      cut_edges.push_back({{in, out, index}});
+      corner.push_back(
+        crossing(old[in], distance[in], old[out], distance[out]));
+      on_plane.push_back(true);
+      return index;
+    };
+
+    // the edges of the kept faces that lie in the plane
+    std::vector<std::array<unsigned short, 2>> rim;
+
+    unsigned int begin = 0;
+    for (const unsigned int end : old_ends)
+      {
+        const unsigned int first  = loops.size();
+        bool               inside = false;
+        for (unsigned int k = begin; k < end; ++k)
+          inside |= distance[old_loops[k]] > 0.;
+        for (unsigned int k = begin; inside && k < end; ++k)
+          {
+            const unsigned short a = old_loops[k];
+            const unsigned short b = old_loops[k + 1 < end ? k + 1 : begin];
+            if (distance[a] >= 0.)
+              loops.push_back(kept_vertex(a));
+            if (distance[a] * distance[b] < 0.)
+              loops.push_back(distance[a] > 0. ? cut_vertex(a, b) :
+                                                 cut_vertex(b, a));
+          }
+        begin = end;
+        if (!inside)
+          continue;
+        loop_ends.push_back(loops.size());
+        for (unsigned int k = first; k < loops.size(); ++k)
+          {
+            const unsigned short a = loops[k];
+            const unsigned short b =
+              loops[k + 1 < loops.size() ? k + 1 : first];
+            if (on_plane[a] && on_plane[b])
+              rim.push_back({{a, b}});
+          }
+      }
+    close_cut(rim, cut);
+  }
+
+
+
+  template <int dim>
+  void
+  ConvexPolytope<dim>::close_cut(
+    std::vector<std::array<unsigned short, 2>> &rim,
+    PointList                                  *cut)
+  {
+    // edges used in both directions are interior to the kept faces; the
+    // others, reversed, bound the new face
+    for (unsigned int i = 0; i < rim.size(); ++i)
+      for (unsigned int j = i + 1; j < rim.size(); ++j)
+        if (rim[i][0] == rim[j][1] && rim[i][1] == rim[j][0])
+          {
+            rim.erase(rim.begin() + j);
+            rim.erase(rim.begin() + i);
+            --i;
+            break;
+          }
+    while (!rim.empty())
+      {
+        const unsigned int   first = loops.size();
+        const unsigned short start = rim.back()[1];
+        unsigned short       at    = start;
+        do
+          {
+            const auto edge =
+              std::find_if(rim.begin(), rim.end(), [&](const auto &e) {
+                return e[1] == at;
+              });
+            Assert(edge != rim.end(), ExcMessage("A clipped face is open."));
+            loops.push_back(at);
+            at = (*edge)[0];
+            rim.erase(edge);
+          }
+        while (at != start);
+        loop_ends.push_back(loops.size());
+        if (cut != nullptr && cut->empty())
+          for (unsigned int k = first; k < loops.size(); ++k)
+            cut->push_back(corner[loops[k]]);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  ConvexPolytope<dim>::empty() const
+  {
+    return corner.empty();
+  }
+
+
+
+  template <int dim>
+  VolumeMoments<dim>
+  ConvexPolytope<dim>::moments(const Point<dim> &reference) const
+  {
+    VolumeMoments<dim> sum;
+    if (corner.empty())
+      return sum;
+    // local coordinates keep small polytopes far from the origin exact
+    const Point<dim> base = corner[0];
+    for_each_face([&](const PointList &loop) {
+      const Tensor<1, dim> a = loop[0] - base;
+      for (unsigned int i = 1; i + 1 < loop.size(); ++i)
+        {
+          const Tensor<1, dim> b = loop[i] - base;
+          const Tensor<1, dim> c = loop[i + 1] - base;
+          double               simplex;
+          if constexpr (dim == 2)
+            simplex = cross(b - a, c - a) / 2.;
+          else
+            simplex = a * cross_product_3d(b, c) / 6.;
+          sum.volume += simplex;
+          // the corners of the simplex: a, b, c and, in 3D, the base (0)
+          sum.first += simplex / (dim + 1.) * (a + b + c);
+        }
+    });
+    sum.first += sum.volume * (base - reference);
+    return sum;
+  }
+
+
+
+  template <int dim>
+  double
+  ConvexPolytope<dim>::volume() const
+  {
+    return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  ConvexPolytope<dim>::centroid() const
+  {
+    Assert(!corner.empty(), ExcMessage("An empty polytope has no centroid."));
+    const Point<dim>         mean = vertex_mean();
+    const VolumeMoments<dim> m    = moments(mean);
+    if (!(m.volume > 0.))
+      return mean;
+    const Tensor<1, dim> offset = m.first / m.volume;
+    return offset.norm() <= radius(mean) ? mean + offset : mean;
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  ConvexPolytope<dim>::vertex_mean() const
+  {
+    Tensor<1, dim> sum;
+    for (const auto &x : corner)
+      sum += x - corner[0];
+    return corner[0] + sum / double(corner.size());
+  }
+
+
+
+  template <int dim>
+  double
+  ConvexPolytope<dim>::radius(const Point<dim> &point) const
+  {
+    double square = 0.;
+    for (const auto &x : corner)
+      square = std::max(square, (x - point).norm_square());
+    return std::sqrt(square);
+  }
+
+
+
+  template <int dim>
+  double
+  ConvexPolytope<dim>::tolerance() const
+  {
+    return round_off;
+  }
+
+
+
+  template <int dim>
+  const boost::container::small_vector<Point<dim>, 16> &
+  ConvexPolytope<dim>::vertices() const
+  {
+    return corner;
+  }
+
+
+
+  template <int dim>
+  BoundingBox<dim>
+  ConvexPolytope<dim>::bounding_box() const
+  {
+    return BoundingBox<dim>(corner);
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  ConvexPolytope<dim>::pull_inside(const Point<dim> &point) const
+  {
+    const Point<dim> centre = centroid();
+    double           way    = 1.;
+    const auto       stop   = [&](const Point<dim>     &on_face,
+                          const Tensor<1, dim> &outward) {
+      const double from_centre = outward * (on_face - centre);
+      const double from_point  = outward * (on_face - point);
+      if (from_point < 0. && from_centre > 0.)
+        way = std::min(way, from_centre / (from_centre - from_point));
+    };
+    for_each_face([&](const PointList &loop) {
+      if constexpr (dim == 2)
+        for (unsigned int i = 0; i < loop.size(); ++i)
+          {
+            const Tensor<1, 2> edge = loop[(i + 1) % loop.size()] - loop[i];
+            stop(loop[i], Tensor<1, 2>({edge[1], -edge[0]}));
+          }
+      else
+        {
+          Tensor<1, 3> normal;
+          for (unsigned int i = 1; i + 1 < loop.size(); ++i)
+            normal +=
+              cross_product_3d(loop[i] - loop[0], loop[i + 1] - loop[0]);
+          stop(loop[0], normal);
+        }
+    });
+    return way < 1. ? centre + way * (point - centre) : point;
+  }
+
+
+
+  template struct VolumeMoments<2>;
+  template struct VolumeMoments<3>;
+  template class ConvexPolytope<2>;
+  template class ConvexPolytope<3>;
+} // namespace moraine

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/polygon.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // is b, known to be on the line through a and c, between them?
+    bool
+    between(const Point<2> &a, const Point<2> &b, const Point<2> &c)
+    {
+      return (a - b) * (c - b) <= 0.;
+    }
+
+    bool
+    edges_meet(const Point<2> &a,
+               const Point<2> &b,
+               const Point<2> &c,
+               const Point<2> &d)
+    {
+      const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
+      const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
+      return (c_side * d_side < 0. && a_side * b_side < 0.) ||
+             (c_side == 0. && between(a, c, b)) ||
+             (d_side == 0. && between(a, d, b)) ||
+             (a_side == 0. && between(c, a, d)) ||
+             (b_side == 0. && between(c, b, d));
+    }
+  } // namespace
+
+
+
+  double
+  polygon_area(const Polygon &polygon)
+  {
+    double area = 0.;
+    for (unsigned int i = 2; i < polygon.size(); ++i)
+      area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    return area;
+  }
+
+
+
+  bool
+  is_convex(const Polygon &p)
+  {
+    const unsigned int n = p.size();
+    for (unsigned int i = 0; i < n; ++i)
+      if (cross(p[(i + 1) % n] - p[i], p[(i + 2) % n] - p[(i + 1) % n]) < 0.)
+        return false;
+    return true;
+  }
+
+
+
+  bool
+  edges_cross(const Polygon &p)
+  {
+    const unsigned int n = p.size();
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i + 2; j < n; ++j)
+        {
+          if (i == 0 && j == n - 1)
+            continue;
+          const Point<2> a = p[i], b = p[i + 1], c = p[j], d = p[(j + 1) % n];
+          if (cross(b - a, c - a) * cross(b - a, d - a) < 0. &&
+              cross(d - c, a - c) * cross(d - c, b - c) < 0.)
+            return true;
+        }
+    return false;
+  }
+
+
+
+  std::pair<unsigned int, unsigned int>
+  first_crossing(const Polygon &vertices)
+  {
+    const unsigned int n    = vertices.size();
+    const auto         next = [n](const unsigned int i) { return (i + 1) % n; };
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Point<2> &a = vertices[i], &b = vertices[next(i)];
+        const Point<2> &c = vertices[next(next(i))];
+        if (a == b)
+          return {i, i};
+        if (cross(b - a, c - b) == 0. && (b - a) * (c - b) < 0.)
+          return {i, next(i)};
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i + 2; j < n; ++j)
+        if (next(j) != i && edges_meet(vertices[i],
+                                       vertices[i + 1],
+                                       vertices[j],
+                                       vertices[next(j)]))
+          return {i, j};
+    return {n, n};
+  }
+
+
+
+  // by cutting ears
+  std::vector<Polygon>
+  triangulate(Polygon p)
+  {
+    std::vector<Polygon> triangles;
+    const auto           is_ear = [&p](const unsigned int i) {
+      const unsigned int n = p.size();
+      const Point<2>     a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
+      if (cross(b - a, c - b) <= 0.)
+        return false;
+      return std::none_of(p.begin(), p.end(), [&](const Point<2> &x) {
+        return x != a && x != b && x != c && cross(b - a, x - a) >= 0. &&
+               cross(c - b, x - b) >= 0. && cross(a - c, x - c) >= 0.;
+      });
+    };
+    while (p.size() >= 3)
+      {
+        const unsigned int n   = p.size();
+        unsigned int       ear = 0;
+        while (ear < n && !is_ear(ear))
+          ++ear;
+        if (ear == n)
+          {
+            // only vertices along one straight line are left
+            AssertThrow(std::abs(polygon_area(p)) <= 1e-12 *
+                                                       p[0].distance(p[n / 2]) *
+                                                       p[0].distance(p[n / 2]),
+                        ExcInternalError());
+            break;
+          }
+        triangles.push_back({p[(ear + n - 1) % n], p[ear], p[(ear + 1) % n]});
+        p.erase(p.begin() + ear);
+      }
+    return triangles;
+  }
+
+
+
+  Polygon
+  clip_polygon(const Polygon &polygon, const Polygon &convex)
+  {
+    Polygon result = polygon;
+    for (unsigned int e = 0; e < convex.size(); ++e)
+      {
+        const Point<2>     a         = convex[e];
+        const Tensor<1, 2> direction = convex[(e + 1) % convex.size()] - a;
+        const auto         subject   = std::move(result);
+        result.clear();
+        for (unsigned int i = 0; i < subject.size(); ++i)
+          {
+            const Point<2> p = subject[i],
+                           q = subject[(i + 1) % subject.size()];
+            const double f_p = cross(direction, p - a),
+                         f_q = cross(direction, q - a);
+            if (f_p >= 0.)
+              result.push_back(p);
+            if ((f_p >= 0.) != (f_q >= 0.))
+              result.push_back(p + (f_p / (f_p - f_q)) * (q - p));
+          }
+      }
+    return result;
+  }
+} // namespace moraine

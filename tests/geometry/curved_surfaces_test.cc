@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/arc.h>
+#include <moraine/geometry/curved_surfaces.h>
+#include <moraine/geometry/rigid_motion.h>
+#include <moraine/core/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include "surface_cases.h"
+
+using namespace dealii;
+using namespace moraine;
+using namespace moraine_tests;
+
+namespace
+{
+  const double pi = dealii::numbers::PI;
+
+  template <int dim>
+  double
+  relative_error(const Surface<dim> &surface,
+                 const Cells<dim>   &cells,
+                 const unsigned int  n_gauss,
+                 const double        exact)
+  {
+    return std::abs(measure(all_pieces(surface, cells, n_gauss)) / exact - 1.);
+  }
+} // namespace
+
+TEST(Arc, LengthIsExactAtRandomPlaces)
+{
+  for (const double distortion : {0., 0.2})
+    {
+      const auto cells = box_cells<2>(9, 10., distortion);
+      Numbers    random(11);
+      for (unsigned int i = 0; i < 500; ++i)
+        {
+          const double r     = random.between(0.1, 3.);
+          const double start = random.between(-400., 400.),
+                       sweep = random.between(1., 360.);
+          const Point<2> c   = random.point<2>(3.1, 6.9);
+          const Arc      arc(c, r, i % 2, start, start + sweep);
+          const auto     points = all_pieces(arc, cells, 2);
+          EXPECT_NEAR(measure(points), r * sweep * pi / 180., 1e-13 * 10.);
+          for (const auto &p : points)
+            {
+              EXPECT_NEAR(arc.level(p.x), 0., 1e-14);
+              EXPECT_TRUE(arc.in_extent(p.x));
+              EXPECT_TRUE(arc.bounding_box().point_inside(p.x, 1e-12));
+              EXPECT_NEAR(
+                (p.normal - (i % 2 ? 1. : -1.) * (p.x - c) / r).norm(),
+                0.,
+                1e-13);
+            }
+        }
+    }
+}
+
+TEST(Arc, PiecesLieInTheirCells)
+{
+  const auto cells = box_cells<2>(9, 10., 0.2);
+  const Arc  arc({4.7, 5.2}, 3.3, true);
+  for (const auto &cell : cells)
+    {
+      std::vector<SurfacePoint<2>> points;
+      arc.pieces(cell, 3, points);
+      for (const auto &p : points)
+        EXPECT_TRUE(inside_cell(cell, p.x, 1e-13));
+    }
+}
+
+TEST(Arc, TangentToMeshLinesAndThroughVertices)
+{
+  // centres and radii on the mesh, and off it by next to nothing
+  const auto cells = box_cells<2>(10, 10., 0.);
+  for (const double offset : {0., 1e-16, 1e-15, -1e-15, 1e-12, 1e-9, -1e-7})
+    for (const bool inside : {false, true})
+      for (const double r : {0.25, 0.5, 1., 2., 3., std::sqrt(2.), 5.})
+        {
+          const Arc    arc({5. + offset, 5. - offset},
+                        r - std::abs(offset),
+                        inside);
+          const double exact = 2. * pi * (r - std::abs(offset));
+          // only a circle that leaves the mesh by round-off may lose a little
+          EXPECT_NEAR(measure(all_pieces(arc, cells, 2)) / exact,
+                      1.,
+                      r == 5. ? 1e-6 : 1e-13)
+            << offset << ' ' << r;
+        }
+}
+
+TEST(Arc, IntegratesAlongTheCurve)
+{
+  // the area by the divergence theorem, exact to the Gauss rule in the angle
+  const auto cells = box_cells<2>(9, 10., 0.2);
+  const Arc  arc({4.7, 5.2}, 3.3, true);
+  double     area = 0.;
+  for (const auto &p : all_pieces(arc, cells, 5))
+    area += 0.5 * p.JxW * (p.normal * p.x);
+  EXPECT_NEAR(area / (pi * 3.3 * 3.3), 1., 1e-13);
+}
+
+TEST(Arc, ExtentAndMistakes)
+{
+  const Arc quarter({1., 1.}, 2., false, -45., 45.);
+  EXPECT_TRUE(quarter.in_extent({2., 1.}));
+  EXPECT_FALSE(quarter.in_extent({0., 1.}));
+  EXPECT_DOUBLE_EQ(quarter.level({4., 1.}), 1.);
+  EXPECT_NEAR(quarter.bounding_box().upper_bound(0), 3., 1e-15);
+  EXPECT_NEAR(quarter.bounding_box().lower_bound(0), 1. + std::sqrt(2.), 1e-15);
+  EXPECT_THROW(Arc({0., 0.}, 0., true), InputError);
+  EXPECT_THROW(Arc({0., 0.}, 1., true, 90., 90.), InputError);
+  EXPECT_THROW(Arc({0., 0.}, 1., true, 0., 361.), InputError);
+}
+
+TEST(LevelSetSurface, CircleByTheGenerator)
+{
+  // errors of the length with 2 and 3 points; they fall with the cell size
+  const ExpressionSurface<2> circle(
+    "(3.3^2 - (x - 5.03)^2 - (y - 4.96)^2)/(2*3.3)", "here");
+  const double exact  = 2. * pi * 3.3;
+  const auto   coarse = box_cells<2>(10, 10., 0.),
+             fine     = box_cells<2>(40, 10., 0.),
+             bent     = box_cells<2>(40, 10., 0.2);
+  EXPECT_LT(relative_error<2>(circle, coarse, 2, exact), 1e-4);
+  EXPECT_LT(relative_error<2>(circle, coarse, 3, exact), 2e-6);
+  EXPECT_LT(relative_error<2>(circle, fine, 2, exact), 1e-6);
+  EXPECT_LT(relative_error<2>(circle, fine, 3, exact), 1e-9);
+  EXPECT_LT(relative_error<2>(circle, bent, 3, exact), 2e-6);
+}
+
+TEST(Sphere, Area)
+{
+  const Sphere sphere({1.03, 0.96, 1.01}, 0.7, false);
+  const double exact = 4. * pi * 0.49;
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 2, exact), 3e-3);
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 3, exact), 4e-4);
+  EXPECT_LT(relative_error<3>(sphere, box_cells<3>(10, 2., 0.1), 3, exact),
+            1e-5);
+  EXPECT_DOUBLE_EQ(sphere.level({1.03, 0.96, 2.01}), 0.3);
+  for (const auto &p : all_pieces<3>(sphere, box_cells<3>(6, 2., 0.1), 3))
+    {
+      EXPECT_NEAR(sphere.level(p.x), 0., 1e-11);
+      EXPECT_NEAR((p.normal - sphere.normal(p.x)).norm(), 0., 1e-12);
+    }
+}
+
+TEST(Cylinder, Area)
+{
+  // ends exact where the axis follows the mesh, else chosen point by point
+  const double       exact = 2. * pi * 0.6 * 1.1;
+  const auto         cells = box_cells<3>(6, 2., 0.);
+  const Cylinder     along({1.03, 0.96, 0.37}, {1.03, 0.96, 1.47}, 0.6, true);
+  const Tensor<1, 3> axis = Point<3>(1., 2., 3.) / std::sqrt(14.);
+  const Point<3>     middle(1.01, .99, 1.02);
+  const Cylinder tilted(middle - .55 * axis, middle + .55 * axis, 0.6, false);
+  EXPECT_LT(relative_error<3>(along, cells, 3, exact), 2e-4);
+  EXPECT_LT(relative_error<3>(tilted, cells, 2, exact), 2e-3);
+  EXPECT_TRUE(tilted.in_extent(middle + .54 * axis));
+  EXPECT_FALSE(tilted.in_extent(middle + .56 * axis));
+  EXPECT_NEAR(tilted.level(middle + .3 * axis), -.6, 1e-15);
+}
+
+TEST(ExpressionSurface, AgreesWithTheCircle)
+{
+  const std::string          text = "3.3 - sqrt((x-5.03)^2 + (y-4.96)^2)";
+  const ExpressionSurface<2> circle(text, "here"),
+    half(text, "here", BoundingBox<2>({{0., 4.96}, {10., 10.}}));
+  const auto cells = box_cells<2>(10, 10., 0.);
+  EXPECT_LT(relative_error<2>(circle, cells, 3, 2. * pi * 3.3), 2e-6);
+  EXPECT_LT(relative_error<2>(half, cells, 3, pi * 3.3), 2e-6);
+  EXPECT_LT(relative_error<2>(half, box_cells<2>(10, 10., .2), 3, pi * 3.3),
+            1e-3);
+  EXPECT_NEAR(circle.level({5.03, 7.96}), 0.3, 1e-9);
+  EXPECT_NEAR((circle.normal({5.03, 7.96}) - Point<2>(0, 1)).norm(), 0., 1e-9);
+  EXPECT_FALSE(half.in_extent({5.03, 2.}));
+  const auto hessian = circle.function_hessian({8.03, 4.96}, 1.);
+  EXPECT_NEAR(hessian[0][0], 0., 1e-7);
+  EXPECT_NEAR(hessian[1][1], -1. / 3., 1e-7);
+  EXPECT_NEAR(hessian[0][1], 0., 1e-7);
+  EXPECT_THROW(ExpressionSurface<2>("x + ", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + z", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("x + t", "here"), InputError);
+  EXPECT_THROW(ExpressionSurface<2>("sqrt(x)", "here").level({-1., 0.}),
+               InputError);
+}
+
+TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
+{
+  // y = 0.5 is a mesh line of both meshes; the text is not a distance
+  for (const double sign : {-1., 1.})
+    {
+      const ExpressionSurface<2> line((sign > 0. ? "" : "-") +
+                                        std::string("(3*y - 1.5)"),
+                                      "here");
+      double                     sum = 0.;
+      for (const auto &cell : box_cells<2>(4, 1., 0.))
+        {
+          std::vector<SurfacePoint<2>> points;
+          line.pieces(cell, 2, points);
+          if (!points.empty())
+            {
+              EXPECT_GT(line.level(centre<2>(cell)), 0.);
+            }
+          for (const auto &p : points)
+            EXPECT_NEAR(p.x[1], .5, 1e-15);
+          sum += measure(points);
+        }
+      EXPECT_NEAR(sum, 1., 1e-9);
+    }
+}
