@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/points/bodies.h>
-#include <moraine/points/combined_shapes.h>
-#include <moraine/points/curved_shapes.h>
-#include <moraine/points/straight_shapes.h>
+#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/curved_shapes.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/mpi.h>
 
