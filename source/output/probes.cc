@@ -153,7 +153,7 @@ namespace moraine
 
   template <int dim>
   void
-  Probes<dim>::accept_step(const PlaceFunction<dim> &step_increment)
+  Probes<dim>::try_step(const PlaceFunction<dim> &step_increment)
   {
     for (Probe &probe : probes)
       if (!probe.follows_point())
@@ -161,13 +161,24 @@ namespace moraine
           // A place that has left the mesh does not come back.
           const Point<dim> where =
             moves_through_mesh ? probe.start + probe.displacement : probe.start;
-          Tensor<1, dim> increment;
           if (std::isnan(probe.displacement[0]) ||
-              !step_increment(where, increment))
+              !step_increment(where, probe.increment))
             for (unsigned int c = 0; c < dim; ++c)
-              increment[c] = std::numeric_limits<double>::quiet_NaN();
-          probe.displacement += increment;
+              probe.increment[c] = std::numeric_limits<double>::quiet_NaN();
         }
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::keep_step()
+  {
+    for (Probe &probe : probes)
+      {
+        probe.displacement += probe.increment;
+        probe.increment = 0;
+      }
   }
 
 

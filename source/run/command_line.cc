@@ -191,16 +191,16 @@ namespace moraine
       RunOptions options = arguments.options;
       options.output_directory =
         output_directory(arguments, scene.output.directory);
-      Simulation<dim> simulation(scene, MPI_COMM_WORLD, console);
       if (arguments.command == "check")
         {
-          simulation.describe();
+          describe(scene, MPI_COMM_WORLD, console);
           console << "  nothing wrong was found" << std::endl;
           return done;
         }
       install_interrupt_handler(
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-      const Summary summary = simulation.run(options, input);
+      const Summary summary =
+        simulate(scene, input, options, MPI_COMM_WORLD, console);
       return summary.status == "ok" ? done : not_converged;
     }
 

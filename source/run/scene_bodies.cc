@@ -73,29 +73,10 @@ namespace moraine
 
 
 
-  template <int dim>
-  CellSeeder<dim>
-  make_seeder(const MethodParameters &method)
-  {
-    // Gradients of Q2 ask for 2; 3 serves the stiffness better, but in 3D the
-    // fit of 64 moments takes a tenth of a second for each cut cell.
-    constexpr unsigned int fitted_degree = dim == 2 ? 3 : 2;
-
-    const bool fe = method.is_finite_element();
-    return CellSeeder<dim>(fe ? method.degree + 1 : method.points_per_direction,
-                           fe || method.point_layout == "Gauss" ?
-                             PointLayout::gauss :
-                             PointLayout::equal,
-                           fe && method.degree == 2 ? fitted_degree : 0);
-  }
-
-
-
 #define INSTANTIATE(dim)                                                \
   template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
   template std::vector<std::shared_ptr<const Material>> make_materials( \
-    const Scene<dim> &, const std::vector<Body<dim>> &);                \
-  template CellSeeder<dim> make_seeder(const MethodParameters &);
+    const Scene<dim> &, const std::vector<Body<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

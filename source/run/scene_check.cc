@@ -40,43 +40,6 @@ namespace moraine
              (type == "surface traction" && is_of_surface);
     }
 
-
-
-    void
-    check_method(const MethodParameters &method)
-    {
-      const std::string &after_step = method.mesh_after_step;
-      if (method.degree == 2 && !method.is_finite_element())
-        reject("Method",
-               "Degree",
-               "2",
-               "1 with method '" + method.method +
-                 "'; 2 with 'finite element'");
-      if (method.is_finite_element() && after_step == "reset")
-        reject("Method",
-               "Mesh after step",
-               after_step,
-               "follow material or keep with finite elements, whose points "
-               "stay in their cells");
-      if (method.strain == "finite" && after_step == "keep")
-        reject("Method",
-               "Mesh after step",
-               after_step,
-               "reset or follow material with finite strain");
-      if (method.has_domains() && after_step == "follow material")
-        reject("Method",
-               "Mesh after step",
-               after_step,
-               "reset or keep with method '" + method.method + "'");
-      if (method.split_domains && method.method != "GIMP" &&
-          method.method != "CPDI1")
-        reject("Method",
-               "Split domains",
-               "true",
-               "false with method '" + method.method +
-                 "'; GIMP and CPDI1 "
-                 "split");
-    }
   } // namespace
 
 
@@ -120,7 +83,7 @@ namespace moraine
         "'finite element' or key 'Mesh after step' = '" +
         method.mesh_after_step + "'");
     check_bodies(input);
-    check_method(method);
+    method.check();
     for (const auto &[name, load] : loads)
       {
         if (load.type == "force on points" && method.split_domains)

@@ -63,10 +63,9 @@ namespace moraine
       std::ostringstream unseen;
       Console            quiet(communicator, unseen);
       Scene<dim>         scene(input);
-      Simulation<dim>    simulation(scene, communicator, quiet);
       RunOptions         options;
       options.write_output = false;
-      return simulation.run(options, input);
+      return simulate(scene, input, options, communicator, quiet);
     }
 
 

@@ -399,6 +399,14 @@ namespace moraine
 
 
 
+  bool
+  LinearSolver::solves_directly() const
+  {
+    return implementation->is_finite && implementation->direct.has_value();
+  }
+
+
+
   void
   LinearSolver::clear()
   {

@@ -73,14 +73,17 @@ namespace moraine
     check_places(const PlaceFunction<dim> &on_material) const;
 
     /**
-     * Add up the accepted step of the interpolated probes, to be called once
-     * for each. Collective.
+     * Follow the trial step with the interpolated probes. Collective.
      *
      * @param step_increment displacement of this step at a place of the mesh as
      * it stood before the step; see grid_evaluation().
      */
     void
-    accept_step(const PlaceFunction<dim> &step_increment);
+    try_step(const PlaceFunction<dim> &step_increment);
+
+    /** The step of the last try_step() is accepted. */
+    void
+    keep_step();
 
     /**
      * The values now, the same on every rank, named "u_x at A" and so on.
@@ -99,6 +102,7 @@ namespace moraine
       unsigned int           point_id = 0;
       double                 distance = 0; ///< of the point that is followed
       dealii::Tensor<1, dim> displacement;
+      dealii::Tensor<1, dim> increment; ///< of the trial step
 
       bool
       follows_point() const;

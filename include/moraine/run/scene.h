@@ -4,7 +4,6 @@
 #ifndef moraine_run_scene_h
 #define moraine_run_scene_h
 
-#include <moraine/basis/gimp_basis.h>
 #include <moraine/boundary/enforcement.h>
 #include <moraine/geometry/rigid_motion.h>
 #include <moraine/geometry/surface_library.h>
@@ -14,10 +13,10 @@
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
 #include <moraine/geometry/shape_parameters.h>
+#include <moraine/run/method.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
-#include <moraine/state/state.h>
 #include <moraine/time/time_control.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -33,50 +32,6 @@ namespace moraine
    */
   unsigned int
   dimension_of(const InputFile &input);
-
-  /** Section `Method`: the three choices in which methods differ. */
-  struct MethodParameters
-  {
-    std::string  method               = "material point";
-    unsigned int degree               = 1;
-    unsigned int points_per_direction = 2;
-    std::string  point_layout         = "equally spaced";
-    std::string  strain               = "small";
-    std::string  mesh_after_step      = "default";
-    double       empty_stiffness      = 0.;
-    std::string  domain_update        = "corners";
-    bool         split_domains        = false;
-    double       put_back             = 0.;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-
-    bool
-    is_finite_element() const
-    {
-      return method == "finite element";
-    }
-
-    /** Whether points have domains. */
-    bool
-    has_domains() const
-    {
-      return method == "GIMP" || method == "CPDI1" || method == "CPDI2";
-    }
-
-    MeshAfterStep
-    after_step() const;
-
-    /** Boxes keep their size at small strain. */
-    DomainUpdate
-    update_of_domains() const;
-
-    StrainMeasure
-    strain_measure() const
-    {
-      return strain == "finite" ? StrainMeasure::finite : StrainMeasure::small;
-    }
-  };
 
   /** Section `Bodies/<name>`. */
   template <int dim>
@@ -221,7 +176,7 @@ namespace moraine
 
     std::string                         title;
     MeshParameters<dim>                 mesh;
-    MethodParameters                    method;
+    MethodParameters<dim>               method;
     Named<MaterialParameters>           materials;
     Named<BodyParameters<dim>>          bodies;
     Named<BoundaryParameters<dim>>      boundaries;

@@ -26,11 +26,6 @@ namespace moraine
   template <int dim>
   std::vector<std::shared_ptr<const Material>>
   make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
-
-  /** How cells are filled with points. */
-  template <int dim>
-  CellSeeder<dim>
-  make_seeder(const MethodParameters &method);
 } // namespace moraine
 
 #endif

@@ -105,6 +105,10 @@ namespace moraine
     std::optional<double>
     condition_number() const;
 
+    /** Whether a factorisation solves, by choice or because auto fell back. */
+    bool
+    solves_directly() const;
+
     /** Forget what set_up() built, and the matrix. */
     void
     clear();

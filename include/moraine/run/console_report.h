@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_console_report_h
+#define moraine_run_console_report_h
+
+#include <moraine/core/console.h>
+#include <moraine/run/run_observer.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** Tells on the console what is simulated, each step, and where time went. */
+  template <int dim>
+  class ConsoleReport : public RunObserver<dim>
+  {
+  public:
+    /** @p results is the folder of the results; empty if there is none. */
+    ConsoleReport(const Scene<dim>  &scene,
+                  const Model<dim>  &model,
+                  const std::string &results,
+                  Console           &console);
+
+    /** What will be simulated, and what the user should know of it. */
+    void
+    describe(const std::vector<std::string> &notes);
+
+    void
+    run_begins() override;
+
+    void
+    step_accepted(const AcceptedStep<dim> &step) override;
+
+    void
+    step_rejected(const double t, const std::string &reason) override;
+
+    void
+    note(const std::string &text) override;
+
+    void
+    run_ends(const Summary &summary, const RunCounts &counts) override;
+
+  private:
+    void
+    describe_method();
+
+    void
+    describe_bodies();
+
+    void
+    describe_conditions();
+
+    /** Say what became of domains and points in the last step. Collective. */
+    void
+    note_domains();
+
+    void
+    print_timings(const Summary &summary);
+
+    void
+    print_errors(const Summary &summary);
+
+    const Scene<dim> &scene;
+    const Model<dim> &model;
+    const std::string results;
+    Console          &console;
+    unsigned int      n_put_back      = 0;
+    bool              has_far_domains = false;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_method_h
+#define moraine_run_method_h
+
+#include <moraine/basis/basis.h>
+#include <moraine/basis/gimp_basis.h>
+#include <moraine/points/bodies.h>
+#include <moraine/points/point_fields.h>
+#include <moraine/points/seeding.h>
+#include <moraine/state/state.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  template <int dim>
+  struct Method;
+
+  /** Section `Method`: the three choices in which methods differ. */
+  template <int dim>
+  struct MethodParameters
+  {
+    std::string  method               = "material point";
+    unsigned int degree               = 1;
+    unsigned int points_per_direction = 2;
+    std::string  point_layout         = "equally spaced";
+    std::string  strain               = "small";
+    std::string  mesh_after_step      = "default";
+    double       empty_stiffness      = 0.;
+    std::string  domain_update        = "corners";
+    bool         split_domains        = false;
+    double       put_back             = 0.;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /** @throw InputError for keys that the method does not allow. */
+    void
+    check() const;
+
+    /** The entry of methods() that is chosen. */
+    const Method<dim> &
+    chosen() const;
+
+    MeshAfterStep
+    after_step() const;
+
+    /** Boxes keep their size at small strain. */
+    DomainUpdate
+    update_of_domains() const;
+
+    StrainMeasure
+    strain_measure() const
+    {
+      return strain == "finite" ? StrainMeasure::finite : StrainMeasure::small;
+    }
+  };
+
+  /** One of the methods that a scene can choose from. */
+  template <int dim>
+  struct Method
+  {
+    /** What a basis is made of. */
+    struct Ingredients
+    {
+      const MethodParameters<dim>  &parameters;
+      const GridSpace<dim>         &space;
+      const PointSet<dim>          &points;
+      const std::vector<Body<dim>> &bodies;
+    };
+
+    std::string name;
+    /** One sentence for the key 'Method'. */
+    std::string text;
+    /** Unless the scene says something else. */
+    MeshAfterStep mesh_after_step;
+    /** A value of 'Mesh after step' that is refused, and what is allowed. */
+    std::string  refused_after_step;
+    std::string  allowed_after_step;
+    unsigned int largest_degree;
+    bool         can_split_domains;
+    /** How cells are filled with points. */
+    std::function<CellSeeder<dim>(const MethodParameters<dim> &)> make_seeder;
+    /** Add what the basis stores with each point. */
+    std::function<void(const MethodParameters<dim> &, PointFields &)>
+      request_fields;
+    std::function<std::unique_ptr<Basis<dim>>(const Ingredients &)> make_basis;
+  };
+
+  /** All methods. A new one is an entry here. */
+  template <int dim>
+  const std::vector<Method<dim>> &
+  methods();
+} // namespace moraine
+
+#endif

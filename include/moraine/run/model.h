@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_model_h
+#define moraine_run_model_h
+
+#include <moraine/assembly/mechanics_system.h>
+#include <moraine/output/probes.h>
+#include <moraine/points/bodies.h>
+#include <moraine/run/scene.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * A scene turned into the objects of the rooms, in the order in which they
+   * need each other. Computes nothing itself.
+   */
+  template <int dim>
+  struct Model
+  {
+    /**
+     * @p timer gets the times of assembly and search.
+     * @throws InputError for mistakes that show only now: empty or overlapping
+     * bodies, bodies outside the mesh.
+     */
+    Model(const Scene<dim>    &scene,
+          const MPI_Comm      &communicator,
+          dealii::TimerOutput &timer);
+
+    Model(const Model &) = delete;
+
+    std::vector<Body<dim>>                       bodies;
+    std::vector<std::string>                     body_names;
+    std::vector<double>                          body_volumes;
+    std::vector<std::shared_ptr<const Material>> materials;
+    std::unique_ptr<BackgroundMesh<dim>>         mesh;
+    std::unique_ptr<GridSpace<dim>>              space;
+    std::unique_ptr<PointSet<dim>>               points;
+    std::unique_ptr<Basis<dim>>                  basis;
+    std::unique_ptr<State<dim>>                  state;
+    std::vector<ImplicitBoundary<dim>>           boundaries;
+    std::vector<GridCondition<dim>>              grid_conditions;
+    Loads<dim>                                   loads;
+    MeshMotion<dim>                              mesh_motion;
+    std::unique_ptr<MechanicsSystem<dim>>        system;
+    std::unique_ptr<LinearSolver>                linear_solver;
+    std::unique_ptr<Probes<dim>>                 probes;
+
+  private:
+    void
+    make_points(const Scene<dim> &scene);
+  };
+
+  /**
+   * Find cells and pieces for the first step, and what cannot be right: that
+   * boundaries touch a body and have it on their inner side, that what is
+   * prescribed has a value at every step, that loads act on something and that
+   * every body is held. Collective.
+   *
+   * @return what the user should know, sentence by sentence.
+   * @throws InputError, ComputationError for a body that is not held.
+   */
+  template <int dim>
+  std::vector<std::string>
+  begin_first_step(const Scene<dim> &scene, Model<dim> &model);
+} // namespace moraine
+
+#endif

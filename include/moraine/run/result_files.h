@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_result_files_h
+#define moraine_run_result_files_h
+
+#include <moraine/output/history.h>
+#include <moraine/output/output_directory.h>
+#include <moraine/output/pvd_history.h>
+#include <moraine/run/run_observer.h>
+
+#include <deal.II/base/timer.h>
+
+#include <optional>
+
+namespace moraine
+{
+  /**
+   * Writes history.csv, the VTU files with their lists, and at the end
+   * summary.json.
+   */
+  template <int dim>
+  class ResultFiles : public RunObserver<dim>
+  {
+  public:
+    /** @p timer gets the time of writing. */
+    ResultFiles(const Scene<dim>      &scene,
+                const Model<dim>      &model,
+                const OutputDirectory &directory,
+                dealii::TimerOutput   &timer);
+
+    void
+    run_begins() override;
+
+    void
+    step_accepted(const AcceptedStep<dim> &step) override;
+
+    void
+    run_ends(const Summary &summary, const RunCounts &counts) override;
+
+    void
+    run_fails(const Summary &summary) override;
+
+  private:
+    using Increments = std::vector<dealii::Tensor<1, dim>>;
+
+    std::vector<NamedValue>
+    row_of(const AcceptedStep<dim> &step) const;
+
+    void
+    write_vtu(const double t, const Increments &increments);
+
+    /**
+     * The points alone, which a run that ends early leaves behind: the mesh may
+     * be that of the next step already.
+     */
+    void
+    write_points(const double t);
+
+    const Scene<dim>         &scene;
+    const Model<dim>         &model;
+    const OutputDirectory    &directory;
+    dealii::TimerOutput      &timer;
+    const MPI_Comm            communicator;
+    History                   history;
+    PvdHistory                points_pvd;
+    PvdHistory                mesh_pvd;
+    std::optional<PvdHistory> domains_pvd;
+    unsigned int              n_vtu_written = 0;
+    double                    t_written     = 0; ///< of the last VTU file
+    double                    t_accepted    = 0;
+  };
+} // namespace moraine
+
+#endif

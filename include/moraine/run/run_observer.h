@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_run_observer_h
+#define moraine_run_run_observer_h
+
+#include <moraine/output/summary.h>
+#include <moraine/run/model.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** What the steps of a run took so far, rejected ones included. */
+  struct RunCounts
+  {
+    unsigned int          newton_iterations = 0;
+    unsigned int          linear_iterations = 0;
+    unsigned int          jumps             = 0;
+    std::optional<double> condition_number;
+    /** What solved the last linear system. */
+    std::string linear_solver;
+    /** Whether a singular matrix gave empty parts of cells a stiffness. */
+    bool holds_empty_parts = false;
+  };
+
+  /** A step that was just accepted. */
+  template <int dim>
+  struct AcceptedStep
+  {
+    const TimeControl                      &time;
+    const double                            t_start;
+    const NewtonReport                     &newton;
+    const std::vector<BoundaryReport<dim>> &reports;
+    /** Of the nodes. */
+    const std::vector<dealii::Tensor<1, dim>> &increments;
+    /** Largest increment of a step that ended by Newton::jump(). */
+    std::optional<double> jump;
+  };
+
+  /**
+   * Is told how a run goes. Every rank has the same observers and tells them
+   * the same, so that they may do what is collective. They see the model as the
+   * last accepted step left it.
+   */
+  template <int dim>
+  class RunObserver
+  {
+  public:
+    virtual ~RunObserver() = default;
+
+    virtual void
+    run_begins()
+    {}
+
+    virtual void
+    step_accepted(const AcceptedStep<dim> &)
+    {}
+
+    /** The step to @p t, for @p reason. */
+    virtual void
+    step_rejected([[maybe_unused]] const double       t,
+                  [[maybe_unused]] const std::string &reason)
+    {}
+
+    /** Something to know about the step under way. */
+    virtual void
+    note(const std::string &)
+    {}
+
+    /** All went well, or the run ended early with what was accepted. */
+    virtual void
+    run_ends(const Summary &, const RunCounts &)
+    {}
+
+    /** The run ends with an error, which is thrown next. */
+    virtual void
+    run_fails(const Summary &)
+    {}
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/console_report.h>
+
+#include <moraine/core/version.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    words_for(const MeshAfterStep after_step)
+    {
+      switch (after_step)
+        {
+          case MeshAfterStep::reset:
+            return "reset after each step";
+          case MeshAfterStep::keep:
+            return "kept";
+          default:
+            return "follows the material";
+        }
+    }
+
+
+
+    template <int dim>
+    void
+    print_step(const AcceptedStep<dim> &step,
+               const bool               residuals,
+               std::ostream            &out)
+    {
+      std::ostringstream line;
+      line << "  step " << std::setw(4) << step.time.n_accepted()
+           << "  t = " << std::setw(10) << std::left << std::setprecision(6)
+           << step.time.time() << std::right << "  iterations "
+           << step.newton.iterations;
+      if (step.newton.linear_iterations > 0)
+        line << " (linear " << step.newton.linear_iterations << ")";
+      line << "  residual " << std::scientific << std::setprecision(1)
+           << (step.newton.residuals.empty() ? 0. :
+                                               step.newton.residuals.back());
+      if (step.newton.observed_order > 0)
+        line << "  order " << std::fixed << std::setprecision(2)
+             << step.newton.observed_order;
+      if (residuals)
+        {
+          line << std::scientific << std::setprecision(2)
+               << "\n      residuals";
+          for (const double residual : step.newton.residuals)
+            line << ' ' << residual;
+        }
+      out << line.str() << std::endl;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ConsoleReport<dim>::ConsoleReport(const Scene<dim>  &scene,
+                                    const Model<dim>  &model,
+                                    const std::string &results,
+                                    Console           &console)
+    : scene(scene)
+    , model(model)
+    , results(results)
+    , console(console)
+  {}
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe(const std::vector<std::string> &notes)
+  {
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(model.space->communicator());
+    console << "Moraine " << version << ", " << dim << "D, " << n_ranks
+            << (n_ranks == 1 ? " process\n" : " processes\n");
+    if (!scene.title.empty())
+      console << scene.title << '\n';
+    describe_method();
+    describe_bodies();
+    describe_conditions();
+    for (const std::string &note : notes)
+      console << "  note        " << note << '\n';
+    for (const auto &[name, load] : scene.loads)
+      console << "  load        " << name << ", " << load.type << '\n';
+    console << "  steps       " << scene.time.n_steps
+            << " from t = " << scene.time.start_time << " to "
+            << scene.time.end_time << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe_method()
+  {
+    console << "  method      " << scene.method.method << ", Q"
+            << scene.method.degree << ", mesh "
+            << words_for(model.state->mesh_after_step()) << '\n'
+            << "  mesh        "
+            << model.mesh->triangulation().n_global_active_cells() << " cells, "
+            << model.space->n_active_cells() << " active, "
+            << model.space->n_dofs() << " unknowns\n";
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe_bodies()
+  {
+    const MPI_Comm communicator = model.space->communicator();
+    console << "  points      " << model.points->n_global() << ", "
+            << model.points->bytes_per_point() << " bytes each";
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        const auto shares =
+          Utilities::MPI::min_max_avg(model.points->n_local(), communicator);
+        console << ", " << shares.min << " to " << shares.max
+                << " on a process";
+      }
+    console << '\n';
+    for (unsigned int b = 0; b < model.body_names.size(); ++b)
+      console << "  body        " << model.body_names[b] << ", volume "
+              << std::setprecision(8) << model.body_volumes[b] << '\n';
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe_conditions()
+  {
+    if (scene.method.empty_stiffness > 0)
+      console << "  empty parts of cells have " << scene.method.empty_stiffness
+              << " of the material's stiffness\n";
+    const auto n_points = model.system->n_boundary_points();
+    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
+      console << "  boundary    " << model.boundaries[b].name() << ", "
+              << scene.boundaries[b].second.constraint << ", "
+              << scene.boundaries[b].second.enforcement.enforcement << ", "
+              << n_points[b] << " quadrature points\n";
+    const auto n_nodes = model.system->n_prescribed_nodes();
+    for (unsigned int c = 0; c < model.grid_conditions.size(); ++c)
+      console << "  grid        " << model.grid_conditions[c].name << ", holds "
+              << n_nodes[c] << " nodes\n";
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::run_begins()
+  {
+    if (!results.empty())
+      console << "  results in  " << results << '\n' << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::step_accepted(const AcceptedStep<dim> &step)
+  {
+    if (step.jump)
+      {
+        std::ostringstream text;
+        text << std::setprecision(8) << "no way on from t = " << step.t_start
+             << "; came to rest at an equilibrium " << *step.jump << " away";
+        note(text.str());
+      }
+    print_step(step, scene.output.residuals, console.stream());
+    note_domains();
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::step_rejected(const double t, const std::string &reason)
+  {
+    console << "  step to t = " << t << " rejected: " << reason << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::note(const std::string &text)
+  {
+    console << "  note: " << text << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::note_domains()
+  {
+    const MPI_Comm communicator = model.space->communicator();
+    const auto     n_far =
+      Utilities::MPI::sum(model.basis->n_far_domains(), communicator);
+    if (n_far > 0 && !has_far_domains)
+      note(std::to_string(n_far) +
+           " domains reach beyond the cells around their point; of more cells "
+           "than that they see only those of their corners" +
+           (scene.method.chosen().can_split_domains ?
+              " (Method / Split domains = true halves them)" :
+              ""));
+    has_far_domains = has_far_domains || n_far > 0;
+    const auto n_back =
+      Utilities::MPI::sum(model.points->n_put_back(), communicator);
+    if (n_back > n_put_back)
+      note(std::to_string(n_back - n_put_back) +
+           " points that ended outside the mesh were put back onto its edge");
+    n_put_back = n_back;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::run_ends(const Summary &summary, const RunCounts &counts)
+  {
+    print_timings(summary);
+    if (!summary.errors.empty())
+      print_errors(summary);
+    console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
+            << " rejected, "
+            << (summary.jumps > 0 ? std::to_string(summary.jumps) + " jumps, " :
+                                    "")
+            << summary.newton_iterations << " Newton iterations, "
+            << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
+            << std::setprecision(4) << summary.peak_memory_mib
+            << " MiB at most\n";
+    if (summary.status != "ok")
+      console << "  ended early: " << summary.message << '\n';
+    console << "" << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_timings(const Summary &summary)
+  {
+    console << '\n' << "  part                       seconds   share\n";
+    double rest = summary.wall_seconds;
+    for (const auto &[name, seconds] : summary.timings)
+      rest -= seconds;
+    auto parts = summary.timings;
+    parts.emplace_back("not covered", rest);
+    for (const auto &[name, seconds] : parts)
+      console << "  " << std::left << std::setw(24) << name << std::right
+              << std::fixed << std::setprecision(3) << std::setw(10) << seconds
+              << std::setprecision(1) << std::setw(7)
+              << 100 * seconds / std::max(summary.wall_seconds, 1e-12)
+              << " %\n";
+    console << "  " << std::left << std::setw(24) << "whole run" << std::right
+            << std::setprecision(3) << std::setw(10) << summary.wall_seconds
+            << std::defaultfloat << "\n";
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_errors(const Summary &summary)
+  {
+    console << "\n  error against the exact solution\n";
+    for (const auto &[name, value] : summary.errors)
+      {
+        console << "  " << std::left << std::setw(24) << name << std::right;
+        if (value)
+          console << std::scientific << std::setprecision(3) << std::setw(12)
+                  << *value << std::defaultfloat << '\n';
+        else
+          console << "   (exact value is zero)\n";
+      }
+  }
+
+
+
+  template class ConsoleReport<2>;
+  template class ConsoleReport<3>;
+} // namespace moraine

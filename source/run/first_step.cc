@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// What shows only when a model is about to take its first step.
+
+#include <moraine/core/exceptions.h>
+#include <moraine/output/error_norms.h>
+#include <moraine/output/grid_evaluation.h>
+#include <moraine/run/model.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * A motion without a value at the end of a step is found here, before
+     * anything is computed or written; and a surface without a level at a body.
+     */
+    template <int dim>
+    void
+    check_prescribed_motion(const Scene<dim> &scene, Model<dim> &model)
+    {
+      const double size =
+        (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
+      for (unsigned int step = 0; step <= scene.time.n_steps; ++step)
+        {
+          const double t = scene.time.start_time + step * size;
+          for (auto &boundary : model.boundaries)
+            boundary.set_target(t);
+          model.system->check_prescribed_values(t);
+        }
+      for (const auto &boundary : model.boundaries)
+        for (const auto &in_cell : model.points->cells())
+          boundary.is_far(model.points->position(in_cell.first), 0.);
+    }
+
+
+
+    /** A weight of nothing is a mistake, not a load; so is a push on nothing.
+     */
+    template <int dim>
+    void
+    check_loads(const Model<dim> &model)
+    {
+      for (const auto &force : model.loads.body_forces)
+        for (unsigned int b = 0; b < model.bodies.size(); ++b)
+          if (force.times_density && force.acts_on[b] &&
+              !(model.materials[b]->density() > 0))
+            throw InputError("section 'Loads/" + force.name +
+                             "': found gravity on body '" +
+                             model.bodies[b].name +
+                             "', whose material has no 'Density', allowed: "
+                             "bodies with a density > 0");
+      for (const auto &traction : model.loads.side_tractions)
+        {
+          unsigned int n_faces = 0;
+          for (const auto &cell :
+               model.mesh->triangulation().active_cell_iterators())
+            if (cell->at_boundary() && model.space->is_active(cell))
+              for (const auto &face : cell->face_iterators())
+                n_faces +=
+                  face->at_boundary() && face->boundary_id() == traction.side;
+          if (n_faces == 0)
+            throw InputError(
+              "section 'Loads/" + traction.name +
+              "': found a side of the mesh without a body beside "
+              "it, allowed: a side that a body touches");
+        }
+    }
+
+
+
+    /**
+     * The body must lie on the inner side of a surface. Where there is none, a
+     * constraint makes little sense, and the flux of Nitsche's method is that
+     * of no material.
+     */
+    template <int dim>
+    void
+    check_sides_of_boundaries(const Model<dim>         &model,
+                              std::vector<std::string> &notes)
+    {
+      const auto in_a_body = [&model](const Point<dim> &x) {
+        return std::any_of(model.bodies.begin(),
+                           model.bodies.end(),
+                           [&x](const auto &body) {
+                             return body.shape->contains(x);
+                           });
+      };
+      if (std::any_of(model.bodies.begin(),
+                      model.bodies.end(),
+                      [](const auto &body) { return !body.shape; }))
+        return;
+      for (const auto &boundary : model.boundaries)
+        {
+          std::vector<double> area(3, 0.); // inside, behind, all
+          for (const auto &point : boundary.points())
+            {
+              const Tensor<1, dim> step = 1e-3 * point.h * point.normal;
+              area[0] += in_a_body(point.x - step) ? point.JxW : 0.;
+              area[1] += in_a_body(point.x + step) ? point.JxW : 0.;
+              area[2] += point.JxW;
+            }
+          Utilities::MPI::sum(area, model.space->communicator(), area);
+          const std::string where = "Boundaries/" + boundary.name();
+          if (area[0] == 0 && area[1] > 0)
+            throw InputError(
+              "section '" + where +
+              "': found the body behind the surface, allowed: a surface whose "
+              "normal points out of the body (in 2D the body is on the left of a "
+              "line's points; reverse them)");
+          if (area[0] == 0)
+            notes.push_back(boundary.name() +
+                            ": no body is beside it at the start");
+          else if (area[0] < 0.99 * area[2])
+            notes.push_back(
+              boundary.name() + ": " +
+              std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
+              " % of its surface in the body's cells has no body on its inner "
+              "side; end it with the body, or choose 'Enforcement = weighted'");
+        }
+    }
+
+
+
+    template <int dim>
+    void
+    check_flux_of_boundaries(const Model<dim>         &model,
+                             std::vector<std::string> &notes)
+    {
+      if (model.state->strain_measure() == StrainMeasure::finite)
+        for (const auto &boundary : model.boundaries)
+          if (boundary.enforcement().w_constrained > 0)
+            notes.push_back(
+              boundary.name() +
+              ": its flux is elastic and of the increment of a step; "
+              "'Enforcement = weighted' with the reaction carried holds at any "
+              "strain");
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  begin_first_step(const Scene<dim> &scene, Model<dim> &model)
+  {
+    MechanicsSystem<dim> &system = *model.system;
+    system.begin_step(scene.time.start_time);
+    const auto n_points = system.n_boundary_points();
+    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
+      if (n_points[b] == 0)
+        throw InputError("section 'Boundaries/" + model.boundaries[b].name() +
+                         "': found a surface that touches no body, allowed: a "
+                         "surface on or in a body");
+    std::vector<std::string> notes;
+    check_prescribed_motion(scene, model);
+    check_loads(model);
+    check_sides_of_boundaries(model, notes);
+    check_flux_of_boundaries(model, notes);
+    model.probes->check_places(
+      grid_evaluation<dim>(*model.space, model.state->nodal_increments()));
+    const ExactSolution<dim> exact = scene.exact.solution();
+    if (exact.displacement || exact.stress)
+      error_norms(*model.points, exact, scene.time.end_time, false);
+    system.set_target(scene.time.start_time);
+    system.assemble(model.space->vector(), true);
+    system.check_that_it_is_held(true);
+    return notes;
+  }
+
+
+
+  template std::vector<std::string>
+  begin_first_step(const Scene<2> &, Model<2> &);
+  template std::vector<std::string>
+  begin_first_step(const Scene<3> &, Model<3> &);
+} // namespace moraine

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/method.h>
+
+#include <moraine/basis/cpdi_basis.h>
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    CellSeeder<dim>
+    gauss_points(const MethodParameters<dim> &parameters)
+    {
+      // Gradients of Q2 ask for 2; 3 serves the stiffness better, but in 3D the
+      // fit of 64 moments takes a tenth of a second for each cut cell.
+      constexpr unsigned int fitted_degree = dim == 2 ? 3 : 2;
+      return CellSeeder<dim>(parameters.degree + 1,
+                             PointLayout::gauss,
+                             parameters.degree == 2 ? fitted_degree : 0);
+    }
+
+
+
+    template <int dim>
+    CellSeeder<dim>
+    material_points(const MethodParameters<dim> &parameters)
+    {
+      return CellSeeder<dim>(parameters.points_per_direction,
+                             parameters.point_layout == "Gauss" ?
+                               PointLayout::gauss :
+                               PointLayout::equal);
+    }
+
+
+
+    template <int dim>
+    std::unique_ptr<Basis<dim>>
+    cell_basis(const typename Method<dim>::Ingredients &of)
+    {
+      if (of.parameters.degree == 1)
+        return std::make_unique<CellBasis<dim, 1>>(of.space, of.points);
+      return std::make_unique<CellBasis<dim, 2>>(of.space, of.points);
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    finite_element()
+    {
+      Method<dim> method;
+      method.name               = "finite element";
+      method.text               = "Gauss points that stay in their cell.";
+      method.mesh_after_step    = MeshAfterStep::follow_material;
+      method.refused_after_step = "reset";
+      method.allowed_after_step = "follow material or keep with finite "
+                                  "elements, whose points stay in their cells";
+      method.largest_degree     = 2;
+      method.can_split_domains  = false;
+      method.make_seeder        = gauss_points<dim>;
+      method.request_fields     = [](const auto &, PointFields &) {};
+      method.make_basis         = cell_basis<dim>;
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    material_point()
+    {
+      Method<dim> method;
+      method.name              = "material point";
+      method.text              = "points that move through the mesh.";
+      method.mesh_after_step   = MeshAfterStep::reset;
+      method.largest_degree    = 1;
+      method.can_split_domains = false;
+      method.make_seeder       = material_points<dim>;
+      method.request_fields    = [](const auto &, PointFields &) {};
+      method.make_basis        = cell_basis<dim>;
+      return method;
+    }
+
+
+
+    /** What all methods share whose points have domains. */
+    template <int dim>
+    Method<dim>
+    with_domains(const std::string &name, const std::string &text)
+    {
+      Method<dim> method        = material_point<dim>();
+      method.name               = name;
+      method.text               = text;
+      method.refused_after_step = "follow material";
+      method.allowed_after_step = "reset or keep with method '" + name + "'";
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    gimp()
+    {
+      Method<dim> method =
+        with_domains<dim>("GIMP",
+                          "the same, averaged over the box of each point; "
+                          "needs a box of equal cells.");
+      method.can_split_domains = true;
+      method.request_fields = [](const auto &parameters, PointFields &fields) {
+        GimpBasis<dim>::request_fields(fields, parameters.update_of_domains());
+      };
+      method.make_basis = [](const auto &of) {
+        std::vector<bool> is_seeded;
+        for (const Body<dim> &body : of.bodies)
+          is_seeded.push_back(body.shape != nullptr);
+        return std::make_unique<GimpBasis<dim>>(
+          of.space,
+          of.points,
+          of.parameters.points_per_direction,
+          is_seeded,
+          of.parameters.update_of_domains(),
+          of.parameters.split_domains);
+      };
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    cpdi1()
+    {
+      Method<dim> method =
+        with_domains<dim>("CPDI1",
+                          "averaged over a parallelogram (in 3D a "
+                          "parallelepiped) that is carried along with the "
+                          "point; on any mesh.");
+      method.can_split_domains = true;
+      method.request_fields    = [](const auto &, PointFields &fields) {
+        Cpdi1Basis<dim>::request_fields(fields);
+      };
+      method.make_basis = [](const auto &of) {
+        return std::make_unique<Cpdi1Basis<dim>>(of.space,
+                                                 of.points,
+                                                 material_points<dim>(
+                                                   of.parameters),
+                                                 of.bodies,
+                                                 of.parameters.split_domains);
+      };
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    cpdi2()
+    {
+      Method<dim> method =
+        with_domains<dim>("CPDI2",
+                          "the same over a quadrilateral (in 3D a hexahedron) "
+                          "whose corners are carried along.");
+      method.request_fields = [](const auto &, PointFields &fields) {
+        Cpdi2Basis<dim>::request_fields(fields);
+      };
+      method.make_basis = [](const auto &of) {
+        return std::make_unique<Cpdi2Basis<dim>>(
+          of.space, of.points, material_points<dim>(of.parameters), of.bodies);
+      };
+      return method;
+    }
+
+
+
+    /** The names of those methods for which @p holds, in words. */
+    template <int dim, class Condition>
+    std::string
+    names_where(const Condition &holds, const std::string &quote)
+    {
+      std::string names;
+      for (const Method<dim> &method : methods<dim>())
+        if (holds(method))
+          names += (names.empty() ? "" : " and ") + quote + method.name + quote;
+      return names;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  const std::vector<Method<dim>> &
+  methods()
+  {
+    static const std::vector<Method<dim>> all{finite_element<dim>(),
+                                              material_point<dim>(),
+                                              gimp<dim>(),
+                                              cpdi1<dim>(),
+                                              cpdi2<dim>()};
+    return all;
+  }
+
+
+
+  template <int dim>
+  void
+  MethodParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    std::vector<std::string> names;
+    std::string              texts;
+    for (const Method<dim> &one : methods<dim>())
+      {
+        names.push_back(one.name);
+        texts += (texts.empty() ? "" : " ") + one.name + ": " + one.text;
+      }
+    prm.add_parameter("Method", method, texts, patterns::selection(names));
+    prm.add_parameter("Degree",
+                      degree,
+                      "Degree of the shape functions, 1 or 2; 2 with finite "
+                      "elements only.",
+                      patterns::integer_in_range(1, 2));
+    prm.add_parameter("Points per direction",
+                      points_per_direction,
+                      "Points a full cell gets in each direction. Finite "
+                      "elements have degree + 1 Gauss points instead.",
+                      patterns::integer_in_range(1, 1000));
+    prm.add_parameter("Point layout",
+                      point_layout,
+                      "Where the points of a full cell are. Finite elements "
+                      "always use Gauss points.",
+                      patterns::selection({"equally spaced", "Gauss"}));
+    prm.add_parameter(
+      "Strain",
+      strain,
+      "small: strains and rotations of a step and of the whole are small. "
+      "finite: updated Lagrangian, logarithmic strain; any deformation.",
+      patterns::selection({"small", "finite"}));
+    prm.add_parameter(
+      "Mesh after step",
+      mesh_after_step,
+      "reset: points move and the mesh stays. follow material: nodes move with "
+      "the material. keep: nothing moves (small displacement). default: follow "
+      "material with finite elements, reset otherwise.",
+      patterns::selection({"default", "reset", "follow material", "keep"}));
+    prm.add_parameter(
+      "Domain update",
+      domain_update,
+      "Of GIMP at finite strain, how the box of a point changes. frozen: not. "
+      "stretch: by the diagonal of the stretch U. corners: its corners move "
+      "with the mesh and the volume is corrected.",
+      patterns::selection({"frozen", "stretch", "corners"}));
+    prm.add_parameter(
+      "Split domains",
+      split_domains,
+      "Of GIMP and CPDI1: halve points whose domain grows beyond the cells "
+      "that touch the point's, instead of ending the run.");
+    prm.add_parameter(
+      "Put back",
+      put_back,
+      "Points that end outside the mesh, but by no more than this many cell "
+      "sizes, are put back onto its edge, and the run says so. 0: a point "
+      "outside ends the run. For coarse meshes that turn with a curved wall.",
+      patterns::non_negative());
+    prm.add_parameter(
+      "Empty stiffness",
+      empty_stiffness,
+      "Stiffness of the part of cells that points leave empty, as a fraction "
+      "of the material's. It acts on the increment of a step and holds nodes "
+      "that too few points touch. 0: none, until the direct solver meets a "
+      "singular matrix; then 1e-6 from that step on, and the run says so.",
+      patterns::non_negative());
+  }
+
+
+
+  template <int dim>
+  const Method<dim> &
+  MethodParameters<dim>::chosen() const
+  {
+    const auto &all = methods<dim>();
+    const auto  one = std::find_if(all.begin(), all.end(), [this](auto &m) {
+      return m.name == method;
+    });
+    AssertThrow(one != all.end(), ExcInternalError());
+    return *one;
+  }
+
+
+
+  template <int dim>
+  MeshAfterStep
+  MethodParameters<dim>::after_step() const
+  {
+    if (mesh_after_step == "keep")
+      return MeshAfterStep::keep;
+    if (mesh_after_step == "follow material")
+      return MeshAfterStep::follow_material;
+    if (mesh_after_step == "reset")
+      return MeshAfterStep::reset;
+    return chosen().mesh_after_step;
+  }
+
+
+
+  template <int dim>
+  DomainUpdate
+  MethodParameters<dim>::update_of_domains() const
+  {
+    if (strain == "small" || domain_update == "frozen")
+      return DomainUpdate::frozen;
+    return domain_update == "stretch" ? DomainUpdate::stretch :
+                                        DomainUpdate::corners;
+  }
+
+
+
+  template <int dim>
+  void
+  MethodParameters<dim>::check() const
+  {
+    const Method<dim> &kind = chosen();
+    if (degree > kind.largest_degree)
+      reject("Method",
+             "Degree",
+             std::to_string(degree),
+             "1 with method '" + method + "'; 2 with " +
+               names_where<dim>(
+                 [](const auto &m) { return m.largest_degree > 1; }, "'"));
+    if (mesh_after_step == kind.refused_after_step)
+      reject("Method",
+             "Mesh after step",
+             mesh_after_step,
+             kind.allowed_after_step);
+    if (strain == "finite" && mesh_after_step == "keep")
+      reject("Method",
+             "Mesh after step",
+             mesh_after_step,
+             "reset or follow material with finite strain");
+    if (split_domains && !kind.can_split_domains)
+      reject("Method",
+             "Split domains",
+             "true",
+             "false with method '" + method + "'; " +
+               names_where<dim>(
+                 [](const auto &m) { return m.can_split_domains; }, "") +
+               " split");
+  }
+
+
+
+  template struct MethodParameters<2>;
+  template struct MethodParameters<3>;
+  template const std::vector<Method<2>> &
+  methods<2>();
+  template const std::vector<Method<3>> &
+  methods<3>();
+} // namespace moraine

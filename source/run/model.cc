@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/model.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/run/scene_bodies.h>
+#include <moraine/run/scene_conditions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of a cell without points over that of one with points. */
+    constexpr double work_of_empty_cell = 0.05;
+
+
+
+    /** Whether @p x is in the box, which may be infinite, or @p size from it.
+     */
+    template <int dim>
+    bool
+    is_near(const BoundingBox<dim> &box, const Point<dim> &x, const double size)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < box.lower_bound(d) - size ||
+            x[d] > box.upper_bound(d) + size)
+          return false;
+      return true;
+    }
+
+
+
+    /**
+     * The part of a cell of size @p size that a body with a flat surface fills,
+     * by its level at the cell's centre @p x. Where an expression is no number
+     * that is a guess: whoever needs the level there will say so.
+     */
+    template <int dim>
+    double
+    filled_part(const Shape<dim> &shape, const Point<dim> &x, const double size)
+    {
+      try
+        {
+          return 0.5 + shape.level(x) / size;
+        }
+      catch (const InputError &)
+        {
+          return 1.;
+        }
+    }
+
+
+
+    /**
+     * What a cell has to do with it, judged by the @p bodies before they are
+     * seeded. Keeps a reference to them.
+     */
+    template <int dim>
+    std::function<double(const typename BackgroundMesh<dim>::CellIterator &)>
+    work_by_bodies(const std::vector<Body<dim>> &bodies)
+    {
+      std::vector<BoundingBox<dim>> boxes;
+      for (const Body<dim> &body : bodies)
+        boxes.push_back(body.shape ? body.shape->bounding_box() :
+                                     BoundingBox<dim>());
+      return [&bodies, boxes](const auto &cell) {
+        const Point<dim> centre = cell->center();
+        const double     size   = cell->diameter() / std::sqrt(dim);
+        double           filled = 0;
+        for (unsigned int b = 0; b < bodies.size(); ++b)
+          if (bodies[b].shape == nullptr)
+            filled = 1.;
+          else if (is_near(boxes[b], centre, size))
+            filled =
+              std::max(filled, filled_part(*bodies[b].shape, centre, size));
+        return std::clamp(filled, work_of_empty_cell, 1.);
+      };
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Model<dim>::Model(const Scene<dim> &scene,
+                    const MPI_Comm   &communicator,
+                    TimerOutput      &timer)
+  {
+    TimerOutput::Scope scope(timer, "set up");
+    mesh   = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
+    bodies = make_bodies(scene);
+    mesh->share_cells(work_by_bodies(bodies));
+    space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
+    for (const Body<dim> &body : bodies)
+      body_names.push_back(body.name);
+    materials = make_materials(scene, bodies);
+    make_points(scene);
+    state           = std::make_unique<State<dim>>(*space,
+                                         *points,
+                                         *basis,
+                                         materials,
+                                         scene.method.after_step(),
+                                         scene.method.strain_measure());
+    boundaries      = make_boundaries(scene);
+    grid_conditions = make_grid_conditions(scene, *mesh);
+    loads           = make_loads(scene, *mesh, body_names);
+    system =
+      std::make_unique<MechanicsSystem<dim>>(*state,
+                                             boundaries,
+                                             grid_conditions,
+                                             loads,
+                                             body_names,
+                                             scene.method.empty_stiffness,
+                                             &timer);
+    mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
+    if (mesh_motion.moves())
+      {
+        check_mesh_motion(mesh_motion, scene.time, *mesh, grid_conditions);
+        system->move_mesh_by(mesh_motion, *mesh);
+      }
+    linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
+    probes        = std::make_unique<Probes<dim>>(
+      scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::make_points(const Scene<dim> &scene)
+  {
+    const MethodParameters<dim> &parameters = scene.method;
+    const Method<dim>           &method     = parameters.chosen();
+
+    PointFields fields;
+    method.request_fields(parameters, fields);
+    StateFields<dim>(fields,
+                     parameters.strain_measure(),
+                     std::any_of(materials.begin(),
+                                 materials.end(),
+                                 [](const auto &m) {
+                                   return m->is_plastic();
+                                 }));
+    points       = std::make_unique<PointSet<dim>>(*mesh, fields);
+    body_volumes = seed_bodies(bodies, method.make_seeder(parameters), *points);
+    points->allow_put_back(parameters.put_back * mesh->cell_size());
+    basis = method.make_basis({parameters, *space, *points, bodies});
+    basis->initialise_points(*points);
+  }
+
+
+
+  template struct Model<2>;
+  template struct Model<3>;
+} // namespace moraine

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/result_files.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/output/domain_vtu.h>
+#include <moraine/output/mesh_vtu.h>
+#include <moraine/output/on_root.h>
+#include <moraine/output/point_vtu.h>
+
+#include <filesystem>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  ResultFiles<dim>::ResultFiles(const Scene<dim>      &scene,
+                                const Model<dim>      &model,
+                                const OutputDirectory &directory,
+                                TimerOutput           &timer)
+    : scene(scene)
+    , model(model)
+    , directory(directory)
+    , timer(timer)
+    , communicator(model.space->communicator())
+    , history(directory.file("history.csv"), communicator)
+    , points_pvd(directory.file("points.pvd"), communicator)
+    , mesh_pvd(directory.file("mesh.pvd"), communicator)
+    , t_written(scene.time.start_time)
+    , t_accepted(scene.time.start_time)
+  {}
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::run_begins()
+  {
+    if (scene.output.points && model.basis->has_domains())
+      {
+        on_root(communicator, [this]() {
+          std::filesystem::create_directory(directory.file("domains"));
+        });
+        domains_pvd.emplace(directory.file("domains.pvd"), communicator);
+      }
+    write_vtu(t_written, Increments(model.space->n_nodes()));
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::step_accepted(const AcceptedStep<dim> &step)
+  {
+    TimerOutput::Scope scope(timer, "output");
+    t_accepted = step.time.time();
+    history.add_row(row_of(step));
+    if (scene.output.times.due(step.time))
+      write_vtu(t_accepted, step.increments);
+  }
+
+
+
+  template <int dim>
+  std::vector<NamedValue>
+  ResultFiles<dim>::row_of(const AcceptedStep<dim> &step) const
+  {
+    const auto             &reports    = step.reports;
+    const auto             &boundaries = model.boundaries;
+    std::vector<NamedValue> row;
+    row.push_back({"t", "-", step.time.time()});
+    for (const auto &report : reports)
+      for (unsigned int d = 0; d < dim; ++d)
+        row.push_back(
+          {std::string("reaction_") + "xyz"[d] + " of " + report.name,
+           "force",
+           report.reaction[d]});
+    for (unsigned int b = 0; b < reports.size(); ++b)
+      {
+        const RigidMotion<dim> &motion =
+          b < boundaries.size() ?
+            boundaries[b].rigid_motion() :
+            model.grid_conditions[b - boundaries.size()].motion;
+        if (!motion.turns())
+          continue;
+        row.push_back(
+          {"moment of " + reports[b].name, "force length", reports[b].moment});
+        row.push_back({"force magnitude of " + reports[b].name,
+                       "force",
+                       reports[b].force_magnitude});
+      }
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      {
+        row.push_back(
+          {"violation of " + reports[b].name, "length", reports[b].violation});
+        row.push_back({"penetration of " + reports[b].name,
+                       "length",
+                       reports[b].penetration});
+      }
+    for (const auto &value : model.probes->values(*model.points))
+      row.push_back(value);
+    return row;
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::write_vtu(const double t, const Increments &increments)
+  {
+    write_points(t);
+    if (scene.output.mesh)
+      {
+        const std::string name =
+          OutputDirectory::vtu_name("mesh", n_vtu_written);
+        write_mesh_vtu<dim>(*model.space,
+                            {{"step_displacement", "length", increments}},
+                            directory.file(name),
+                            t,
+                            n_vtu_written);
+        mesh_pvd.add(t, name);
+      }
+    ++n_vtu_written;
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::write_points(const double t)
+  {
+    t_written = t;
+    if (!scene.output.points)
+      return;
+    const std::string name = OutputDirectory::vtu_name("points", n_vtu_written);
+    write_point_vtu(*model.points, directory.file(name), t, n_vtu_written);
+    points_pvd.add(t, name);
+    if (!domains_pvd)
+      return;
+    const std::string domains =
+      OutputDirectory::vtu_name("domains", n_vtu_written);
+    write_domain_vtu(
+      *model.basis, *model.points, directory.file(domains), t, n_vtu_written);
+    domains_pvd->add(t, domains);
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::run_ends(const Summary &summary, const RunCounts &)
+  {
+    if (t_written < t_accepted)
+      write_points(t_accepted);
+    summary.write(directory.file("summary.json"), communicator);
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::run_fails(const Summary &summary)
+  {
+    try
+      {
+        summary.write(directory.file("summary.json"), communicator);
+      }
+    catch (const InputError &)
+      {
+        // The first error is the one to report.
+      }
+  }
+
+
+
+  template class ResultFiles<2>;
+  template class ResultFiles<3>;
+} // namespace moraine
