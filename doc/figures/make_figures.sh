@@ -47,8 +47,8 @@ PY
 enforcements=()
 for setting in "skew Nitsche 10: skew Nitsche" \
   "symmetric Nitsche 20: symmetric Nitsche; Nitsche factor = 20" \
+  "augmented Lagrangian 1e-6: augmented Lagrangian; Band width = 1e-6" \
   "weighted 1e-6: weighted; Band width = 1e-6" \
-  "weighted 1e-6, no reaction: weighted; Band width = 1e-6; Carry reaction = false" \
   "penalty 1e6: penalty; Penalty factor = 1e6"; do
   words=${setting#*: }
   enforcements+=("Study/Series/${setting%%:*}/Settings = Boundaries/*/Enforcement = ${words//; /; Boundaries/*/}")

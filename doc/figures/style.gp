@@ -3,8 +3,8 @@
 #
 # What all plots share. Colours can be told apart by the colour-blind (Okabe and
 # Ito); a number stands for the same enforcement in every plot:
-#   1 skew Nitsche (default)   2 symmetric Nitsche   3 weighted, with reaction
-#   4 weighted, no reaction (Cortis et al. 2017)     5 penalty
+#   1 skew Nitsche (default)   2 symmetric Nitsche   3 augmented Lagrangian
+#   4 weighted (Cortis et al. 2017)     5 penalty
 #   8 published or exact       9 guides
 set linetype 1 lc rgb '#0072B2' lw 2.5 pt 7 ps 1.4
 set linetype 2 lc rgb '#56B4E9' lw 2.5 pt 5 ps 1.3
@@ -25,12 +25,12 @@ set key below center vertical Left reverse maxrows 3 spacing 1.2 samplen 2.5 \
 set xlabel offset 0,0.4
 
 # As make_figures.sh names the enforcements in a study, and in words.
-array Name[5] = ['skew Nitsche 10', 'symmetric Nitsche 20', 'weighted 1e-6', \
-                 'weighted 1e-6 no reaction', 'penalty 1e6']
+array Name[5] = ['skew Nitsche 10', 'symmetric Nitsche 20', 'augmented Lagrangian 1e-6', \
+                 'weighted 1e-6', 'penalty 1e6']
 array Title[5] = ['skew Nitsche, γ = 10 (default)', 'symmetric Nitsche, γ = 20', \
-                  'weighted, 1e-6 h, with reaction', \
-                  'weighted, 1e-6 h, no reaction (paper)', \
-                  'penalty, β = 1e6, with reaction']
+                  'augmented Lagrangian, 1e-6 h', \
+                  'weighted, 1e-6 h (paper)', \
+                  'penalty, β = 1e6']
 
 # The value where the rows of a study are of this series, else nothing.
 of(name, value) = strcol('Series') eq name ? value : NaN

@@ -15,15 +15,20 @@ namespace moraine
     prm.add_parameter(
       "Enforcement",
       enforcement,
-      "How the constraint is imposed: the Dirichlet-weighted basis of a thin "
-      "band, Nitsche's method (symmetric or skew), or a penalty. If left out "
-      "with finite strain: weighted, with a band of 0.01 and the reaction "
-      "carried, because Nitsche's flux is linear in the increment of a step.",
-      Patterns::Selection("weighted|symmetric Nitsche|skew Nitsche|penalty"));
+      "How the constraint is imposed: Nitsche's method (skew or symmetric), a "
+      "penalty with multipliers that take its place until the constraint holds "
+      "(augmented Lagrangian), the Dirichlet-weighted basis of a thin band, or "
+      "a penalty alone. If left out with finite strain: augmented Lagrangian "
+      "with a band of 0.01, because Nitsche's flux is linear in the increment "
+      "of a step.",
+      Patterns::Selection("skew Nitsche|symmetric Nitsche|augmented Lagrangian|"
+                          "weighted|penalty"));
     prm.add_parameter("Band width",
                       band_width,
-                      "Of 'weighted': width of the band over the cell size, "
-                      "delta/h; 0.01 if left out with finite strain.",
+                      "Width of the band over the cell size, delta/h: of "
+                      "'weighted', whose error is of its order, and of "
+                      "'augmented Lagrangian', whose penalty is 4/(3 delta); "
+                      "0.01 there if left out with finite strain.",
                       Patterns::Double(1e-12, 1.));
     prm.add_parameter("Nitsche factor",
                       nitsche_factor,
@@ -33,12 +38,6 @@ namespace moraine
                       penalty_factor,
                       "Of 'penalty': beta in beta/h, > 0.",
                       Patterns::Double(1e-12));
-    prm.add_parameter(
-      "Carry reaction",
-      carry_reaction,
-      "Of 'weighted' and 'penalty': let the surface carry its reaction and "
-      "repeat the solution with the same factorisation until the constraint "
-      "holds. Without it the error is of the order of the band width.");
   }
 
 
@@ -46,26 +45,24 @@ namespace moraine
   Enforcement
   EnforcementParameters::enforcement_of() const
   {
+    const DirichletWeight weight(band_width);
+    const double          c3 = weight.integral_derivative_squared();
+    // The multiplier takes the place of the flux through the band. Both at once
+    // lose definiteness where the points of a cut cell hold little energy
+    // against the flux on its surface, and updates of t diverge.
+    if (enforcement == "augmented Lagrangian")
+      return {0., 0., 0., c3, true, true};
     if (enforcement == "weighted")
-      {
-        const DirichletWeight weight(band_width);
-        const double          c3 = weight.integral_derivative_squared();
-        // The reaction takes the place of the flux through the band. Both at
-        // once lose definiteness where the points of a cut cell hold little
-        // energy against the flux on its surface, and updates of t diverge.
-        if (carry_reaction)
-          return {0., 0., 0., c3, true, true};
-        return {weight.integral_value_derivative(),
-                weight.integral_derivative(),
-                1.,
-                c3,
-                false,
-                false};
-      }
+      return {weight.integral_value_derivative(),
+              weight.integral_derivative(),
+              1.,
+              c3,
+              false,
+              false};
     if (enforcement == "symmetric Nitsche")
       return {1., 1., 1., nitsche_factor, true, false};
     if (enforcement == "skew Nitsche")
       return {1., 1., -1., nitsche_factor, true, false};
-    return {0., 0., 0., penalty_factor, carry_reaction, carry_reaction};
+    return {0., 0., 0., penalty_factor, false, false};
   }
 } // namespace moraine

@@ -124,7 +124,8 @@ namespace moraine
               boundary.name() + ": " +
               std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
               " % of its surface in the body's cells has no body on its inner "
-              "side; end it with the body, or choose 'Enforcement = weighted'");
+              "side; end it with the body, or choose 'Enforcement = "
+              "augmented Lagrangian'");
         }
     }
 
@@ -141,7 +142,7 @@ namespace moraine
             notes.push_back(
               boundary.name() +
               ": its flux is elastic and of the increment of a step; "
-              "'Enforcement = weighted' with the reaction carried holds at any "
+              "'Enforcement = augmented Lagrangian' holds at any "
               "strain");
     }
   } // namespace

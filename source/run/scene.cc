@@ -4,6 +4,7 @@
 #include <moraine/run/scene.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/run/renamed_keys.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/patterns.h>
 
@@ -318,6 +319,7 @@ namespace moraine
       }
     take_names(input, "Study/Series", series);
     declare();
+    refuse_old_names(input);
     input.parse(prm);
     // Files are named as seen from the folder of the scene.
     const auto folder = std::filesystem::path(input.name()).parent_path();
@@ -343,8 +345,8 @@ namespace moraine
         const std::string section = "Boundaries/" + name;
         prm.enter_subsection(name);
         if (!input.has(section, "Enforcement"))
-          prm.set("Enforcement", std::string("weighted"));
-        if (boundary.enforcement.enforcement == "weighted" &&
+          prm.set("Enforcement", std::string("augmented Lagrangian"));
+        if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
             !input.has(section, "Band width"))
           prm.set("Band width", 0.01);
         prm.leave_subsection();

@@ -31,6 +31,8 @@ refused("misspelt key", base.replace("Poisson ratio", "Poison ratio"))
 refused("misspelt section", base.replace("subsection Method", "subsection Metod"))
 refused("unknown section", base + "subsection Weather\n  set Rain = 1\nend\n")
 refused("key of another section", with_line("set Steps = 3"))
+refused("key of an earlier version", settings={
+    "Boundaries/left/Carry reaction": "false"})
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))

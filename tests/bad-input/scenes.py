@@ -88,7 +88,7 @@ soft = run(scene, {
     "Materials/soft/Young modulus": 0.01, "Materials/soft/Poisson ratio": 0.3,
     "Bodies/second/Material": "soft", "Bodies/second/Shape": "box",
     "Bodies/second/Lower corner": "6, 0.5", "Bodies/second/Upper corner": "7.5, 4.5",
-    "Boundaries/left/Enforcement": "weighted", "Boundaries/left/Band width": 1e-6,
+    "Boundaries/left/Enforcement": "augmented Lagrangian", "Boundaries/left/Band width": 1e-6,
     "Boundaries/stop/Points": "6 4.5; 6 0.5", "Loads/weight/Value": "0; -1e-8*t"})
 text("soft body and a stiff band", soft.summary["status"])
 

@@ -4,8 +4,7 @@
 # Contained block (Cortis et al. 2017, section 5.1, table 1) at five places
 # against the mesh, and a cube.
 paper = {"Boundaries/*/Enforcement": "weighted",
-         "Boundaries/*/Band width": 1e-6,
-         "Boundaries/*/Carry reaction": "false"}
+         "Boundaries/*/Band width": 1e-6}
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 
 

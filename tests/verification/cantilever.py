@@ -33,7 +33,7 @@ number("h = 2, 100 points: deflection of step 20 at 45 degrees", w[45][-1], 6)
 enforcements = {
     "skew Nitsche": {},
     "symmetric Nitsche": {"Nitsche factor": 20},
-    "weighted": {},
+    "augmented Lagrangian": {},
     "penalty": {},
 }
 for name, extra in enforcements.items():

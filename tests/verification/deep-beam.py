@@ -5,8 +5,8 @@
 # corner against finite elements on the same mesh.
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 default = {"Boundaries/support/Enforcement": "skew Nitsche"}
-paper = {"Boundaries/support/Band width": 1e-6,
-         "Boundaries/support/Carry reaction": "false"}
+paper = {"Boundaries/support/Enforcement": "weighted",
+         "Boundaries/support/Band width": 1e-6}
 conforming = "prm/cortis-2017/deep-beam-conforming.prm"
 implicit = "prm/cortis-2017/deep-beam.prm"
 

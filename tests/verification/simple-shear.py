@@ -5,8 +5,7 @@
 # figure 16) at 13 places against the mesh.
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 paper = {"Boundaries/*/Enforcement": "weighted",
-         "Boundaries/*/Band width": 1e-6,
-         "Boundaries/*/Carry reaction": "false"}
+         "Boundaries/*/Band width": 1e-6}
 
 for x_A in ("0", "1e-6", "1e-3", "0.1", "1", "10", "25", "50", "75", "90",
             "99.9", "99.999", "100"):

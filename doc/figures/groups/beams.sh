@@ -19,7 +19,7 @@ deep_beam_studies() {
   for support in -conforming ""; do
     local series=()
     [ "$support" ] || series=(
-      "Study/Series/weighted/Settings = Boundaries/support/Enforcement = weighted"
+      "Study/Series/multipliers/Settings = Boundaries/support/Enforcement = augmented Lagrangian"
       "Study/Series/default/Settings = Boundaries/support/Enforcement = skew Nitsche")
     study "deep$support-$h" "cortis-2017/deep-beam$support" \
       "Mesh/Cell size = {{$h}}" "Method/Points per direction = {{$points}}" \
@@ -60,7 +60,7 @@ set xtics (3, 5, 10, 20, 40)
 n = 'Method/Points per direction'
 set label 1 'slope -2' at 10,3e-4
 plot 'deep-conforming-10/study.csv' using (column(n)):'error' w lp lt 7 title 'support of the nodes', \
-     'deep-10/study.csv' using (column(n)):(of('weighted', column('error'))) w p lt 3 title 'weighted, δ = 10^{-3} h, with reaction', \
+     'deep-10/study.csv' using (column(n)):(of('multipliers', column('error'))) w p lt 3 title 'augmented Lagrangian, δ = 10^{-3} h', \
      '' using (column(n)):(of('default', column('error'))) w lp lt 1 title 'skew Nitsche, γ = 10 (default)', \
      'table-2.csv' w p lt 8 title 'published, table 2', \
      0.03 / x**2 lt 9 notitle
@@ -71,7 +71,7 @@ unset ylabel
 set label 1 'slope 1.5' at 3.3,4.5e-5
 h = 'Mesh/Cell size'
 plot '< for h in 10 5 2 1; do cat deep-conforming-$h/study.csv; done' using (column(h)):(column(n) == 4 ? column('error') : NaN) w lp lt 7 title 'support of the nodes', \
-     '< for h in 10 5 2 1; do cat deep-$h/study.csv; done' using (column(h)):(column(n) == 4 ? of('weighted', column('error')) : NaN) w p lt 3 title 'weighted, δ = 10^{-3} h, with reaction', \
+     '< for h in 10 5 2 1; do cat deep-$h/study.csv; done' using (column(h)):(column(n) == 4 ? of('multipliers', column('error')) : NaN) w p lt 3 title 'augmented Lagrangian, δ = 10^{-3} h', \
      '' using (column(h)):(column(n) == 4 ? of('default', column('error')) : NaN) w lp lt 1 title 'skew Nitsche, γ = 10 (default)', \
      'table-3.csv' w p lt 8 title 'published, table 3', \
      1.2e-5 * x**1.5 lt 9 notitle

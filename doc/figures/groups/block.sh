@@ -14,7 +14,7 @@ render block-30 "$(last block/points)" --mesh "$(last block/mesh)" \
 study block-study cortis-2017/block-study "Mesh/Cell size = 10" \
   "Constants/angle = {{0|30|45}}"
 plot block-study 900,660 <<'GP'
-set title 'Contained block, h = 10 mm: error of the weighted basis over its band width'
+set title 'Contained block, h = 10 mm: error over the band width'
 set xlabel 'band width over cell size  δ/h  [-]'
 set ylabel 'mean relative error of displacement  r_u  [-]'
 set logscale xy
@@ -26,12 +26,12 @@ band = 'Constants/band'
 error(angle, name) = column('Constants/angle') == angle ? of(name, column('error')) : NaN
 set label 1 'published, 30°' right at 1.7e-1,4e-8
 set label 2 'published, 0°, 45°, 90°' right at 1.7e-1,5e-10
-plot data using (column(band)):(error( 0, 'weighted no reaction')) w lp lt 4 pt 10 title 'no reaction,  0°', \
-     data using (column(band)):(error(30, 'weighted no reaction')) w lp lt 4 pt 11 title 'no reaction, 30°', \
-     data using (column(band)):(error(45, 'weighted no reaction')) w lp lt 4 pt  8 title 'no reaction, 45°', \
-     data using (column(band)):(error( 0, 'weighted')) w lp lt 3 pt 6 title 'with reaction,  0°', \
-     data using (column(band)):(error(30, 'weighted')) w lp lt 3 pt 7 title 'with reaction, 30°', \
-     data using (column(band)):(error(45, 'weighted')) w lp lt 3 pt 4 title 'with reaction, 45°', \
+plot data using (column(band)):(error( 0, 'weighted')) w lp lt 4 pt 10 title 'weighted,  0°', \
+     data using (column(band)):(error(30, 'weighted')) w lp lt 4 pt 11 title 'weighted, 30°', \
+     data using (column(band)):(error(45, 'weighted')) w lp lt 4 pt  8 title 'weighted, 45°', \
+     data using (column(band)):(error( 0, 'augmented Lagrangian')) w lp lt 3 pt 6 title 'multipliers,  0°', \
+     data using (column(band)):(error(30, 'augmented Lagrangian')) w lp lt 3 pt 7 title 'multipliers, 30°', \
+     data using (column(band)):(error(45, 'augmented Lagrangian')) w lp lt 3 pt 4 title 'multipliers, 45°', \
      1.173e-8 lt 8 dt 2 notitle, 1.573e-9 lt 8 dt 2 notitle, 2.036e-9 lt 8 dt 2 notitle
 GP
 

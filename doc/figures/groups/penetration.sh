@@ -28,7 +28,7 @@ footing_panels footing-stress 10,20 \
   --unit "kN/m²" --heading "Rigid footing: vertical stress, skew Nitsche"
 
 run footing-half cortis-2017/footing "Mesh/Cell size = 0.1"
-run footing-weighted cortis-2017/footing "Boundaries/*/Enforcement = weighted" \
+run footing-weighted cortis-2017/footing "Boundaries/*/Enforcement = augmented Lagrangian" \
   "Boundaries/*/Band width = 1e-6"
 plot footing-force <<'GP'
 set title 'Rigid footing: force on half of it over its penetration, 20 steps'
@@ -39,7 +39,7 @@ set yrange [0:*]
 force = 'reaction_y of footing [force]'
 plot 'footing/history.csv' using 't':(-column(force)) w lp lt 1 title 'skew Nitsche, γ = 300, h = 0.2 m (the scene)', \
      'footing-half/history.csv' using 't':(-column(force)) w lp lt 2 title 'the same, h = 0.1 m', \
-     'footing-weighted/history.csv' using 't':(-column(force)) w lp lt 3 title 'weighted, δ = 10^{-6} h, with reaction, h = 0.2 m'
+     'footing-weighted/history.csv' using 't':(-column(force)) w lp lt 3 title 'augmented Lagrangian, δ = 10^{-6} h, h = 0.2 m'
 GP
 
 run funnel cortis-2017/funnel

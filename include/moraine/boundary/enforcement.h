@@ -19,19 +19,19 @@ namespace moraine
    * @f[ -\int \eta \cdot f(u) - s \int f(\eta) \cdot (u - g)
    *     + c_3 \int \eta \cdot M Q M (u - g) - \int \eta \cdot t . @f]
    *
-   * | enforcement             | w_c | w_f | s  | c_3     |
-   * |-------------------------|-----|-----|----|---------|
-   * | weighted, no reaction   | 1/2 | 1   | 1  | 4/(3 δ) |
-   * | weighted, with reaction | 0   | 0   | 0  | 4/(3 δ) |
-   * | symmetric Nitsche       | 1   | 1   | 1  | γ/h     |
-   * | skew Nitsche            | 1   | 1   | -1 | γ/h     |
-   * | penalty                 | 0   | 0   | 0  | β/h     |
+   * | enforcement          | w_c | w_f | s  | c_3     | multiplier |
+   * |----------------------|-----|-----|----|---------|------------|
+   * | weighted             | 1/2 | 1   | 1  | 4/(3 δ) | no         |
+   * | augmented Lagrangian | 0   | 0   | 0  | 4/(3 δ) | yes        |
+   * | symmetric Nitsche    | 1   | 1   | 1  | γ/h     | per step   |
+   * | skew Nitsche         | 1   | 1   | -1 | γ/h     | per step   |
+   * | penalty              | 0   | 0   | 0  | β/h     | no         |
    *
    * The first row is the closed form of the Dirichlet-weighted basis
    * (Cortis et al. 2017, eqs. 13-28) for a band δ thin against the cell h:
-   * integrals of d', d d' and d'^2 across the band. t is the reaction the
-   * surface carries from the last step or pass; of a weighted boundary it
-   * takes the place of the flux.
+   * integrals of d', d d' and d'^2 across the band. t is the multiplier the
+   * surface carries from the last step or pass; in the second row it takes the
+   * place of the flux.
    */
   struct Enforcement
   {
@@ -44,8 +44,9 @@ namespace moraine
   };
 
   /**
-   * The keys that choose an Enforcement. At finite strain prefer "weighted"
-   * with a band of 0.01, as scenes do: it has no flux, which would be elastic.
+   * The keys that choose an Enforcement. At finite strain prefer "augmented
+   * Lagrangian" with a band of 0.01, as scenes do: it has no flux, which would
+   * be elastic.
    */
   struct EnforcementParameters
   {
@@ -53,7 +54,6 @@ namespace moraine
     double      band_width     = 1e-6;
     double      nitsche_factor = 10;
     double      penalty_factor = 1e6;
-    bool        carry_reaction = true;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
