@@ -7,7 +7,7 @@
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
 # groups/ without its ending (all if left out). Needs what ./moraine test
-# installs, gnuplot, and xvfb where there is no display. The pictures of
+# installs. The pictures of
 # doc/studies/ show wall times and come from moraine study itself.
 
 set -euo pipefail
@@ -57,11 +57,14 @@ done
 # last FOLDER: its last VTU file
 last() { find "$1" -name '*.vtu' | sort | tail -n 1; }
 
-# render NAME ...: render.py draws NAME.png
-render() { "$figures/render.py" "${@:2}" -o "$figures/$1.png"; }
+# What 'moraine plot' does.
+moraine_plot() { /usr/bin/python3 "$figures/../../scripts/plot.py" "$@"; }
 
-# table NAME.csv ...: render.py writes the values of the points into ./NAME.csv
-table() { "$figures/render.py" "${@:2}" -o "$1"; }
+# render NAME ...: draw fields of VTU files as NAME.png
+render() { moraine_plot "${@:2}" -o "$figures/$1.png"; }
+
+# table NAME.csv ...: write the values of a field into ./NAME.csv
+table() { moraine_plot "${@:2}" -o "$1"; }
 
 # plot NAME [WIDTH,HEIGHT]: gnuplot draws NAME.png by the commands it reads
 plot() {

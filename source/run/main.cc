@@ -8,6 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
 
 /**
  * A process that no launcher of MPI started has nobody to talk to. Open MPI
@@ -30,9 +37,38 @@ start_quickly_if_alone()
 
 
 
+/**
+ * `moraine plot` is a Python script: beside the installed program, or in the
+ * source folder. @return the exit code if it cannot be started.
+ */
+static int
+plot(char **arguments)
+{
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path  folder =
+    fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  fs::path script = folder / ".." / MORAINE_SHARE / "plot.py";
+  if (!fs::exists(script))
+    script = fs::path(MORAINE_SCRIPTS) / "plot.py";
+  const std::string   program = "/usr/bin/python3", path = script.string();
+  std::vector<char *> words{const_cast<char *>(program.c_str()),
+                            const_cast<char *>(path.c_str())};
+  for (; *arguments != nullptr; ++arguments)
+    words.push_back(*arguments);
+  words.push_back(nullptr);
+  execv(program.c_str(), words.data());
+  std::cerr << "moraine: 'moraine plot' needs " << program << std::endl;
+  return moraine::internal_error;
+}
+
+
+
 int
 main(int argc, char **argv)
 {
+  if (argc > 1 && std::strcmp(argv[1], "plot") == 0)
+    return plot(argv + 2);
   start_quickly_if_alone();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   return moraine::main_program({argv + 1, argv + argc});

@@ -200,6 +200,6 @@ main(int argc, char **argv)
       print_stress(points, t_end);
     }
 
-  // Something to look at, with ParaView or doc/figures/render.py.
+  // Something to look at, with ParaView or './moraine plot'.
   write_point_vtu(points, "block.vtu", 1., n_steps);
 }

@@ -181,6 +181,6 @@ main(int argc, char **argv)
       print_reports(system.accept(increment), weight * volume, t_end);
     }
 
-  // Something to look at, with ParaView or doc/figures/render.py.
+  // Something to look at, with ParaView or './moraine plot'.
   write_point_vtu(points, "step-3.vtu", 1., n_steps);
 }

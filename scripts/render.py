@@ -1,37 +1,55 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Draw a VTU file of a run as a PNG picture, or write its values as a CSV table.
+"""Draws VTU files of runs as PNG pictures, for plot.py.
 
 Points are drawn as discs (balls in 3D) of the size of their volume, meshes and
-the domains of points as cells with their edges; walls can be added as lines. Several files become panels
-of one picture, with the same axes and colours. Needs the Debian packages
-python3-vtk9 and xvfb (without a display the program starts itself under
-xvfb-run).
-
-    render.py results/points/00020.vtu --field stress --component xy \\
-              --range -5 5 --title "shear stress" --unit MPa -o shear.png
+the domains of points as cells with their edges; walls can be added as lines.
+Several files become panels of one picture, with the same axes and colours.
+Needs python3-vtk9, and a display for which under_display() sees.
 """
 
-import argparse
 import math
 import os
 import shutil
 import sys
 
-if not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
-    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable] + sys.argv)
-
-import vtk  # noqa: E402  (must come after the display is there)
-
 TENSOR = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"]
 VECTOR = ["x", "y", "z"]
+
+
+HAS_DISPLAY = "MORAINE_PLOT_HAS_DISPLAY"
+
+
+def fail(message):
+    sys.exit(f"moraine plot: {message}")
+
+
+def under_display():
+    """Debian's VTK draws with X only, and ends the program where no X server
+    answers. So this program starts itself anew below one of its own."""
+    if os.environ.get(HAS_DISPLAY):
+        return
+    for tool in ("xvfb-run", "xauth"):
+        if not shutil.which(tool):
+            fail(f"fields are drawn below {tool}, which is not here "
+                 "(Debian packages xvfb and xauth)")
+    os.environ[HAS_DISPLAY] = "1"
+    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable] + sys.argv)
+
+
+def load_vtk():
+    global vtk
+    try:
+        import vtk
+    except ImportError:
+        fail("fields are drawn by VTK, which is not here (Debian package "
+             "python3-vtk9; it needs Debian's own python3)")
 
 
 def read(path):
     """The data set of a VTU file."""
     if not os.path.isfile(path):
-        sys.exit(f"render.py: there is no file {path}")
+        fail(f"there is no file {path}")
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()
@@ -47,7 +65,7 @@ def component_index(array, component):
     if component in ("", "magnitude"):
         return -1
     if component not in names:
-        sys.exit(f"render.py: {array.GetName()} has no component '{component}'; "
+        fail(f"{array.GetName()} has no component '{component}'; "
                  f"there are {', '.join(names)}, magnitude")
     return names.index(component)
 
@@ -59,7 +77,7 @@ def add_value(data, field, component):
     if array is None:
         names = [fields.GetArrayName(i)
                  for i in range(fields.GetNumberOfArrays())]
-        sys.exit(f"render.py: no field '{field}'; there are {', '.join(names)}")
+        fail(f"no field '{field}'; there are {', '.join(names)}")
     column = component_index(array, component)
     value = vtk.vtkDoubleArray()
     value.SetName("value")
@@ -282,18 +300,14 @@ def look_at(renderer, bounds, flat, size, scale, font):
     renderer.ResetCameraClippingRange()
 
 
-def arguments():
-    parser = argparse.ArgumentParser(
-        description="Draw a VTU file of a run as a PNG picture.")
-    parser.add_argument("files", nargs="+", metavar="file",
-                        help="VTU file of points, their domains or a mesh; one "
-                        "per panel")
+def add_arguments(parser):
+    """How a picture looks; what it shows is left to the caller."""
     parser.add_argument("--label", nargs="+", default=[],
                         help="above each panel")
     parser.add_argument("--columns", type=int, default=1, help="of panels")
     parser.add_argument("--mesh", nargs="+", default=[],
                         help="VTU files whose cell edges are drawn too: one, "
-                        "or one per panel")
+                        "or one per panel; of a run its mesh if left out")
     parser.add_argument("--grid", nargs=5, type=float,
                         metavar=("X0", "Y0", "X1", "Y1", "H"),
                         help="instead of --mesh: squares of size H")
@@ -308,9 +322,8 @@ def arguments():
     parser.add_argument("--heading", default="", help="above the picture")
     parser.add_argument("--diverging", action="store_true",
                         help="colours from blue over white to red")
-    parser.add_argument("--field", default="displacement")
     parser.add_argument("--component", default="",
-                        help="x, y, z; xx, xy, ...; magnitude")
+                        help="of the field: x, y, z; xx, xy, ...; magnitude")
     parser.add_argument("--range", nargs=2, type=float,
                         help="values at the ends of the colour bar")
     parser.add_argument("--title", help="title of the colour bar")
@@ -319,8 +332,6 @@ def arguments():
     parser.add_argument("--size", nargs=2, type=int, default=[1000, 700],
                         help="pixels of a panel; in 2D the width follows from "
                         "the height")
-    parser.add_argument("-o", "--output", required=True, help="PNG file, or CSV file")
-    return parser.parse_args()
 
 
 class Panel:
@@ -443,11 +454,14 @@ def write_table(panels, path):
                 file.write(",".join(f"{number:.8g}" for number in row) + "\n")
 
 
-def main():
-    args = arguments()
+def draw(args, path):
+    """Draw args.files as the PNG file `path`, or write a CSV table of them.
+    First of all call under_display()."""
+    load_vtk()
     panels = [Panel(args, i) for i in range(len(args.files))]
-    if args.output.endswith(".csv"):
-        return write_table(panels, args.output)
+    if path.endswith(".csv"):
+        write_table(panels, path)
+        return
     bounds = union([panel.bounds() for panel in panels])
     low, high = zip(*(panel.range for panel in panels))
     value_range = args.range or (min(low), max(high))
@@ -459,9 +473,14 @@ def main():
         if panels[0].flat else (args.size, 1)
     images = [image_of(panel.renderer(table, value_range, bounds, size, scale,
                                       font), size) for panel in panels]
+    write_png(page(args, images, table, font), path)
+
+
+def page(args, images, table, font):
+    """The panels in rows, the colour bar beside and the heading above them."""
     columns = args.columns
     if len(images) % columns:
-        sys.exit("render.py: the panels do not fill the columns")
+        fail("the panels do not fill the columns")
     rows = [joined(images[i:i + columns], 0)
             for i in range(0, len(images), columns)]
     picture = joined(rows[::-1], 1)
@@ -470,13 +489,13 @@ def main():
     picture = joined([picture, image_of(legend(title(args), table, font, side),
                                         side)], 0)
     top = [picture.GetDimensions()[0], 2 * font + 4]
-    picture = joined([picture,
-                      image_of(heading(args.heading, font + 4, top), top)], 1)
+    return joined([picture,
+                   image_of(heading(args.heading, font + 4, top), top)], 1)
+
+
+def write_png(picture, path):
     writer = vtk.vtkPNGWriter()
-    writer.SetFileName(args.output)
+    writer.SetFileName(path)
     writer.SetCompressionLevel(9)
     writer.SetInputData(picture)
     writer.Write()
-
-
-main()
