@@ -35,21 +35,25 @@ namespace moraine
     }
 
     static PointFields
-    fields(const bool gimp, const StrainMeasure measure)
+    fields(const bool                                          gimp,
+           const StrainMeasure                                 measure,
+           const std::vector<std::shared_ptr<const Material>> &materials)
     {
       PointFields layout;
       if (gimp)
         GimpBasis<dim>::request_fields(layout);
-      StateFields<dim>(layout, measure, false);
+      StateFields<dim>(layout, measure, materials);
       return layout;
     }
 
-    explicit SmallScene(const bool          gimp    = false,
-                        const unsigned int  n       = 2,
-                        const StrainMeasure measure = StrainMeasure::small)
+    explicit SmallScene(
+      const bool          gimp    = false,
+      const unsigned int  n       = 2,
+      const StrainMeasure measure = StrainMeasure::small,
+      const std::vector<std::shared_ptr<const Material>> &materials = {})
       : mesh(mesh_parameters(), MPI_COMM_WORLD)
       , space(mesh, 1)
-      , points(mesh, fields(gimp, measure))
+      , points(mesh, fields(gimp, measure, materials))
     {
       dealii::Point<dim> lower, upper;
       for (unsigned int d = 0; d < dim; ++d)

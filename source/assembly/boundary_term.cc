@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/term.h>
+#include <moraine/assembly/boundary_term.h>
+
+#include <moraine/assembly/boundary_force.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 
 namespace moraine
 {
@@ -9,170 +15,308 @@ namespace moraine
 
   namespace
   {
-    /**
-     * @f$M\,(C : \mathrm{sym}(w \otimes g))\,n@f$: the flux of a displacement
-     * gradient of rank one.
-     */
+    /** Value and gradient of the trial increment at a place of a boundary. */
     template <int dim>
-    Tensor<1, dim>
-    flux(const Tensor<1, dim>          &w,
-         const Tensor<1, dim>          &g,
-         const Tensor<1, dim>          &n,
-         const SymmetricTensor<2, dim> &M,
-         const LameConstants           &C)
+    std::pair<Tensor<1, dim>, Tensor<2, dim>>
+    increment_at(const std::vector<Tensor<1, dim>> &nodal,
+                 const unsigned int                *nodes,
+                 const unsigned int                 n_nodes,
+                 const double                      *N,
+                 const Tensor<1, dim>              *grad_N)
     {
-      return M * (C.lambda * (w * g) * n + C.mu * ((g * n) * w + (w * n) * g));
-    }
-
-
-
-    /** @f$W = w_c M + w_f (1 - M)@f$ */
-    template <int dim>
-    SymmetricTensor<2, dim>
-    weights(const Enforcement &how, const SymmetricTensor<2, dim> &M)
-    {
-      return how.w_constrained * M +
-             how.w_free * (unit_symmetric_tensor<dim>() - M);
-    }
-
-
-
-    /**
-     * @f$B = (1 + A/2)^{-1}@f$ at finite strain, else 1: the gradient of a step
-     * with respect to its middle is @f$A B@f$, and a change of A changes it by
-     * @f$B\, dA\, B@f$.
-     */
-    template <int dim>
-    Tensor<2, dim>
-    to_middle(const Tensor<2, dim> &A, const StrainMeasure measure)
-    {
-      const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
-      return measure == StrainMeasure::finite ? invert(one + 0.5 * A) : one;
-    }
-
-
-
-    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$. */
-    template <int dim>
-    SymmetricTensor<2, dim>
-    penalty(const Enforcement             &how,
-            const double                   h,
-            const Tensor<1, dim>          &n,
-            const SymmetricTensor<2, dim> &M,
-            const LameConstants           &C)
-    {
-      const Tensor<1, dim> Mn = M * n;
-      return how.stiffness_factor / h *
-             ((C.lambda + C.mu) * symmetrize(outer_product(Mn, Mn)) + C.mu * M);
+      Tensor<1, dim> du;
+      Tensor<2, dim> grad_du;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          const Tensor<1, dim> &u = nodal[nodes ? nodes[a] : a];
+          du += N[a] * u;
+          grad_du += outer_product(u, grad_N[a]);
+        }
+      return {du, grad_du};
     }
   } // namespace
 
 
 
   template <int dim>
-  Tensor<1, dim>
-  boundary_traction(const BoundaryPoint<dim>   &point,
-                    const ConstraintState<dim> &constraint,
-                    const Enforcement          &how,
-                    const LameConstants        &C,
-                    const StrainMeasure         measure,
-                    const Tensor<2, dim>       &grad_du)
+  BoundaryTerm<dim>::BoundaryTerm(ImplicitBoundary<dim> &boundary)
+    : boundary(boundary)
+  {}
+
+
+
+  template <int dim>
+  std::vector<Effect>
+  BoundaryTerm<dim>::effects(const StepContext<dim> &context) const
   {
-    const Tensor<1, dim> &n = constraint.normal;
-    const auto           &M = constraint.M;
-    // A carried normal reaction follows the normal of a curved wall.
-    Tensor<1, dim> traction = point.reaction;
-    if (&n != &point.normal && n != point.normal)
-      traction = (point.reaction * point.normal) * n;
-    const Tensor<2, dim>          A = Tensor<2, dim>(weights(how, M)) * grad_du;
-    const SymmetricTensor<2, dim> strain =
-      symmetrize(A * to_middle(A, measure));
-    traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
-    traction -= penalty(how, point.h, n, M, C) * constraint.violation;
-    return traction;
+    const std::string &name = boundary.name();
+    const std::string &how  = boundary.enforcement().name;
+    return {{"implicit boundary " + name + " (" + how + ")",
+             "boundary",
+             name + ", " + boundary.constraint_name() + ", " + how + ", " +
+               std::to_string(
+                 boundary.n_points(context.state.grid().communicator())) +
+               " quadrature points"}};
+  }
+
+
+
+  template <int dim>
+  bool
+  BoundaryTerm<dim>::begin_step(const StepContext<dim> &context)
+  {
+    boundary.begin_step(context.state.grid(),
+                        context.t_start,
+                        context.search_tolerance,
+                        context.state.mesh_after_step() != MeshAfterStep::keep,
+                        context.state.strain_measure(),
+                        context.cells_moved);
+    return false;
   }
 
 
 
   template <int dim>
   void
-  add_boundary_point(const BoundaryPoint<dim>   &point,
-                     const ConstraintState<dim> &constraint,
-                     const Enforcement          &how,
-                     const LameConstants        &C,
-                     const StrainMeasure         measure,
-                     const double               *N,
-                     const Tensor<1, dim>       *grad_N,
-                     const Tensor<2, dim>       &grad_du,
-                     const bool                  tangent,
-                     LocalSystem<dim>           &local)
+  BoundaryTerm<dim>::check_values(const StepContext<dim> &context)
   {
-    const Tensor<1, dim> &n       = constraint.normal;
-    const auto           &M       = constraint.M;
-    const Tensor<2, dim>  W       = weights(how, M);
-    const unsigned int    n_nodes = local.dofs.size() / dim;
-    const Tensor<1, dim>  traction =
-      boundary_traction(point, constraint, how, C, measure, grad_du);
-    const Tensor<1, dim> gap = point.gap + constraint.violation;
-
-    // f[b*dim+j] = flux of the unit displacement j of node b
-    std::vector<Tensor<1, dim>> &f        = local.fluxes;
-    const auto                   evaluate = [&](const Tensor<2, dim> &B) {
-      const Tensor<2, dim> W_columns = transpose(B * W);
-      for (unsigned int b = 0; b < n_nodes; ++b)
-        for (unsigned int j = 0; j < dim; ++j)
-          f[dim * b + j] = flux(W_columns[j], grad_N[b] * B, n, M, C);
-    };
-    f.resize(dim * n_nodes);
-    evaluate(unit_symmetric_tensor<dim>());
-
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        local.force[dim * a + i] +=
-          point.JxW *
-          (N[a] * traction[i] + how.adjoint_sign * (f[dim * a + i] * gap));
-    if (!tangent)
-      return;
-
-    // f lies in the range of M, so M e_j acts as e_j on it.
-    const SymmetricTensor<2, dim> beta = penalty(how, point.h, n, M, C);
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int b = 0; b < n_nodes; ++b)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            local.matrix(dim * a + i, dim * b + j) +=
-              point.JxW * (N[a] * N[b] * beta[i][j] -
-                           how.adjoint_sign * f[dim * a + i][j] * N[b]);
-    if (measure == StrainMeasure::finite)
-      evaluate(to_middle(W * grad_du, measure));
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int b = 0; b < n_nodes; ++b)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            local.matrix(dim * a + i, dim * b + j) -=
-              point.JxW * N[a] * f[dim * b + j][i];
+    boundary.set_target(context.t_end);
   }
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,    \
-                                            const ConstraintState<dim> &,  \
-                                            const Enforcement &,           \
-                                            const LameConstants &,         \
-                                            const StrainMeasure,           \
-                                            const Tensor<2, dim> &);       \
-  template void           add_boundary_point(const BoundaryPoint<dim> &,   \
-                                             const ConstraintState<dim> &, \
-                                             const Enforcement &,          \
-                                             const LameConstants &,        \
-                                             const StrainMeasure,          \
-                                             const double *,               \
-                                             const Tensor<1, dim> *,       \
-                                             const Tensor<2, dim> &,       \
-                                             const bool,                   \
-                                             LocalSystem<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template <int dim>
+  void
+  BoundaryTerm<dim>::begin_trial(const StepContext<dim> &context)
+  {
+    boundary.set_target(context.t_end);
+  }
+
+
+
+  template <int dim>
+  bool
+  BoundaryTerm<dim>::symmetric(const StepContext<dim> &context) const
+  {
+    // At finite strain a flux and its adjoint refer to different places.
+    const Enforcement &how = boundary.enforcement();
+    return how.w_free == 0 ||
+           (context.state.strain_measure() == StrainMeasure::small &&
+            how.adjoint_sign > 0);
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::add(const StepContext<dim> &context,
+                         const bool              tangent,
+                         GlobalSystem<dim>      &system) const
+  {
+    LocalSystem<dim>            local;
+    std::vector<Tensor<1, dim>> fluxes;
+    const GridSpace<dim>       &space  = context.state.grid();
+    const unsigned int          n      = space.nodes_per_cell();
+    const auto                 &points = boundary.points();
+    for (unsigned int begin = 0, end = 0; begin < points.size(); begin = end)
+      {
+        const unsigned int cell = points[begin].cell;
+        local.reinit(context.state, space.cell_nodes(cell), n, tangent);
+        for (; end < points.size() && points[end].cell == cell; ++end)
+          {
+            const auto [du, grad_du] = increment_at<dim>(local.nodal_increments,
+                                                         nullptr,
+                                                         n,
+                                                         boundary.N(end),
+                                                         boundary.grad_N(end));
+            add_boundary_point(points[end],
+                               boundary.constraint_state(points[end], du),
+                               boundary.enforcement(),
+                               context.cell_materials.elastic_stiffness(cell),
+                               context.state.strain_measure(),
+                               boundary.N(end),
+                               boundary.grad_N(end),
+                               grad_du,
+                               tangent,
+                               fluxes,
+                               local);
+          }
+        system.add(local, tangent);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::evaluate(const StepContext<dim>      &context,
+                              std::vector<Tensor<1, dim>> &tractions,
+                              std::vector<Tensor<1, dim>> &violations) const
+  {
+    const GridSpace<dim> &space  = context.state.grid();
+    const auto           &points = boundary.points();
+    tractions.resize(points.size());
+    violations.resize(points.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const auto [du, grad_du] =
+          increment_at<dim>(context.increments(),
+                            space.cell_nodes(points[q].cell),
+                            space.nodes_per_cell(),
+                            boundary.N(q),
+                            boundary.grad_N(q));
+        const auto constraint = boundary.constraint_state(points[q], du);
+        violations[q]         = constraint.violation;
+        tractions[q] =
+          boundary_traction(points[q],
+                            constraint,
+                            boundary.enforcement(),
+                            context.cell_materials.elastic_stiffness(
+                              points[q].cell),
+                            context.state.strain_measure(),
+                            grad_du);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  BoundaryTerm<dim>::violation(const StepContext<dim> &context) const
+  {
+    if (!boundary.enforcement().augments)
+      return 0.;
+    std::vector<Tensor<1, dim>> tractions, violations;
+    evaluate(context, tractions, violations);
+    double largest = 0;
+    for (const auto &v : violations)
+      largest = std::max(largest, v.norm());
+    return largest;
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::augment(const StepContext<dim> &context)
+  {
+    if (!boundary.enforcement().augments)
+      return;
+    std::vector<Tensor<1, dim>> multipliers, violations;
+    evaluate(context, multipliers, violations);
+    Enforcement no_flux   = boundary.enforcement();
+    no_flux.w_constrained = no_flux.w_free = 0;
+    for (unsigned int q = 0; q < boundary.points().size(); ++q)
+      {
+        const auto          &point = boundary.points()[q];
+        ConstraintState<dim> constraint;
+        constraint.normal    = point.normal;
+        constraint.violation = violations[q];
+        constraint.M         = boundary.projection(point.normal);
+        multipliers[q] =
+          boundary_traction(point,
+                            constraint,
+                            no_flux,
+                            context.cell_materials.elastic_stiffness(
+                              point.cell),
+                            context.state.strain_measure(),
+                            Tensor<2, dim>());
+      }
+    boundary.set_multipliers(multipliers);
+  }
+
+
+
+  template <int dim>
+  double
+  BoundaryTerm<dim>::deepest_point(
+    const StepContext<dim>            &context,
+    const std::vector<Tensor<1, dim>> &moves) const
+  {
+    const PointSet<dim> &points = context.state.material_points();
+    const double         range  = 2 * context.state.grid().mesh().cell_size();
+    const auto           place  = [&](const unsigned int p) {
+      return moves.empty() ? points.position(p) : points.position(p) + moves[p];
+    };
+    double deepest = 0;
+    for (const auto &in_cell : points.cells())
+      {
+        const Point<dim> centre = place(in_cell.first);
+        double           radius = range;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          radius = std::max(radius, range + centre.distance(place(p)));
+        if (!boundary.is_far(centre, radius))
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            deepest = std::max(deepest, boundary.penetration(place(p), range));
+      }
+    return Utilities::MPI::max(deepest, context.state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  BoundaryTerm<dim>::failure(const StepContext<dim>            &context,
+                             const std::vector<Tensor<1, dim>> &moves) const
+  {
+    return boundary.penetration_limit() > 0 &&
+               deepest_point(context, moves) >
+                 boundary.penetration_limit() *
+                   context.state.grid().mesh().cell_size() ?
+             "a point would end behind a boundary" :
+             "";
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::prepare(const StepContext<dim> &context,
+                             const LA::Vector &)
+  {
+    const MPI_Comm communicator = context.state.grid().communicator();
+    std::vector<Tensor<1, dim>> tractions, violations;
+    evaluate(context, tractions, violations);
+    prepared = {boundary.name(), {}, 0., 0., 0., 0.};
+    for (unsigned int q = 0; q < tractions.size(); ++q)
+      {
+        const auto          &point = boundary.points()[q];
+        const Tensor<1, dim> force = point.JxW * tractions[q];
+        prepared.reaction += force;
+        prepared.force_magnitude += force.norm();
+        prepared.moment +=
+          boundary.rigid_motion().moment(point.x + point.prescribed,
+                                         force,
+                                         context.t_end);
+        prepared.violation = std::max(prepared.violation, violations[q].norm());
+      }
+    sum_over_ranks(prepared, communicator);
+    prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
+    boundary.prepare(tractions, violations);
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::keep() noexcept
+  {
+    boundary.keep();
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::report(const StepContext<dim>           &context,
+                            std::vector<BoundaryReport<dim>> &reports) const
+  {
+    reports.push_back(prepared);
+    reports.back().penetration = deepest_point(context, {});
+  }
+
+
+
+  template class BoundaryTerm<2>;
+  template class BoundaryTerm<3>;
 } // namespace moraine

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/term.h>
+#include <moraine/assembly/internal_force.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <array>
 #include <sstream>
@@ -9,39 +11,6 @@
 namespace moraine
 {
   using namespace dealii;
-
-  template <int dim>
-  void
-  LocalSystem<dim>::reinit(const State<dim>   &state,
-                           const unsigned int *nodes,
-                           const unsigned int  n_nodes,
-                           const bool          tangent)
-  {
-    const unsigned int n = dim * n_nodes;
-    this->nodes          = nodes;
-    if (dofs.size() != n)
-      {
-        dofs.resize(n);
-        nodal_increments.resize(n_nodes);
-        force.reinit(n);
-        matrix.reinit(n, n);
-      }
-    else
-      {
-        force = 0;
-        if (tangent)
-          matrix = 0;
-      }
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      {
-        nodal_increments[a] = state.nodal_increments()[nodes[a]];
-        const auto first    = state.grid().node_dof(nodes[a]);
-        for (unsigned int c = 0; c < dim; ++c)
-          dofs[dim * a + c] = first + c;
-      }
-  }
-
-
 
   namespace
   {
@@ -156,10 +125,10 @@ namespace moraine
 
     template <int dim>
     std::string
-    fault_of(const State<dim>       &state,
-             const TrialPoints<dim> &trial,
-             const Material         &material,
-             const unsigned int      point)
+    why_no_stress(const State<dim>       &state,
+                  const TrialPoints<dim> &trial,
+                  const Material         &material,
+                  const unsigned int      point)
     {
       std::ostringstream text;
       text << "point " << state.material_points().id(point) << " at ("
@@ -248,12 +217,22 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<Effect>
+  InternalForce<dim>::effects(const StepContext<dim> &) const
+  {
+    return {{"internal force", "", ""}};
+  }
+
+
+
+  template <int dim>
   void
-  InternalForce<dim>::add(const State<dim>        &state,
+  InternalForce<dim>::add(const StepContext<dim>  &context,
                           const StencilBlock<dim> &block,
                           const bool               tangent,
                           LocalSystem<dim>        &local) const
   {
+    const State<dim>    &state  = context.state;
     const PointSet<dim> &points = state.material_points();
     TrialPoints<dim>    &trial  = local.trial_points;
     for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
@@ -263,12 +242,10 @@ namespace moraine
         add_stress_force(trial, block.n_nodes, local);
         const Material &material =
           state.material(points.body(block.points[begin]));
-        if (trial.first_fault() < trial.n_points() && local.fault.empty())
-          local.fault = fault_of(state,
-                                 trial,
-                                 material,
-                                 block.points[begin + trial.first_fault()]);
-        if (!tangent || !local.fault.empty())
+        if (trial.first_fault() < trial.n_points() && local.failure.empty())
+          local.failure = why_no_stress(
+            state, trial, material, block.points[begin + trial.first_fault()]);
+        if (!tangent || !local.failure.empty())
           continue;
         if (state.strain_measure() == StrainMeasure::small &&
             material.is_linear())
@@ -296,8 +273,6 @@ namespace moraine
 
 
 
-  template struct LocalSystem<2>;
-  template struct LocalSystem<3>;
   template class InternalForce<2>;
   template class InternalForce<3>;
 } // namespace moraine

@@ -2,53 +2,63 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/mechanics_system.h>
-
-#include <moraine/core/exceptions.h>
+#include <moraine/assembly/rigid_motion_check.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Typical size of the largest point. */
+    template <int dim>
+    double
+    point_size(const State<dim> &state)
+    {
+      double               volume = 0;
+      const PointSet<dim> &points = state.material_points();
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        volume = std::max(volume, points.volume(p));
+      return std::pow(Utilities::MPI::max(volume, state.grid().communicator()),
+                      1. / dim);
+    }
+
+
+
+    /** The first text of any rank that is not empty. Collective. */
+    std::string
+    first_of_ranks(const std::string &text, const MPI_Comm &communicator)
+    {
+      for (const std::string &other :
+           Utilities::MPI::all_gather(communicator, text))
+        if (!other.empty())
+          return other;
+      return "";
+    }
+  } // namespace
+
+
+
   template <int dim>
   MechanicsSystem<dim>::MechanicsSystem(
-    State<dim>                            &state,
-    std::vector<ImplicitBoundary<dim>>    &boundaries,
-    const std::vector<GridCondition<dim>> &conditions,
-    Loads<dim>                            &loads,
-    const std::vector<std::string>        &body_names,
-    const double                           empty_stiffness,
-    TimerOutput                           *timer)
+    State<dim>                     &state,
+    Terms<dim>                      terms,
+    const std::vector<std::string> &body_names,
+    TimerOutput                    *timer)
     : state(state)
-    , boundaries(boundaries)
-    , conditions(conditions)
-    , loads(loads)
+    , terms(std::move(terms))
     , body_names(body_names)
     , unused_timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , timer(timer ? *timer : unused_timer)
-    , empty_stiffness(empty_stiffness)
-  {
-    point_terms.push_back(std::make_unique<InternalForce<dim>>());
-  }
-
-
-
-  template <int dim>
-  double
-  MechanicsSystem<dim>::point_size() const
-  {
-    double               volume = 0;
-    const PointSet<dim> &points = state.material_points();
-    for (unsigned int p = 0; p < points.n_local(); ++p)
-      volume = std::max(volume, points.volume(p));
-    return std::pow(Utilities::MPI::max(volume, state.grid().communicator()),
-                    1. / dim);
-  }
+    , context(state)
+  {}
 
 
 
@@ -57,8 +67,31 @@ namespace moraine
   MechanicsSystem<dim>::move_mesh_by(const MeshMotion<dim> &motion,
                                      BackgroundMesh<dim>   &mesh)
   {
-    mesh_motion = motion;
-    moving_mesh = &mesh;
+    mesh_motion        = motion;
+    moving_mesh        = &mesh;
+    context.mesh_moves = motion.moves();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::add(std::unique_ptr<Term<dim>> term)
+  {
+    terms.push_back(std::move(term));
+  }
+
+
+
+  template <int dim>
+  std::vector<Effect>
+  MechanicsSystem<dim>::effects() const
+  {
+    std::vector<Effect> all;
+    for (const auto &term : terms)
+      for (const Effect &effect : term->effects(context))
+        all.push_back(effect);
+    return all;
   }
 
 
@@ -71,44 +104,45 @@ namespace moraine
   {
     {
       TimerOutput::Scope scope(timer, "stencils");
-      changed = state.begin_step();
+      // The first of this system need not be the first of the state.
+    context.couplings_changed = state.begin_step() || !sums.matrix();
     }
-    // Nodes may move into or out of the boxes of conditions.
-    changed = changed || (mesh_motion.moves() &&
-                          std::any_of(conditions.begin(),
-                                      conditions.end(),
-                                      [](const auto &condition) {
-                                        return condition.region.has_value();
-                                      }));
-    t_start = t;
-    if (!boundaries.empty() || !loads.carried.empty())
-      reach = point_size();
-    const bool cells_moved =
-      changed || mesh_motion.moves() ||
+    context.t_start = context.t_end = t;
+    context.cells_moved =
+      context.couplings_changed || context.mesh_moves ||
       state.mesh_after_step() == MeshAfterStep::follow_material;
-    {
-      TimerOutput::Scope scope(timer, "boundary pieces");
-      for (auto &boundary : boundaries)
-        boundary.begin_step(state.grid(),
-                            t,
-                            reach,
-                            state.mesh_after_step() != MeshAfterStep::keep,
-                            state.strain_measure(),
-                            cells_moved);
-    }
-    // On a mesh that does not reset, places stay in their cells.
-    if (changed || state.mesh_after_step() == MeshAfterStep::reset)
-      for (auto &load : loads.carried)
-        load.find_cells(state.grid(), reach);
-    for (auto &load : loads.on_points)
-      load.find_points(state.material_points());
-    if (changed && before_new_tangent)
-      before_new_tangent();
-    if (changed)
-      set_up_unknowns();
-    else if (cells_moved)
-      make_rigid_modes();
-    find_empty_parts();
+    context.search_tolerance = point_size(state);
+    context.cell_materials.update(state);
+    bool new_couplings = context.couplings_changed;
+    for (const auto &term : terms)
+      {
+        std::unique_ptr<TimerOutput::Scope> scope;
+        if (!term->timer().empty())
+          scope = std::make_unique<TimerOutput::Scope>(timer, term->timer());
+        new_couplings = term->begin_step(context) || new_couplings;
+      }
+    context.couplings_changed =
+      Utilities::MPI::logical_or(new_couplings, state.grid().communicator());
+    if (context.couplings_changed)
+      {
+        if (before_new_tangent)
+          before_new_tangent();
+        set_up_unknowns();
+      }
+    else if (context.cells_moved)
+      rigid_modes = rigid_modes_of(state.grid());
+  }
+
+
+
+  template <int dim>
+  ConstraintTable::AddLines
+  MechanicsSystem<dim>::lines_of_terms() const
+  {
+    return [this](AffineConstraints<double> &lines) {
+      for (const auto &term : terms)
+        term->constrain(context, lines);
+    };
   }
 
 
@@ -118,21 +152,11 @@ namespace moraine
   MechanicsSystem<dim>::set_up_unknowns()
   {
     TimerOutput::Scope scope(timer, "set up unknowns");
-    matrix.reset();
+    sums.clear();
     const GridSpace<dim> &space = state.grid();
-
-    body_of_cell.assign(space.mesh().triangulation().n_active_cells(), 0);
-    for (const auto &in_cell : state.material_points().cells())
-      body_of_cell[in_cell.cell->active_cell_index()] =
-        state.material_points().body(in_cell.first);
-
-    prescribed.entries.clear();
-    if (!conditions.empty())
-      prescribed = find_prescribed_nodes(conditions, space, t_start);
-    any_prescribed = Utilities::MPI::logical_or(!prescribed.entries.empty(),
-                                                space.communicator()) &&
-                     !state.is_linear();
-    make_constraints();
+    constraints.reinit(space.locally_relevant(),
+                       space.communicator(),
+                       lines_of_terms());
 
     // deal.II 9.4 takes a rank without rows for one with too many of them,
     // unless their length is zero (trilinos_sparsity_pattern.cc).
@@ -149,7 +173,9 @@ namespace moraine
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int c = 0; c < dim; ++c)
           dofs.push_back(space.node_dof(nodes[a]) + c);
-      constraints.add_entries_local_to_global(dofs, pattern, false);
+      constraints.homogeneous().add_entries_local_to_global(dofs,
+                                                            pattern,
+                                                            false);
     };
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
@@ -161,47 +187,30 @@ namespace moraine
         if (nodes.size() != space.nodes_per_cell())
           couple(nodes.data(), nodes.size());
       }
+    for (const auto &term : terms)
+      term->couple(context, couple);
     pattern.compress();
-    matrix = std::make_shared<LA::SparseMatrix>();
-    matrix->reinit(pattern);
+    bodies = find_bodies_of_nodes(state, body_names.size());
+    sums.reinit(space,
+                constraints.homogeneous(),
+                pattern,
+                bodies.of_node,
+                body_names.size());
     for (LA::Vector *vector :
-         {&residual_vector, &external, &unbalanced, &assembled_at})
+         {&residual_vector, &dead_forces, &unbalanced, &assembled_at})
       vector->reinit(space.locally_owned(), space.communicator());
-    make_rigid_modes();
+    rigid_modes = rigid_modes_of(space);
   }
 
 
 
   template <int dim>
   void
-  MechanicsSystem<dim>::make_rigid_modes()
+  MechanicsSystem<dim>::check_values(const double t)
   {
-    const GridSpace<dim> &space       = state.grid();
-    constexpr unsigned    n_rotations = dim == 2 ? 1 : 3;
-    // Assigned to, a Trilinos vector of the same size keeps the layout it has.
-    rigid_modes.clear();
-    rigid_modes.assign(dim + n_rotations,
-                       LA::Vector(space.locally_owned(), space.communicator()));
-    for (unsigned int node = 0; node < space.n_nodes(); ++node)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const auto dof = space.node_dof(node) + c;
-          if (!space.locally_owned().is_element(dof))
-            continue;
-          rigid_modes[c](dof) = 1;
-          const Point<dim> &x = space.node_position(node);
-          // Rotation r turns direction i towards direction j.
-          constexpr unsigned int turn[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-          for (unsigned int r = 0; r < n_rotations; ++r)
-            {
-              if (c == turn[r][0])
-                rigid_modes[dim + r](dof) = -x[turn[r][1]];
-              if (c == turn[r][1])
-                rigid_modes[dim + r](dof) = x[turn[r][0]];
-            }
-        }
-    for (auto &mode : rigid_modes)
-      mode.compress(VectorOperation::insert);
+    context.t_end = t;
+    for (const auto &term : terms)
+      term->check_values(context);
   }
 
 
@@ -210,10 +219,19 @@ namespace moraine
   void
   MechanicsSystem<dim>::set_target(const double t_end)
   {
-    t_target = t_end;
+    context.t_end = t_end;
+    state.set_step_time({context.t_start, context.t_end});
     start_over();
+    if (constraints.any_lines())
+      constraints.set_values(lines_of_terms());
     TimerOutput::Scope scope(timer, "external forces");
-    assemble_external_forces();
+    sums.begin(false);
+    add_terms(true, false);
+    sums.end(dead_forces);
+    scale.dead_squares.resize(body_names.size());
+    Utilities::MPI::sum(sums.squares_of_bodies(),
+                        state.grid().communicator(),
+                        scale.dead_squares);
   }
 
 
@@ -224,8 +242,27 @@ namespace moraine
   {
     assembled      = false;
     last_violation = std::numeric_limits<double>::max();
-    for (auto &boundary : boundaries)
-      boundary.set_target(t_target);
+    for (const auto &term : terms)
+      term->begin_trial(context);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::initial_guess(LA::Vector &x) const
+  {
+    x.reinit(state.grid().locally_owned(), state.grid().communicator());
+    constraints.distribute(x);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::apply_constraints(LA::Vector &dx) const
+  {
+    constraints.distribute_correction(dx);
   }
 
 
@@ -234,39 +271,55 @@ namespace moraine
   bool
   MechanicsSystem<dim>::symmetric() const
   {
-    // At finite strain a flux and its adjoint refer to different places.
-    const bool small = state.strain_measure() == StrainMeasure::small;
-    return std::all_of(boundaries.begin(),
-                       boundaries.end(),
-                       [small](const auto &boundary) {
-                         const Enforcement &how = boundary.enforcement();
-                         return how.w_free == 0 ||
-                                (small && how.adjoint_sign > 0);
-                       });
+    return std::all_of(terms.begin(), terms.end(), [this](const auto &term) {
+      return term->symmetric(context);
+    });
   }
 
 
 
   template <int dim>
   void
-  MechanicsSystem<dim>::add_to_system(const LocalSystem<dim> &local,
-                                      const bool              tangent)
+  MechanicsSystem<dim>::add_point_terms(const bool dead, const bool tangent)
   {
-    const unsigned int n_nodes = local.nodal_increments.size();
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int c = 0; c < dim; ++c)
+    std::vector<const PointTerm<dim> *> point_terms;
+    for (const auto &term : terms)
+      if (const auto *of_points = dynamic_cast<PointTerm<dim> *>(term.get()))
+        if (term->is_dead() == dead)
+          point_terms.push_back(of_points);
+    if (point_terms.empty())
+      return;
+    StencilBlock<dim> block;
+    LocalSystem<dim>  local;
+    const Basis<dim> &basis = state.point_basis();
+    for (unsigned int g = 0; g < basis.n_groups(); ++g)
+      {
+        basis.evaluate(g, block);
+        local.reinit(state, block.nodes, block.n_nodes, tangent);
+        for (const auto *term : point_terms)
+          term->add(context, block, tangent, local);
+        sums.add(local, tangent && local.failure.empty());
+      }
+    local_failure = local.failure;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::add_terms(const bool dead, const bool tangent)
+  {
+    local_failure.clear();
+    scale.stabilising_squares = 0;
+    add_point_terms(dead, tangent);
+    for (const auto &term : terms)
+      if (term->is_dead() == dead)
         {
-          double f = local.force[dim * a + c];
-          if (!predicted.empty())
-            for (unsigned int b = 0; b < n_nodes; ++b)
-              for (unsigned int d = 0; d < dim; ++d)
-                f -= local.matrix(dim * a + c, dim * b + d) *
-                     predicted[local.nodes[b]][d];
-          local_scale += f * f;
-          node_forces[local.nodes[a]][c] += f;
+          const double before = sums.sum_of_squares();
+          term->add(context, tangent, sums);
+          if (term->stabilises())
+            scale.stabilising_squares += sums.sum_of_squares() - before;
         }
-    if (tangent)
-      constraints.distribute_local_to_global(local.matrix, local.dofs, *matrix);
   }
 
 
@@ -280,49 +333,35 @@ namespace moraine
     assembled_at             = x;
     const bool first_of_step = !assembled;
     assembled                = true;
-    predicting               = first_of_step && tangent && any_prescribed;
+    predicting =
+      first_of_step && tangent && constraints.any_lines() && !state.is_linear();
+    std::vector<Tensor<1, dim>> predicted;
     if (predicting)
       {
         predicted = state.nodal_increments();
         state.reject();
       }
-    if (tangent)
-      *matrix = 0;
-    local_scale = 0;
-    local_fault.clear();
-    node_forces.assign(state.grid().n_nodes(), Tensor<1, dim>());
-    assemble_points(tangent);
-    assemble_boundaries(tangent);
-    assemble_empty_parts(tangent);
-    if (tangent)
-      matrix->compress(VectorOperation::add);
-    state.grid().sum_node_values(node_forces, unbalanced);
-    unbalanced += external;
+    sums.begin(tangent, predicted);
+    add_terms(false, tangent);
+    sums.end(unbalanced);
+    unbalanced += dead_forces;
     residual_vector = unbalanced;
-    constraints.set_zero(residual_vector);
-    scale =
-      std::sqrt(Utilities::MPI::sum(local_scale, state.grid().communicator()) +
-                external_scale);
+    constraints.condense(residual_vector);
+    scale.of_bodies.resize(body_names.size());
+    Utilities::MPI::sum(sums.squares_of_bodies(),
+                        state.grid().communicator(),
+                        scale.of_bodies);
+    double squares = 0;
+    for (unsigned int b = 0; b < body_names.size(); ++b)
+      {
+        const double of_body = scale.of_bodies[b] + scale.dead_squares[b];
+        squares += of_body;
+        scale.of_bodies[b] = std::sqrt(of_body);
+      }
+    scale.now = std::sqrt(squares);
     if (first_of_step)
-      scale_at_start = scale;
-    predicted.clear();
+      scale.at_start = scale.now;
   }
-
-
-
-  namespace
-  {
-    /** The first text of any rank that is not empty. Collective. */
-    std::string
-    first_of_ranks(const std::string &text, const MPI_Comm &communicator)
-    {
-      for (const std::string &other :
-           Utilities::MPI::all_gather(communicator, text))
-        if (!other.empty())
-          return other;
-      return "";
-    }
-  } // namespace
 
 
 
@@ -330,38 +369,84 @@ namespace moraine
   std::string
   MechanicsSystem<dim>::fault() const
   {
-    return first_of_ranks(local_fault, state.grid().communicator());
+    return first_of_ranks(local_failure, state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  bool
+  MechanicsSystem<dim>::augment(const LA::Vector &x)
+  {
+    const MPI_Comm communicator = state.grid().communicator();
+    state.set_trial(x);
+    double violation = 0, motion = 0;
+    for (const auto &u : state.nodal_increments())
+      motion = std::max(motion, u.norm());
+    for (const auto &term : terms)
+      violation = std::max(violation, term->violation(context));
+    violation = Utilities::MPI::max(violation, communicator);
+    motion    = Utilities::MPI::max(motion, communicator);
+    // Stop when the constraint holds to round-off or gets no better.
+    if (violation <= 1e-14 * motion || violation > 0.5 * last_violation)
+      return false;
+    last_violation = violation;
+    for (const auto &term : terms)
+      term->augment(context);
+    return true;
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::share_of_stabilisation() const
+  {
+    const double squares = Utilities::MPI::sum(scale.stabilising_squares,
+                                               state.grid().communicator());
+    // A step may end without any force.
+    const double forces = std::max(scale.now, scale.at_start);
+    return forces > 0 ? std::sqrt(squares) / forces : 0.;
   }
 
 
 
   template <int dim>
   std::string
-  MechanicsSystem<dim>::fault_of_domains() const
+  MechanicsSystem<dim>::reason_to_reject(const LA::Vector &x)
   {
-    return first_of_ranks(state.point_basis().fault_of(
-                            state.nodal_increments()),
-                          state.grid().communicator());
+    state.set_trial(x);
+    const std::string of_domains =
+      first_of_ranks(state.point_basis().fault_of(state.nodal_increments()),
+                     state.grid().communicator());
+    if (!of_domains.empty())
+      return of_domains;
+    std::vector<Tensor<1, dim>> moves;
+    if (std::any_of(terms.begin(), terms.end(), [](const auto &term) {
+          return term->watches_points();
+        }))
+      moves = state.point_increments();
+    for (const auto &term : terms)
+      {
+        const std::string reason = term->failure(context, moves);
+        if (!reason.empty())
+          return reason;
+      }
+    return "";
   }
 
 
 
   template <int dim>
   void
-  MechanicsSystem<dim>::assemble_points(const bool tangent)
+  MechanicsSystem<dim>::check_that_it_is_held(const bool first_step) const
   {
-    StencilBlock<dim> block;
-    LocalSystem<dim>  local;
-    const Basis<dim> &basis = state.point_basis();
-    for (unsigned int g = 0; g < basis.n_groups(); ++g)
-      {
-        basis.evaluate(g, block);
-        local.reinit(state, block.nodes, block.n_nodes, tangent);
-        for (const auto &term : point_terms)
-          term->add(state, block, tangent, local);
-        add_to_system(local, tangent && local.fault.empty());
-      }
-    local_fault = local.fault;
+    check_rigid_motion(context,
+                       *sums.matrix(),
+                       constraints,
+                       rigid_modes,
+                       body_names,
+                       first_step);
   }
 
 
@@ -370,28 +455,35 @@ namespace moraine
   std::vector<BoundaryReport<dim>>
   MechanicsSystem<dim>::accept(const LA::Vector &x)
   {
+    if (std::any_of(terms.begin(), terms.end(), [](const auto &term) {
+          return term->wants_unbalanced_forces();
+        }))
+      {
+        // The residual at x is known, unless x is not where Newton ended.
+        LA::Vector difference(x);
+        difference -= assembled_at;
+        if (!assembled || predicting || difference.linfty_norm() > 0)
+          assemble(x, false);
+      }
     state.set_trial(x);
-    auto reports = report_boundaries();
-    for (const auto &report : report_grid_conditions(x))
-      reports.push_back(report);
-    for (auto &load : loads.carried)
-      if (state.mesh_after_step() != MeshAfterStep::keep)
-        load.move(state.grid(), state.nodal_increments());
+    for (const auto &term : terms)
+      term->prepare(context, unbalanced);
     {
       TimerOutput::Scope scope(timer, "update and search");
       if (mesh_motion.moves())
         state.accept([this]() {
           moving_mesh->move_vertices([this](const Point<dim> &X) {
-            return mesh_motion.map(X, t_start, t_target);
+            return mesh_motion.map(X, context.t_start, context.t_end);
           });
         });
       else
         state.accept();
     }
-    for (unsigned int b = 0; b < boundaries.size(); ++b)
-      reports[b].penetration =
-        Utilities::MPI::max(deepest_point(boundaries[b], {}),
-                            state.grid().communicator());
+    for (const auto &term : terms)
+      term->keep();
+    std::vector<BoundaryReport<dim>> reports;
+    for (const auto &term : terms)
+      term->report(context, reports);
     return reports;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/mechanics_system.h>
+#include <moraine/assembly/rigid_motion_check.h>
 
 #include <moraine/core/exceptions.h>
 
@@ -54,15 +54,124 @@ namespace moraine
           }
       return {part, n_parts};
     }
+
+
+
+    /** @throws InputError or ComputationError naming part @p k and how it is
+     * free. */
+    template <int dim>
+    [[noreturn]] void
+    report_free_part(const StepContext<dim>            &context,
+                     const std::vector<unsigned int>   &part,
+                     const unsigned int                 k,
+                     const std::vector<Vector<double>> &free_motions,
+                     const std::vector<std::string>    &body_names,
+                     const bool                         first_step)
+    {
+      const GridSpace<dim> &space = context.state.grid();
+      Point<dim>            centre;
+      unsigned int          n_cells = 0;
+      int                   body    = -1;
+      for (const auto &cell :
+           space.mesh().triangulation().active_cell_iterators())
+        if (space.is_active(cell) && part[cell->active_cell_index()] == k)
+          {
+            centre += cell->center();
+            ++n_cells;
+            if (cell->is_locally_owned())
+              body = std::max<int>(
+                body, context.cell_materials.body(cell->active_cell_index()));
+          }
+      centre /= n_cells;
+      body = Utilities::MPI::max(body, space.communicator());
+
+      // A rotation with the translation that belongs to it, or a translation.
+      const Vector<double> &motion   = free_motions[0];
+      double                rotation = 0, translation = 0;
+      for (unsigned int m = 0; m < motion.size(); ++m)
+        if (m < dim)
+          translation = std::abs(motion[m]) > std::abs(translation) ?
+                          motion[m] :
+                          translation;
+        else
+          rotation = std::max(rotation, std::abs(motion[m]));
+      const bool turns = rotation > 1e-6 * std::abs(translation);
+
+      std::ostringstream message;
+      message << "the scene is not held: body '" << body_names.at(body)
+              << "' around (" << centre << ") is ";
+      if (free_motions.size() == motion.size())
+        message << "free to move and rotate";
+      else if (free_motions.size() > 1)
+        message << "free to move in " << free_motions.size()
+                << " independent ways";
+      else if (turns)
+        message << "free to rotate";
+      else
+        {
+          message << "free to move along (";
+          for (unsigned int d = 0; d < dim; ++d)
+            message << (d > 0 ? ", " : "")
+                    << std::round(1e3 * motion[d] / translation) / 1e3 + 0.;
+          message << ")";
+        }
+      message << "; hold it by a boundary or a grid condition";
+      if (first_step)
+        throw InputError(message.str());
+      throw ComputationError(message.str());
+    }
   } // namespace
 
 
 
   template <int dim>
-  void
-  MechanicsSystem<dim>::check_that_it_is_held(const bool first_step) const
+  std::vector<LA::Vector>
+  rigid_modes_of(const GridSpace<dim> &space)
   {
-    const GridSpace<dim> &space = state.grid();
+    constexpr unsigned      n_rotations = dim == 2 ? 1 : 3;
+    std::vector<LA::Vector> modes(dim + n_rotations,
+                                  LA::Vector(space.locally_owned(),
+                                             space.communicator()));
+    // As large as translations, whatever the unit of length.
+    double size = 0;
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      size = std::max(size, space.node_position(node).norm());
+    size = Utilities::MPI::max(size, space.communicator());
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto dof = space.node_dof(node) + c;
+          if (!space.locally_owned().is_element(dof))
+            continue;
+          modes[c](dof)       = 1;
+          const Point<dim> &x = space.node_position(node);
+          // Rotation r turns direction i towards direction j.
+          constexpr unsigned int turn[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+          for (unsigned int r = 0; r < n_rotations; ++r)
+            {
+              if (c == turn[r][0])
+                modes[dim + r](dof) = -x[turn[r][1]] / size;
+              if (c == turn[r][1])
+                modes[dim + r](dof) = x[turn[r][0]] / size;
+            }
+        }
+    for (auto &mode : modes)
+      mode.compress(VectorOperation::insert);
+    return modes;
+  }
+
+
+
+  template <int dim>
+  void
+  check_rigid_motion(const StepContext<dim>         &context,
+                     const LA::SparseMatrix         &tangent,
+                     const ConstraintTable          &constraints,
+                     const std::vector<LA::Vector>  &rigid_modes,
+                     const std::vector<std::string> &body_names,
+                     const bool                      first_step)
+  {
+    const GridSpace<dim> &space = context.state.grid();
     const auto [part, n_parts]  = connected_parts(space);
     const unsigned int n_modes  = rigid_modes.size();
 
@@ -84,8 +193,8 @@ namespace moraine
     std::vector<LA::Vector> modes = rigid_modes, forces = rigid_modes;
     for (unsigned int m = 0; m < n_modes; ++m)
       {
-        constraints.set_zero(modes[m]);
-        matrix->vmult(forces[m], modes[m]);
+        constraints.homogeneous().set_zero(modes[m]);
+        tangent.vmult(forces[m], modes[m]);
       }
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
@@ -94,10 +203,10 @@ namespace moraine
           if (!space.locally_owned().is_element(dof))
             continue;
           const unsigned int k              = part_of_node[node];
-          const bool         prescribed_dof = constraints.is_constrained(dof);
-          if (!prescribed_dof)
+          const bool         prescribed_dof = constraints.prescribes(dof);
+          if (!constraints.homogeneous().is_constrained(dof))
             {
-              diagonal[k] += std::abs(matrix->diag_element(dof));
+              diagonal[k] += std::abs(tangent.diag_element(dof));
               ++n_rows[k];
             }
           for (unsigned int i = 0; i < n_modes; ++i)
@@ -135,85 +244,21 @@ namespace moraine
           if (K.eigenvalue(m).real() <= 1e-13 * diagonal[k] / n_rows[k])
             free.push_back(vectors[m]);
         if (!free.empty())
-          report_free_part(part, k, free, first_step);
+          report_free_part(context, part, k, free, body_names, first_step);
       }
   }
 
 
 
-  template <int dim>
-  void
-  MechanicsSystem<dim>::report_free_part(
-    const std::vector<unsigned int>   &part,
-    const unsigned int                 k,
-    const std::vector<Vector<double>> &free_motions,
-    const bool                         first_step) const
-  {
-    Point<dim>   centre;
-    unsigned int n_cells = 0;
-    int          body    = -1;
-    for (const auto &cell :
-         state.grid().mesh().triangulation().active_cell_iterators())
-      if (state.grid().is_active(cell) && part[cell->active_cell_index()] == k)
-        {
-          centre += cell->center();
-          ++n_cells;
-          if (cell->is_locally_owned())
-            body = std::max<int>(body, body_of_cell[cell->active_cell_index()]);
-        }
-    centre /= n_cells;
-    body = Utilities::MPI::max(body, state.grid().communicator());
-
-    // A rotation with the translation that belongs to it, or a translation.
-    const Vector<double> &motion   = free_motions[0];
-    double                rotation = 0, translation = 0;
-    for (unsigned int m = 0; m < motion.size(); ++m)
-      if (m < dim)
-        translation =
-          std::abs(motion[m]) > std::abs(translation) ? motion[m] : translation;
-      else
-        rotation = std::max(rotation, std::abs(motion[m]));
-    const bool turns =
-      rotation * state.grid().mesh().cell_size() > 1e-6 * std::abs(translation);
-
-    std::ostringstream message;
-    message << "the scene is not held: body '" << body_names.at(body)
-            << "' around (" << centre << ") is ";
-    if (free_motions.size() == rigid_modes.size())
-      message << "free to move and rotate";
-    else if (free_motions.size() > 1)
-      message << "free to move in " << free_motions.size()
-              << " independent ways";
-    else if (turns)
-      message << "free to rotate";
-    else
-      {
-        message << "free to move along (";
-        for (unsigned int d = 0; d < dim; ++d)
-          message << (d > 0 ? ", " : "")
-                  << std::round(1e3 * motion[d] / translation) / 1e3 + 0.;
-        message << ")";
-      }
-    message << "; hold it by a boundary or a grid condition";
-    if (first_step)
-      throw InputError(message.str());
-    throw ComputationError(message.str());
-  }
-
-
-
-  template void
-  MechanicsSystem<2>::check_that_it_is_held(const bool) const;
-  template void
-  MechanicsSystem<2>::report_free_part(const std::vector<unsigned int> &,
-                                       const unsigned int,
-                                       const std::vector<Vector<double>> &,
-                                       const bool) const;
-  template void
-  MechanicsSystem<3>::check_that_it_is_held(const bool) const;
-  template void
-  MechanicsSystem<3>::report_free_part(const std::vector<unsigned int> &,
-                                       const unsigned int,
-                                       const std::vector<Vector<double>> &,
-                                       const bool) const;
+#define INSTANTIATE(dim)                                                                \
+  template std::vector<LA::Vector> rigid_modes_of(const GridSpace<dim> &);              \
+  template void                    check_rigid_motion(const StepContext<dim> &,         \
+                                                      const LA::SparseMatrix &,         \
+                                                      const ConstraintTable &,          \
+                                                      const std::vector<LA::Vector> &,  \
+                                                      const std::vector<std::string> &, \
+                                                      const bool);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

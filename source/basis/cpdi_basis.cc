@@ -5,6 +5,7 @@
 
 #include <moraine/basis/domain_tools.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/object_error.h>
 
 #include <algorithm>
 
@@ -24,9 +25,11 @@ namespace moraine
     , neighbours(space.mesh())
   {
     if (space.degree() != 1)
-      throw InputError("section 'Method', key 'Method': found '" + name +
-                       "' with shape functions it cannot use, allowed: with "
-                       "degree 1");
+      throw ObjectError("method",
+                        name,
+                        "found '" + name +
+                          "' with shape functions it cannot use, allowed: with "
+                          "degree 1");
     for (const Body<dim> &body : bodies)
       {
         is_seeded.push_back(body.shape != nullptr);
@@ -37,7 +40,7 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<CellVertices<dim>>
+  std::vector<DomainTools::InitialDomain<dim>>
   CpdiBasis<dim>::initial_domains(const PointSet<dim> &points) const
   {
     return DomainTools::initial_domains(points,
@@ -251,28 +254,37 @@ namespace moraine
 
   namespace
   {
-    template <std::size_t n>
+    template <int dim, std::size_t n>
     std::array<unsigned int, n>
-    request_vectors(PointFields       &fields,
-                    const std::string &name,
-                    const unsigned int dim)
+    request_vectors(PointFields &fields, const std::string &name)
     {
       std::array<unsigned int, n> offsets;
       for (unsigned int i = 0; i < n; ++i)
-        offsets[i] =
-          fields.request(name + "_" + std::to_string(i + 1), dim, "length");
+        offsets[i] = fields
+                       .request(typename FieldNames<dim>::Vector{
+                         name + "_" + std::to_string(i + 1), "length"})
+                       .offset();
       return offsets;
     }
 
 
 
-    template <std::size_t n>
+    template <int dim, std::size_t n>
     std::array<unsigned int, n>
-    offsets_of_vectors(PointFields        fields,
-                       const std::string &name,
-                       const unsigned int dim)
+    offsets_of_vectors(PointFields fields, const std::string &name)
     {
-      return request_vectors<n>(fields, name, dim);
+      return request_vectors<dim, n>(fields, name);
+    }
+
+
+
+    template <int dim>
+    double
+    volume_of(const CellVertices<dim> &corners)
+    {
+      double         w[1 << dim];
+      Tensor<1, dim> g[1 << dim];
+      return DomainTools::average_weights<dim>(corners, w, g);
     }
   } // namespace
 
@@ -282,7 +294,7 @@ namespace moraine
   void
   Cpdi1Basis<dim>::request_fields(PointFields &fields)
   {
-    request_vectors<dim>(fields, "half_edge", dim);
+    request_vectors<dim, dim>(fields, "half_edge");
   }
 
 
@@ -295,7 +307,7 @@ namespace moraine
                               const bool                    split)
     : CpdiBasis<dim>(space, points, seeder, bodies, "CPDI1")
     , split(split)
-    , offsets(offsets_of_vectors<dim>(points.fields(), "half_edge", dim))
+    , offsets(offsets_of_vectors<dim, dim>(points.fields(), "half_edge"))
   {}
 
 
@@ -307,12 +319,15 @@ namespace moraine
     const auto domains = this->initial_domains(points);
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
+        const auto    &corners = domains[p].corners;
         Tensor<2, dim> R; // rows: r_i
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int c = 0; c < n_corners; ++c)
-            R[d] += ((c >> d) & 1 ? 1. : -1.) / n_corners * domains[p][c];
+            R[d] += ((c >> d) & 1 ? 1. : -1.) / n_corners * corners[c];
+        const double volume =
+          domains[p].is_cut ? volume_of<dim>(corners) : points.volume(p);
         const double factor =
-          std::pow(points.volume(p) / (n_corners * determinant(R)), 1. / dim);
+          std::pow(volume / (n_corners * determinant(R)), 1. / dim);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int i = 0; i < dim; ++i)
             points.values(p)[offsets[d] + i] = factor * R[d][i];
@@ -369,7 +384,7 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &,
     const std::vector<Tensor<2, dim>> &gradients) const
   {
-    if (!DomainTools::finite_strain(points.fields()))
+    if (!DomainTools::finite_strain(points))
       return;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
@@ -439,7 +454,7 @@ namespace moraine
   void
   Cpdi2Basis<dim>::request_fields(PointFields &fields)
   {
-    request_vectors<n_corners>(fields, "corner", dim);
+    request_vectors<dim, n_corners>(fields, "corner");
   }
 
 
@@ -450,8 +465,8 @@ namespace moraine
                               const CellSeeder<dim>        &seeder,
                               const std::vector<Body<dim>> &bodies)
     : CpdiBasis<dim>(space, points, seeder, bodies, "CPDI2")
-    , finite_strain(DomainTools::finite_strain(points.fields()))
-    , offsets(offsets_of_vectors<n_corners>(points.fields(), "corner", dim))
+    , finite_strain(DomainTools::finite_strain(points))
+    , offsets(offsets_of_vectors<dim, n_corners>(points.fields(), "corner"))
   {}
 
 
@@ -468,34 +483,19 @@ namespace moraine
 
 
 
-  namespace
-  {
-    template <int dim>
-    double
-    volume_of(const CellVertices<dim> &corners)
-    {
-      double         w[1 << dim];
-      Tensor<1, dim> g[1 << dim];
-      return DomainTools::average_weights<dim>(corners, w, g);
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   Cpdi2Basis<dim>::initialise_points(PointSet<dim> &points) const
   {
     const auto domains = this->initial_domains(points);
-    const auto volume  = DomainTools::find_field(points.fields(), "volume");
-    const auto initial_volume =
-      DomainTools::find_field(points.fields(), "initial_volume");
+    const auto v_0     = points.fields().find(FieldNames<dim>::initial_volume);
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        store_corners(points, p, domains[p]);
-        points.values(p)[*volume] = volume_of<dim>(domains[p]);
-        if (initial_volume)
-          points.values(p)[*initial_volume] = points.volume(p);
+        store_corners(points, p, domains[p].corners);
+        if (!domains[p].is_cut)
+          points.set_volume(p, volume_of<dim>(domains[p].corners));
+        if (v_0.exists())
+          v_0.store(points.volume(p), points.values(p));
       }
   }
 
@@ -566,15 +566,21 @@ namespace moraine
   Cpdi2Basis<dim>::move_domains(
     PointSet<dim>                     &points,
     const std::vector<Tensor<1, dim>> &nodal_increments,
-    const std::vector<Tensor<2, dim>> &) const
+    const std::vector<Tensor<2, dim>> &gradients) const
   {
-    const auto volume = DomainTools::find_field(points.fields(), "volume");
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (finite_strain)
         {
-          const auto corners = moved_corners(p, nodal_increments);
+          const auto     corners = moved_corners(p, nodal_increments);
+          Tensor<2, dim> dF      = gradients[p];
+          for (unsigned int d = 0; d < dim; ++d)
+            dF[d][d] += 1;
+          // It has followed the gradient until here.
+          points.set_volume(p,
+                            points.volume(p) * volume_of<dim>(corners) /
+                              (determinant(dF) *
+                               volume_of<dim>(domain_corners(p))));
           store_corners(points, p, corners);
-          points.values(p)[*volume] = volume_of<dim>(corners);
         }
       else
         {

@@ -4,6 +4,7 @@
 #include <moraine/basis/domain_tools.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/mesh/cell_inverse.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -30,17 +31,6 @@ namespace moraine
         name << (d > 0 ? ", " : "") << points.position(p)[d];
       name << ")";
       return name.str();
-    }
-
-
-
-    std::optional<unsigned int>
-    find_field(const PointFields &fields, const std::string &name)
-    {
-      for (const auto &field : fields.fields())
-        if (field.name == name)
-          return field.offset;
-      return {};
     }
 
 
@@ -122,26 +112,67 @@ namespace moraine
 
     namespace
     {
-      /** The sub-cell as it is, or its shape with the point's volume. */
+      /**
+       * Half the lengths of a box around @p xi in the unit cell: a cube with
+       * the @p volume, as far as there is room on both sides. What one
+       * direction has no room for goes to the others.
+       */
+      template <int dim>
+      Tensor<1, dim>
+      half_lengths_around(const Point<dim> &xi, const double volume)
+      {
+        Tensor<1, dim>        half;
+        std::array<bool, dim> is_full{};
+        for (unsigned int round = 0; round < dim; ++round)
+          {
+            double       rest   = volume;
+            unsigned int n_free = dim;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (is_full[d])
+                {
+                  rest /= 2 * half[d];
+                  --n_free;
+                }
+            for (unsigned int d = 0; d < dim; ++d)
+              if (!is_full[d])
+                {
+                  // Round-off must not make a domain flat.
+                  const double room =
+                    std::max(std::min(xi[d], 1 - xi[d]), 1e-6);
+                  half[d]    = 0.5 * std::pow(rest, 1. / n_free);
+                  is_full[d] = half[d] >= room;
+                  half[d]    = std::min(half[d], room);
+                }
+          }
+        return half;
+      }
+
+
+
+      /**
+       * The domain of a point with the centroid @p x and the volume @p volume
+       * of what a body cuts from a sub-cell. In a cell, the functions averaged
+       * over it have the gradient they have at @p x, which integrates theirs
+       * over the body; beyond the cell's edge they have not.
+       */
       template <int dim>
       CellVertices<dim>
       domain_in_sub_cell(const CellVertices<dim> &sub_cell,
-                         const bool               is_whole,
                          const Point<dim>        &x,
                          const double             volume)
       {
-        double         w[1 << dim];
-        Tensor<1, dim> g[1 << dim];
-        const double   whole = average_weights<dim>(sub_cell, w, g);
-        if (is_whole || std::abs(volume - whole) < 1e-12 * whole)
-          return sub_cell;
-        Point<dim> centroid;
-        for (unsigned int c = 0; c < sub_cell.size(); ++c)
-          centroid += w[c] * sub_cell[c];
-        const double      factor = std::pow(volume / whole, 1. / dim);
+        const CellMap<dim>   map(sub_cell);
+        const Point<dim>     xi = CellInverse<dim>(sub_cell)(x).value();
+        const Tensor<1, dim> half =
+          half_lengths_around(xi, volume / determinant(map.jacobian(xi)));
         CellVertices<dim> corners;
-        for (unsigned int c = 0; c < sub_cell.size(); ++c)
-          corners[c] = x + factor * (sub_cell[c] - centroid);
+        for (unsigned int c = 0; c < corners.size(); ++c)
+          {
+            Point<dim> corner = xi;
+            for (unsigned int d = 0; d < dim; ++d)
+              corner[d] += (c >> d) & 1 ? half[d] : -half[d];
+            corners[c] = map.place(corner);
+          }
         return corners;
       }
     } // namespace
@@ -149,23 +180,23 @@ namespace moraine
 
 
     template <int dim>
-    std::vector<CellVertices<dim>>
+    std::vector<InitialDomain<dim>>
     initial_domains(const PointSet<dim>               &points,
                     const CellSeeder<dim>             &seeder,
                     const std::vector<bool>           &is_seeded,
                     const std::vector<Tensor<2, dim>> &half_edges)
     {
-      std::vector<CellVertices<dim>> domains;
+      std::vector<InitialDomain<dim>> domains;
       domains.reserve(points.n_local());
+      double         w[1 << dim];
+      Tensor<1, dim> g[1 << dim];
       for (const auto &in_cell : points.cells())
         {
           const auto vertices = vertices_of<dim>(in_cell.cell);
           double     filled   = 0;
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             filled += points.volume(p);
-          double         w[1 << dim];
-          Tensor<1, dim> g[1 << dim];
-          const double   volume = average_weights<dim>(vertices, w, g);
+          const double volume = average_weights<dim>(vertices, w, g);
           // The Gauss points of a full cell askew have not the volumes of
           // their sub-cells; only their sum is right.
           const bool is_full =
@@ -173,18 +204,28 @@ namespace moraine
             std::abs(filled - volume) < 1e-12 * volume;
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             if (is_seeded[points.body(p)])
-              domains.push_back(domain_in_sub_cell<dim>(
-                seeder.sub_cell_around(vertices, points.reference_position(p)),
-                is_full,
-                points.position(p),
-                points.volume(p)));
+              {
+                const auto sub_cell =
+                  seeder.sub_cell_around(vertices,
+                                         points.reference_position(p));
+                const double whole = average_weights<dim>(sub_cell, w, g);
+                if (is_full ||
+                    std::abs(points.volume(p) - whole) < 1e-12 * whole)
+                  domains.push_back({sub_cell, false});
+                else
+                  domains.push_back({domain_in_sub_cell<dim>(sub_cell,
+                                                             points.position(p),
+                                                             points.volume(p)),
+                                     true});
+              }
             else
               {
                 Tensor<2, dim> r = half_edges[points.body(p)];
                 if (r.norm() == 0)
                   for (unsigned int d = 0; d < dim; ++d)
                     r[d][d] = 0.5 * std::pow(points.volume(p), 1. / dim);
-                domains.push_back(parallelepiped(points.position(p), r));
+                domains.push_back(
+                  {parallelepiped(points.position(p), r), false});
               }
         }
       return domains;
@@ -237,9 +278,8 @@ namespace moraine
     {
       const MPI_Comm communicator =
         points.mesh().triangulation().get_communicator();
-      const auto volume         = find_field(points.fields(), "volume");
-      const auto initial_volume = find_field(points.fields(), "initial_volume");
-      unsigned int next_id      = next_free_id(points, communicator);
+      const auto   v_0 = points.fields().find(FieldNames<dim>::initial_volume);
+      unsigned int next_id = next_free_id(points, communicator);
 
       std::vector<unsigned int> candidates(points.n_local());
       std::iota(candidates.begin(), candidates.end(), 0u);
@@ -264,9 +304,9 @@ namespace moraine
             {
               const unsigned int   p      = wholes[i];
               const Tensor<1, dim> offset = halve(p, directions[i]);
-              points.values(p)[*volume] *= 0.5;
-              if (initial_volume)
-                points.values(p)[*initial_volume] *= 0.5;
+              points.set_volume(p, 0.5 * points.volume(p));
+              if (v_0.exists())
+                v_0.store(0.5 * v_0(points.values(p)), points.values(p));
               const unsigned int place =
                 std::lower_bound(ids.begin(), ids.end(), points.id(p)) -
                 ids.begin();
@@ -297,7 +337,7 @@ namespace moraine
                                        Tensor<1, dim> *);             \
   template CellVertices<dim> parallelepiped(const Point<dim> &,                  \
                                             const Tensor<2, dim> &);             \
-  template std::vector<CellVertices<dim>> initial_domains(                       \
+  template std::vector<InitialDomain<dim>> initial_domains(                      \
     const PointSet<dim> &,                                                       \
     const CellSeeder<dim> &,                                                     \
     const std::vector<bool> &,                                                   \

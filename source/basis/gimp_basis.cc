@@ -5,6 +5,8 @@
 
 #include <moraine/basis/domain_tools.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/object_error.h>
+#include <moraine/mesh/cell_shapes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +23,11 @@ namespace moraine
     check_mesh(const GridSpace<dim> &space)
     {
       if (!space.mesh().box_grid() || space.degree() != 1)
-        throw InputError("section 'Method', key 'Method': found 'GIMP' on a "
-                         "mesh or with shape functions it cannot use, allowed: "
-                         "a box of equal cells with degree 1");
+        throw ObjectError("method",
+                          "GIMP",
+                          "found 'GIMP' on a mesh or with shape functions it "
+                          "cannot use, allowed: a box of equal cells with "
+                          "degree 1");
     }
   } // namespace
 
@@ -40,11 +44,11 @@ namespace moraine
     , neighbours((check_mesh(space), space.mesh()))
     , points_per_direction(points_per_direction)
     , is_seeded(is_seeded)
-    , update(DomainTools::finite_strain(points.fields()) ? update :
-                                                           DomainUpdate::frozen)
+    , update(DomainTools::finite_strain(points) ? update : DomainUpdate::frozen)
     , split(split)
-    , half_length_offset(
-        PointFields(points.fields()).request("half_length", dim, ""))
+    , half_length_field(points.fields().find(half_length_name))
+    , initial_half_length_field(points.fields().find(initial_half_length_name))
+    , half_length_offset(half_length_field.offset())
   {}
 
 
@@ -76,11 +80,8 @@ namespace moraine
             half_length[d] = 0.5 * grid.cell_size[d] *
                              std::min(1., scale / points_per_direction);
         if (update == DomainUpdate::stretch)
-          std::copy_n(half_length,
-                      dim,
-                      points.values(p) +
-                        *DomainTools::find_field(points.fields(),
-                                                 "initial_half_length"));
+          initial_half_length_field.store(half_length_field(points.values(p)),
+                                          points.values(p));
       }
   }
 
@@ -151,7 +152,7 @@ namespace moraine
                         (this->points.values(p) + half_length_offset)[d] /
                         grid().cell_size[d]) +
                       " cell sizes, the limit of GIMP is 1; allowed: larger "
-                      "cells, or section 'Method', key 'Split domains' = true";
+                      "cells, or 'Split domains = true'";
             continue;
           }
         const Window window = window_of(p);
@@ -355,25 +356,33 @@ namespace moraine
   Tensor<1, dim>
   GimpBasis<dim>::tracked_half_length(
     const unsigned int                 point,
-    const CellPatch<dim>              &patch,
     const std::vector<Tensor<1, dim>> &nodal_increments) const
   {
     constexpr unsigned int n_corners = 1 << dim;
-    const double          *l = this->points.values(point) + half_length_offset;
-    Tensor<1, dim>         tracked;
+    const BoxGrid<dim>    &grid      = this->grid();
+    // Corners are looked for in the cells whose nodes the point knows. One that
+    // touches a cell by no more than round-off keeps to its neighbour.
+    const Window   window  = window_of(point);
+    const auto     corners = domain_corners(point);
+    const double  *l       = this->points.values(point) + half_length_offset;
+    Tensor<1, dim> tracked;
     for (unsigned int d = 0; d < dim; ++d)
       tracked[d] = l[d];
-    const auto corners = domain_corners(point);
     for (unsigned int c = 0; c < n_corners; ++c)
       {
-        unsigned int cell = 0;
-        double       N[n_corners];
-        const bool   found =
-          patch.locate(this->points.position(point), corners[c], cell, N);
-        Assert(found, ExcInternalError());
-        (void)found;
-        const unsigned int *nodes = this->space.cell_nodes(cell);
-        Tensor<1, dim>      increment;
+        std::array<unsigned int, dim> ijk;
+        Point<dim>                    xi;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            ijk[d] = (c >> d) & 1 ? window.last[d] : window.first[d];
+            xi[d] = (corners[c][d] - grid.lower_corner[d]) / grid.cell_size[d] -
+                    ijk[d];
+          }
+        double N[n_corners];
+        CellShapes<dim, 1>::values(xi, N);
+        const unsigned int *nodes =
+          this->space.cell_nodes(neighbours.box_cell(ijk));
+        Tensor<1, dim> increment;
         for (unsigned int a = 0; a < n_corners; ++a)
           increment += N[a] * nodal_increments[nodes[a]];
         for (unsigned int d = 0; d < dim; ++d)
@@ -391,19 +400,13 @@ namespace moraine
   {
     if (update != DomainUpdate::corners)
       return "";
-    CellPatch<dim> patch(neighbours);
-    for (const auto &in_cell : this->points.cells())
+    for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {
-        patch.reinit(in_cell.cell);
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          {
-            const Tensor<1, dim> l =
-              tracked_half_length(p, patch, nodal_increments);
-            for (unsigned int d = 0; d < dim; ++d)
-              if (!(l[d] > 0))
-                return DomainTools::name_of(this->points, p) +
-                       ": its box would have no length along " + "xyz"[d];
-          }
+        const Tensor<1, dim> l = tracked_half_length(p, nodal_increments);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(l[d] > 0))
+            return DomainTools::name_of(this->points, p) +
+                   ": its box would have no length along " + "xyz"[d];
       }
     return "";
   }
@@ -438,42 +441,32 @@ namespace moraine
   {
     if (update == DomainUpdate::stretch)
       {
-        const unsigned int F_offset =
-          *DomainTools::find_field(points.fields(), "deformation_gradient");
-        const unsigned int l0_offset =
-          *DomainTools::find_field(points.fields(), "initial_half_length");
+        const auto F =
+          points.fields().find(FieldNames<dim>::deformation_gradient);
         for (unsigned int p = 0; p < points.n_local(); ++p)
           {
-            double        *values = points.values(p);
-            Tensor<2, dim> F;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                F[i][j] = values[F_offset + i * dim + j];
-            const Tensor<1, dim> U = diagonal_of_stretch(F);
+            double              *values = points.values(p);
+            const Tensor<1, dim> U      = diagonal_of_stretch(F(values));
+            Tensor<1, dim>       l      = initial_half_length_field(values);
             for (unsigned int d = 0; d < dim; ++d)
-              values[half_length_offset + d] = values[l0_offset + d] * U[d];
+              l[d] *= U[d];
+            half_length_field.store(l, values);
           }
       }
     else if (update == DomainUpdate::corners)
       {
-        CellPatch<dim> patch(neighbours);
-        for (const auto &in_cell : points.cells())
+        for (unsigned int p = 0; p < points.n_local(); ++p)
           {
-            patch.reinit(in_cell.cell);
-            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-              {
-                const Tensor<1, dim> l =
-                  tracked_half_length(p, patch, nodal_increments);
-                double *half_length = points.values(p) + half_length_offset;
-                Tensor<2, dim> increment = gradients[p];
-                for (unsigned int d = 0; d < dim; ++d)
-                  increment[d][d] += 1;
-                double ratio = determinant(increment);
-                for (unsigned int d = 0; d < dim; ++d)
-                  ratio *= half_length[d] / l[d];
-                for (unsigned int d = 0; d < dim; ++d)
-                  half_length[d] = l[d] * std::pow(ratio, 1. / dim);
-              }
+            const Tensor<1, dim> l = tracked_half_length(p, nodal_increments);
+            double        *half_length = points.values(p) + half_length_offset;
+            Tensor<2, dim> increment   = gradients[p];
+            for (unsigned int d = 0; d < dim; ++d)
+              increment[d][d] += 1;
+            double ratio = determinant(increment);
+            for (unsigned int d = 0; d < dim; ++d)
+              ratio *= half_length[d] / l[d];
+            for (unsigned int d = 0; d < dim; ++d)
+              half_length[d] = l[d] * std::pow(ratio, 1. / dim);
           }
       }
   }
@@ -486,16 +479,14 @@ namespace moraine
   {
     if (!split)
       return false;
-    const auto l0_offset =
-      DomainTools::find_field(points.fields(), "initial_half_length");
     return DomainTools::split_points<dim>(
       points,
       [&](const unsigned int p) { return too_long_edge(p); },
       [&](const unsigned int p, const unsigned int d) {
         double *l = points.values(p) + half_length_offset;
         l[d] *= 0.5;
-        if (l0_offset)
-          points.values(p)[*l0_offset + d] *= 0.5;
+        if (initial_half_length_field.exists())
+          (points.values(p) + initial_half_length_field.offset())[d] *= 0.5;
         Tensor<1, dim> offset;
         offset[d] = l[d];
         return offset;

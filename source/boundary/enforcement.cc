@@ -51,18 +51,19 @@ namespace moraine
     // lose definiteness where the points of a cut cell hold little energy
     // against the flux on its surface, and updates of t diverge.
     if (enforcement == "augmented Lagrangian")
-      return {0., 0., 0., c3, true, true};
+      return {0., 0., 0., c3, true, true, enforcement};
     if (enforcement == "weighted")
       return {weight.integral_value_derivative(),
               weight.integral_derivative(),
               1.,
               c3,
               false,
-              false};
+              false,
+              enforcement};
     if (enforcement == "symmetric Nitsche")
-      return {1., 1., 1., nitsche_factor, true, false};
+      return {1., 1., 1., nitsche_factor, true, false, enforcement};
     if (enforcement == "skew Nitsche")
-      return {1., 1., -1., nitsche_factor, true, false};
-    return {0., 0., 0., penalty_factor, false, false};
+      return {1., 1., -1., nitsche_factor, true, false, enforcement};
+    return {0., 0., 0., penalty_factor, false, false, enforcement};
   }
 } // namespace moraine

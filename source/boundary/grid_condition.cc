@@ -3,7 +3,10 @@
 
 #include <moraine/boundary/grid_condition.h>
 
+#include <moraine/boundary/condition_agreement.h>
+
 #include <moraine/core/exceptions.h>
+#include <moraine/core/object_error.h>
 
 #include <algorithm>
 #include <set>
@@ -129,6 +132,93 @@ namespace moraine
           }
       return on_side;
     }
+
+
+
+    /** An unknown that two conditions prescribe. */
+    struct Shared
+    {
+      unsigned int node;
+      unsigned int component;
+      unsigned int first;
+      unsigned int second;
+    };
+
+
+
+    /** @param shared gets what further conditions prescribe as well. */
+    template <int dim>
+    PrescribedNodes<dim>
+    find_nodes(const std::vector<GridCondition<dim>> &conditions,
+               const GridSpace<dim>                  &space,
+               std::vector<Shared>                   &shared)
+    {
+      PrescribedNodes<dim>      prescribed;
+      constexpr unsigned int    none = numbers::invalid_unsigned_int;
+      std::vector<unsigned int> condition_of(dim * space.n_nodes(), none);
+      for (unsigned int c = 0; c < conditions.size(); ++c)
+        {
+          const GridCondition<dim> &condition = conditions[c];
+          std::vector<bool>         on_side;
+          if (condition.side)
+            on_side = nodes_on_side(space, *condition.side);
+          for (unsigned int node = 0; node < space.n_nodes(); ++node)
+            {
+              const Point<dim> &x = space.node_position(node);
+              if ((condition.side && !on_side[node]) ||
+                  (condition.region &&
+                   !inside(*condition.region,
+                           x,
+                           1e-9 * space.mesh().cell_size())))
+                continue;
+              for (unsigned int d = 0; d < dim; ++d)
+                if (condition.component[d])
+                  {
+                    unsigned int &first = condition_of[dim * node + d];
+                    if (first == none)
+                      {
+                        first = c;
+                        prescribed.entries.push_back({node, d, c});
+                      }
+                    else
+                      shared.push_back({node, d, first, c});
+                  }
+            }
+        }
+      return prescribed;
+    }
+
+
+
+    /** Whether displacements at @p x are the same; rigid motions know them to
+     * the round-off of the place. */
+    template <int dim>
+    bool
+    agree(const Tensor<1, dim> &u,
+          const Tensor<1, dim> &v,
+          const unsigned int    component,
+          const Point<dim>     &x,
+          const double          cell_size)
+    {
+      return std::abs(u[component] - v[component]) <=
+             1e-9 * std::max(u.norm(), v.norm()) +
+               1e-14 * (x.norm() + cell_size);
+    }
+
+
+
+    template <int dim>
+    std::string
+    complaint(const std::vector<GridCondition<dim>> &conditions,
+              const Shared                          &shared,
+              const Point<dim>                      &x)
+    {
+      std::ostringstream message;
+      message << "'" << conditions[shared.first].name << "' and '"
+              << conditions[shared.second].name << "' prescribe different "
+              << "xyz"[shared.component] << " displacements at (" << x << ")";
+      return message.str();
+    }
   } // namespace
 
 
@@ -139,58 +229,69 @@ namespace moraine
                         const GridSpace<dim>                  &space,
                         const double                           t_end)
   {
-    PrescribedNodes<dim>      prescribed;
-    constexpr unsigned int    none = numbers::invalid_unsigned_int;
-    std::vector<unsigned int> condition_of(dim * space.n_nodes(), none);
-    for (unsigned int c = 0; c < conditions.size(); ++c)
+    std::vector<Shared> shared;
+    const auto          prescribed = find_nodes(conditions, space, shared);
+    for (const Shared &entry : shared)
       {
-        const GridCondition<dim> &condition = conditions[c];
-        std::vector<bool>         on_side;
-        if (condition.side)
-          on_side = nodes_on_side(space, *condition.side);
-        for (unsigned int node = 0; node < space.n_nodes(); ++node)
-          {
-            const Point<dim> &x = space.node_position(node);
-            if ((condition.side && !on_side[node]) ||
-                (condition.region && !inside(*condition.region,
-                                             x,
-                                             1e-9 * space.mesh().cell_size())))
-              continue;
-            for (unsigned int d = 0; d < dim; ++d)
-              if (condition.component[d])
-                {
-                  const unsigned int other = condition_of[dim * node + d];
-                  if (other == none)
-                    {
-                      condition_of[dim * node + d] = c;
-                      prescribed.entries.push_back({node, d, c});
-                    }
-                  else if (std::abs(conditions[other].value(x, t_end)[d] -
-                                    condition.value(x, t_end)[d]) > 1e-12)
-                    {
-                      std::ostringstream message;
-                      message << "section 'Grid conditions': '"
-                              << conditions[other].name << "' and '"
-                              << condition.name << "' prescribe different "
-                              << "xyz"[d] << " displacements at (" << x << ")";
-                      throw InputError(message.str());
-                    }
-                }
-          }
+        const Point<dim> &x = space.node_position(entry.node);
+        if (!agree(conditions[entry.first].value(x, t_end),
+                   conditions[entry.second].value(x, t_end),
+                   entry.component,
+                   x,
+                   space.mesh().cell_size()))
+          throw ObjectError("grid conditions",
+                            "",
+                            complaint(conditions, entry, x));
       }
     return prescribed;
   }
 
 
 
+  template <int dim>
+  void
+  check_agreement(const std::vector<GridCondition<dim>> &conditions,
+                  const GridSpace<dim>                  &space,
+                  const double                           start,
+                  const double                           end,
+                  const unsigned int                     n_steps)
+  {
+    std::vector<Shared> shared;
+    find_nodes(conditions, space, shared);
+    const double size = (end - start) / n_steps;
+    for (const Shared &entry : shared)
+      for (unsigned int step = 0; step < n_steps; ++step)
+        {
+          const double         t_n = start + step * size, t = t_n + size;
+          const Point<dim>    &x = space.node_position(entry.node);
+          const Tensor<1, dim> u = conditions[entry.first].increment(x, t_n, t);
+          const Tensor<1, dim> v =
+            conditions[entry.second].increment(x, t_n, t);
+          if (agree(u, v, entry.component, x, space.mesh().cell_size()))
+            continue;
+          std::ostringstream message;
+          message << complaint(conditions, entry, x) << " from t = " << t_n
+                  << " to t = " << t << ": " << u[entry.component] << " and "
+                  << v[entry.component];
+          throw InputError(message.str());
+        }
+  }
+
+
+
   template struct GridCondition<2>;
   template struct GridCondition<3>;
-  template PrescribedNodes<2>
-  find_prescribed_nodes(const std::vector<GridCondition<2>> &,
-                        const GridSpace<2> &,
-                        const double);
-  template PrescribedNodes<3>
-  find_prescribed_nodes(const std::vector<GridCondition<3>> &,
-                        const GridSpace<3> &,
-                        const double);
+#define INSTANTIATE(dim)                                                 \
+  template PrescribedNodes<dim> find_prescribed_nodes(                   \
+    const std::vector<GridCondition<dim>> &,                             \
+    const GridSpace<dim> &,                                              \
+    const double);                                                       \
+  template void check_agreement(const std::vector<GridCondition<dim>> &, \
+                                const GridSpace<dim> &,                  \
+                                const double,                            \
+                                const double,                            \
+                                const unsigned int);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

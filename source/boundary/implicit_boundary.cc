@@ -131,23 +131,30 @@ namespace moraine
   {
     t_start           = t;
     moves_with_points = moves_points;
-    turns_reaction    = moves_points && measure == StrainMeasure::finite &&
-                     constraint.kind == Constraint<dim>::fixed;
-    lands = moves_points && at_start.curved() &&
-            constraint.kind == Constraint<dim>::roller;
+    turns_multiplier  = moves_points && measure == StrainMeasure::finite &&
+                       constraint.kind == Constraint<dim>::fixed;
+    projects = moves_points && at_start.curved() &&
+               constraint.kind == Constraint<dim>::roller;
     const bool moves = moves_points && motion.moves();
-    if (placed && !cells_changed && !moves)
-      return;
-    const Pose<dim> previous_pose = at_start.pose();
+    if (has_pieces && !cells_changed && !moves)
+      {
+        if (kept_at_points)
+          for (unsigned int q = 0; q < carried.size(); ++q)
+            take_over(carried[q], boundary_points[q]);
+        return;
+      }
     if (!placed || moves)
-      at_start.set_pose(motion.pose(t));
-    std::vector<BoundaryPoint<dim>> previous;
-    std::swap(previous, boundary_points);
+      {
+        t_placed = t;
+        at_start.set_pose(motion.pose(t));
+      }
+    boundary_points.clear();
     find_pieces(space, reach);
     evaluate_shapes(space);
-    if (placed)
-      take_over(previous, previous_pose, space.communicator());
-    placed = true;
+    if (how.carries_reaction)
+      take_over_nearest(space.communicator());
+    kept_at_points = false;
+    placed = has_pieces = true;
   }
 
 
@@ -178,6 +185,11 @@ namespace moraine
                      [](const auto &a, const auto &b) {
                        return a.cell < b.cell;
                      });
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      boundary_points[q].number =
+        q > 0 && boundary_points[q - 1].cell == boundary_points[q].cell ?
+          boundary_points[q - 1].number + 1 :
+          0;
   }
 
 
@@ -234,32 +246,34 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::take_over(
-    const std::vector<BoundaryPoint<dim>> &previous,
-    const Pose<dim>                       &previous_pose,
-    const MPI_Comm                        &communicator)
+  ImplicitBoundary<dim>::take_over(const CarriedPlace<dim> &from,
+                                   BoundaryPoint<dim>      &point) const
   {
-    const Pose<dim> &pose = at_start.pose();
+    point.multiplier_at_start   = from.multiplier;
+    point.accumulated_violation = from.violation;
+    if (constraint.kind == Constraint<dim>::roller)
+      {
+        const Tensor<2, dim> R      = at_start.pose().rotation();
+        point.multiplier_at_start   = R * from.multiplier;
+        point.accumulated_violation = R * from.violation;
+      }
+  }
 
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_over_nearest(const MPI_Comm &communicator)
+  {
     // Of all ranks, because a moving surface takes its points from rank to
-    // rank. What a roller carries goes along with its normal.
-    const Tensor<2, dim> turn =
-      constraint.kind == Constraint<dim>::roller ?
-        pose.rotation() * transpose(previous_pose.rotation()) :
-        Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    std::vector<std::array<Tensor<1, dim>, 3>> carried;
-    for (const auto &point : previous)
-      carried.push_back({{Tensor<1, dim>(previous_pose.inverse(point.x)),
-                          turn * point.committed_reaction,
-                          turn * point.gap}});
-    const auto everyones = Utilities::MPI::all_gather(communicator, carried);
-
-    std::vector<Point<dim>>                    places;
-    std::vector<std::array<Tensor<1, dim>, 3>> all;
-    for (const auto &of_one_rank : everyones)
+    // rank.
+    std::vector<Point<dim>>        places;
+    std::vector<CarriedPlace<dim>> all;
+    for (const auto &of_one_rank :
+         Utilities::MPI::all_gather(communicator, carried))
       for (const auto &entry : of_one_rank)
         {
-          places.emplace_back(entry[0]);
+          places.emplace_back(entry.place);
           all.push_back(entry);
         }
     if (all.empty())
@@ -267,14 +281,11 @@ namespace moraine
     const auto tree = pack_rtree_of_indices(places);
     for (auto &point : boundary_points)
       {
-        const Point<dim> place = pose.inverse(point.x);
+        const Point<dim> place = at_start.pose().inverse(point.x);
         for (auto it = tree.qbegin(boost::geometry::index::nearest(place, 1));
              it != tree.qend();
              ++it)
-          {
-            point.committed_reaction = all[*it][1];
-            point.gap                = all[*it][2];
-          }
+          take_over(all[*it], point);
       }
   }
 
@@ -284,9 +295,9 @@ namespace moraine
   void
   ImplicitBoundary<dim>::set_target(const double t_end)
   {
-    const Pose<dim> start = motion.pose(t_start), end = motion.pose(t_end);
+    const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);
     at_end.set_pose(moves_with_points ? end : at_start.pose());
-    const Tensor<2, dim> turn = turns_reaction ?
+    const Tensor<2, dim> turn = turns_multiplier ?
                                   end.rotation() * transpose(start.rotation()) :
                                   Tensor<2, dim>(unit_symmetric_tensor<dim>());
     for (auto &point : boundary_points)
@@ -295,9 +306,9 @@ namespace moraine
         point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
-        point.reaction = how.carries_reaction ?
-                           turn * point.committed_reaction :
-                           Tensor<1, dim>();
+        point.multiplier = how.carries_reaction ?
+                             turn * point.multiplier_at_start :
+                             Tensor<1, dim>();
       }
   }
 
@@ -309,15 +320,15 @@ namespace moraine
                                           const Tensor<1, dim>     &du) const
   {
     ConstraintState<dim> state;
-    if (lands)
+    if (projects)
       {
-        const Point<dim> landing = point.x + du;
-        state.normal             = at_end.normal(landing);
+        const Point<dim> x_end = point.x + du;
+        state.normal           = at_end.normal(x_end);
         const Tensor<1, dim> relative =
           point.prescribed -
           (at_end.pose().map(at_start.pose().inverse(point.x)) - point.x);
         state.violation =
-          (-at_end.level(landing) - relative * state.normal) * state.normal;
+          (-at_end.level(x_end) - relative * state.normal) * state.normal;
         state.M = constraint.projection(state.normal);
       }
     else
@@ -333,16 +344,144 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::accept(const std::vector<Tensor<1, dim>> &tractions,
-                                const std::vector<Tensor<1, dim>> &violations)
+  ImplicitBoundary<dim>::set_multipliers(
+    const std::vector<Tensor<1, dim>> &multipliers)
+  {
+    AssertDimension(multipliers.size(), boundary_points.size());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      boundary_points[q].multiplier = multipliers[q];
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
+                                 const std::vector<Tensor<1, dim>> &violations)
   {
     if (!how.carries_reaction)
       return;
+    const Placement<dim> &pose = at_start.pose();
+    const Tensor<2, dim> into_frame =
+      constraint.kind == Constraint<dim>::roller ?
+        transpose(pose.rotation()) :
+        Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    prepared.resize(boundary_points.size());
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        boundary_points[q].committed_reaction = tractions[q];
-        boundary_points[q].gap += violations[q];
+        const auto &point = boundary_points[q];
+        prepared[q]       = {Tensor<1, dim>(pose.inverse(point.x)),
+                             into_frame * tractions[q],
+                             into_frame *
+                               (point.accumulated_violation + violations[q]),
+                             {{point.cell, point.number}}};
       }
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::keep() noexcept
+  {
+    if (!how.carries_reaction)
+      return;
+    std::swap(carried, prepared);
+    kept_at_points = true;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::write(Archive &archive) const
+  {
+    std::vector<double>       places, multipliers, violations;
+    std::vector<unsigned int> ids;
+    for (const CarriedPlace<dim> &of : carried)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            places.push_back(of.place[d]);
+            multipliers.push_back(of.multiplier[d]);
+            violations.push_back(of.violation[d]);
+          }
+        ids.insert(ids.end(), of.id.begin(), of.id.end());
+      }
+    const std::string group = "boundaries/" + boundary_name;
+    archive.write(group + "/is_placed", placed ? 1u : 0u);
+    archive.write(group + "/t_placed", t_placed);
+    archive.distribute(group + "/carried", ids, 2);
+    archive.write(group + "/carried/place", places, dim);
+    archive.write(group + "/carried/multiplier", multipliers, dim);
+    archive.write(group + "/carried/violation", violations, dim);
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::read(const Archive &archive)
+  {
+    const std::string group = "boundaries/" + boundary_name;
+    placed                  = archive.integer(group + "/is_placed") != 0;
+    t_placed                = archive.number(group + "/t_placed");
+    if (placed)
+      at_start.set_pose(motion.pose(t_placed));
+    const auto &ids    = archive.integers(group + "/carried/id", 2);
+    const auto &places = archive.numbers(group + "/carried/place", dim);
+    const auto &multipliers =
+      archive.numbers(group + "/carried/multiplier", dim);
+    const auto &violations = archive.numbers(group + "/carried/violation", dim);
+    carried.resize(ids.size() / 2);
+    for (unsigned int k = 0; k < carried.size(); ++k)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            carried[k].place[d]      = places[dim * k + d];
+            carried[k].multiplier[d] = multipliers[dim * k + d];
+            carried[k].violation[d]  = violations[dim * k + d];
+          }
+        carried[k].id = {{ids[2 * k], ids[2 * k + 1]}};
+      }
+    // The points are derived from that by the next begin_step().
+    has_pieces = kept_at_points = false;
+    undo();
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::undo()
+  {
+    prepared.clear();
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  ImplicitBoundary<dim>::n_points(const MPI_Comm &communicator) const
+  {
+    return Utilities::MPI::sum<unsigned int>(boundary_points.size(),
+                                             communicator);
+  }
+
+
+
+  template <int dim>
+  std::string
+  ImplicitBoundary<dim>::constraint_name() const
+  {
+    if (constraint.kind != Constraint<dim>::components)
+      return constraint.kind == Constraint<dim>::fixed ? "fixed" : "roller";
+    std::string components;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (constraint.component[d])
+        components +=
+          (components.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+    return components;
   }
 
 

@@ -42,14 +42,18 @@ namespace moraine
     std::ostream &screen;
     std::ofstream log;
     std::string   before_log;
-    bool          keep = true;
+    bool          keep  = true;
+    bool          quiet = false;
 
   protected:
     std::streamsize
     xsputn(const char *text, const std::streamsize n) override
     {
-      clear_progress();
-      screen.write(text, n);
+      if (!quiet)
+        {
+          clear_progress();
+          screen.write(text, n);
+        }
       if (log.is_open())
         log.write(text, n);
       else if (keep)
@@ -147,9 +151,18 @@ namespace moraine
 
 
   void
+  Console::set_quiet(const bool quiet)
+  {
+    if (tee)
+      tee->quiet = quiet;
+  }
+
+
+
+  void
   Console::progress(const std::string &line)
   {
-    if (terminal)
+    if (terminal && !tee->quiet)
       tee->show_progress(line);
   }
 } // namespace moraine

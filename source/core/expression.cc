@@ -3,6 +3,7 @@
 
 #include <moraine/core/expression.h>
 
+#include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/silent_errors.h>
 
@@ -19,44 +20,6 @@ namespace moraine
 
   namespace
   {
-    /** Split at the separators that stand outside all brackets. */
-    std::vector<std::string>
-    split(const std::string &text, const std::string &separators)
-    {
-      std::vector<std::string> parts(1);
-      int                      depth = 0;
-      for (const char c : text)
-        {
-          depth += (c == '(') - (c == ')');
-          if (depth == 0 && separators.find(c) != std::string::npos)
-            parts.emplace_back();
-          else
-            parts.back() += c;
-        }
-      for (std::string &part : parts)
-        part = Utilities::trim(part);
-      return parts;
-    }
-
-
-
-    /** Whether @p text is a plain finite number, and which. */
-    bool
-    is_number(const std::string &text, double &number)
-    {
-      try
-        {
-          number = Utilities::string_to_double(text);
-          return std::isfinite(number);
-        }
-      catch (const ExceptionBase &)
-        {
-          return false;
-        }
-    }
-
-
-
     /** What muParser said, out of deal.II's long message. */
     std::string
     parser_message(const std::string &what)
@@ -89,6 +52,12 @@ namespace moraine
             const std::string                   &place,
             const std::string                   &allowed)
     {
+      for (const std::string &component : components)
+        if (is_random(component))
+          throw InputError(place + ": found '" + component +
+                           "', whose value is another one each time it is "
+                           "asked for. Allowed: " +
+                           allowed);
       auto parser = std::make_shared<FunctionParser<dim>>(components.size());
       auto names  = constants;
       names.emplace("pi", numbers::PI);
@@ -107,6 +76,14 @@ namespace moraine
             throw InputError(place + ": found '" + components[c] +
                              "': " + parser_message(e.what()) +
                              ". Allowed: " + allowed);
+          }
+        catch (...) // muParser's own, which deal.II does not catch
+          {
+            throw InputError(place + ": found '" + components[c] +
+                             "' with constants of which one is called like a "
+                             "variable or a function, or has no proper name. "
+                             "Allowed: " +
+                             allowed);
           }
       return parser;
     }
@@ -147,7 +124,7 @@ namespace moraine
     : expression_text(Utilities::trim(text))
     , origin(place)
     , with_time(with_time)
-    , components(split(expression_text, ";,"))
+    , components(split_outside_brackets(expression_text, ";,"))
   {
     const std::string variables =
       FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
@@ -166,10 +143,9 @@ namespace moraine
                        std::to_string(components.size()) +
                        " components. Allowed: " + allowed);
 
-    double number;
     for (const std::string &component : components)
-      if (is_number(component, number))
-        numbers.push_back(number);
+      if (const auto number = plain_number(component))
+        numbers.push_back(*number);
     if (numbers.size() != components.size())
       numbers.clear();
     if (numbers.empty())
@@ -223,10 +199,9 @@ namespace moraine
                            const std::string &place,
                            const std::string &argument)
   {
-    double number = 0;
-    if (is_number(Utilities::trim(text), number))
+    if (const auto number = number_from(Utilities::trim(text)))
       {
-        table.emplace_back(0., number);
+        table.emplace_back(0., *number);
         return;
       }
 
@@ -234,23 +209,22 @@ namespace moraine
     const std::string allowed = "a number, or a table '" + argument +
                                 ": value, " + argument +
                                 ": value, ...' with increasing " + argument;
-    const auto pairs = split(text, ";,");
+    const auto pairs = split_outside_brackets(text, ";,");
     check_not_empty(pairs, text, place, allowed);
     if (!is_table(text))
       throw InputError(place + ": found '" + text + "'. Allowed: " + allowed);
     for (const std::string &pair : pairs)
       {
-        const auto colon = pair.find(':');
-        double     x = 0, value = 0;
-        if (colon == std::string::npos ||
-            !is_number(Utilities::trim(pair.substr(0, colon)), x) ||
-            !is_number(Utilities::trim(pair.substr(colon + 1)), value))
+        const auto sides = split_outside_brackets(pair, ":");
+        const auto x     = number_from(sides.front());
+        const auto value = number_from(sides.back());
+        if (sides.size() != 2 || !x || !value)
           throw InputError(place + ": found '" + pair +
                            "' in a table; allowed: " + row + ", two numbers");
-        if (!table.empty() && x <= table.back().first)
+        if (!table.empty() && *x <= table.back().first)
           throw InputError(place + ": found '" + pair + "' in a table, but " +
                            argument + " must increase");
-        table.emplace_back(x, value);
+        table.emplace_back(*x, *value);
       }
   }
 
@@ -282,11 +256,10 @@ namespace moraine
     const std::string allowed =
       "an expression in t with the constant pi, or a table 'time: value, "
       "time: value, ...' with increasing times";
-    const auto components = split(curve_text, ";,");
+    const auto components = split_outside_brackets(curve_text, ";,");
     check_not_empty(components, curve_text, place, allowed);
 
-    double number;
-    if (is_table(curve_text) || is_number(curve_text, number))
+    if (is_table(curve_text) || plain_number(curve_text))
       table = LinearTable(curve_text, place, "time");
     else if (components.size() == 1)
       parser = compile<1>(components, "t", {}, false, place, allowed);
@@ -327,7 +300,8 @@ namespace moraine
               const unsigned int n)
   {
     // Commas separate the rows of a table.
-    const auto parts = is_table(text) ? split(text, ";") : split(text, ";,");
+    const auto parts = is_table(text) ? split_outside_brackets(text, ";") :
+                                        split_outside_brackets(text, ";,");
     const std::string allowed =
       std::to_string(n) + " expressions in t or tables, separated by ';'";
     check_not_empty(parts, text, place, allowed);

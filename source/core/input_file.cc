@@ -3,7 +3,9 @@
 
 #include <moraine/core/input_file.h>
 
+#include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/input_text.h>
 #include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
 
@@ -176,15 +178,15 @@ namespace moraine
 
 
 
-    /** @return how the pattern of the key is described. */
-    std::string
+    /** @return what is declared for the key. */
+    const Tree &
     check_key(const Tree &tree, const InputFile::Entry &entry)
     {
       const Tree *node = node_of(tree, entry.section);
       const Tree *leaf =
         node == nullptr ? nullptr : child_of(*node, entry.key, true);
       if (leaf != nullptr)
-        return leaf->get<std::string>("pattern_description");
+        return *leaf;
 
       const auto known =
         node == nullptr ? std::vector<std::string>() : names_of(*node, true);
@@ -195,6 +197,15 @@ namespace moraine
       if (nearest(entry.key, known).empty() && !elsewhere.empty())
         message += "; it belongs in section " + elsewhere.front();
       throw InputError(message + suggest(entry.key, known));
+    }
+
+
+
+    /** Whether two texts are equal, as words or as numbers. */
+    bool
+    are_equal(const std::string &a, const std::string &b)
+    {
+      return a == b || (plain_number(a) && plain_number(a) == plain_number(b));
     }
 
 
@@ -210,19 +221,21 @@ namespace moraine
           entry.value +
           "', a choice for 'moraine study'; allowed: " + describe(pattern));
 
-      const auto path = parts_of(entry.section);
+      const std::string value = with_arithmetic(entry.value, pattern);
+      const auto        path  = parts_of(entry.section);
       for (const std::string &part : path)
         prm.enter_subsection(part);
       std::string mistake;
       try
         {
-          prm.set(entry.key, entry.value);
+          prm.set(entry.key, value);
         }
       catch (const ExceptionBase &)
         {
           mistake =
             entry.origin + ": " + place(entry.section, entry.key) + ": found " +
             (entry.value.empty() ? "nothing" : "'" + entry.value + "'") +
+            (value == entry.value ? "" : ", which is " + value) +
             ", allowed: " + describe(pattern);
         }
       for (std::size_t i = 0; i < path.size(); ++i)
@@ -293,6 +306,7 @@ namespace moraine
         statement = Utilities::trim(statement);
         if (statement.empty())
           continue;
+        check_text(statement, lines[i].origin);
         const std::string before =
           open_sections.empty() ? std::string() : open_sections.back().text;
         if (begins_with(statement, "set") || begins_with(statement, "SET"))
@@ -469,9 +483,10 @@ namespace moraine
   std::string
   InputFile::require(const std::string &section, const std::string &key) const
   {
-    for (const Entry &entry : found_entries)
-      if (entry.section == section && entry.key == key)
-        return entry.value;
+    const auto all = values();
+    for (std::size_t e = 0; e < found_entries.size(); ++e)
+      if (found_entries[e].section == section && found_entries[e].key == key)
+        return all[e];
 
     std::string origin = file_name;
     for (const Line &known : sections)
@@ -536,59 +551,49 @@ namespace moraine
 
 
 
-  std::string
-  InputFile::with_constants(const Entry &entry) const
+  std::vector<std::string>
+  InputFile::values() const
   {
-    const auto is_name = [](const char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-    };
-    std::string value = entry.value;
-    std::size_t at    = value.find('$');
-    while (at != std::string::npos)
-      {
-        std::size_t end = at + 1;
-        while (end < value.size() && is_name(value[end]))
-          ++end;
-        const std::string        name     = value.substr(at + 1, end - at - 1);
-        const Entry             *constant = nullptr;
-        std::vector<std::string> known;
-        for (const Entry &other : found_entries)
-          {
-            // A constant sees those before it only, so none needs itself.
-            if (&other == &entry)
-              break;
-            if (other.section == constants_section)
-              {
-                known.push_back("$" + other.key);
-                if (other.key == name)
-                  constant = &other;
-              }
-          }
-        if (constant == nullptr)
-          throw InputError(entry.origin + ": " +
-                           place(entry.section, entry.key) + ": found '$" +
-                           name + "'" + suggest("$" + name, known));
-        const std::string text = with_constants(*constant);
-        value.replace(at, end - at, text);
-        at = value.find('$', at + text.size());
-      }
-    return value;
+    std::vector<std::string>                         all(found_entries.size());
+    std::vector<std::pair<std::string, std::string>> constants;
+    // A constant sees those before it, so none needs itself; all else sees all.
+    for (const bool is_constant : {true, false})
+      for (std::size_t e = 0; e < found_entries.size(); ++e)
+        {
+          const Entry &entry = found_entries[e];
+          if ((entry.section == constants_section) != is_constant)
+            continue;
+          all[e] = with_constants(entry.value,
+                                  entry.origin + ": " +
+                                    place(entry.section, entry.key),
+                                  constants);
+          if (is_constant)
+            constants.emplace_back(entry.key, with_numbers(all[e], ""));
+        }
+    return all;
   }
 
 
 
-  void
+  std::vector<InputFile::Entry>
   InputFile::parse(ParameterHandler &prm) const
   {
     const Tree tree = declared_tree(prm);
     for (const Line &section : sections)
       if (section.text != constants_section)
         check_section(prm, tree, section.text, section.origin);
-    for (Entry entry : found_entries)
-      if (entry.section != constants_section)
+    const auto         all = values();
+    std::vector<Entry> given;
+    for (std::size_t e = 0; e < found_entries.size(); ++e)
+      if (found_entries[e].section != constants_section)
         {
-          entry.value = with_constants(entry);
-          set_value(prm, entry, check_key(tree, entry));
+          Entry entry      = found_entries[e];
+          entry.value      = all[e];
+          const Tree &leaf = check_key(tree, entry);
+          set_value(prm, entry, leaf.get<std::string>("pattern_description"));
+          if (!are_equal(entry.value, leaf.get<std::string>("default_value")))
+            given.push_back(entry);
         }
+    return given;
   }
 } // namespace moraine

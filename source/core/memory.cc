@@ -3,10 +3,14 @@
 
 #include <moraine/core/memory.h>
 
+#include <moraine/core/exceptions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
+#include <limits>
+#include <sstream>
 
 #include <malloc.h>
 
@@ -37,5 +41,46 @@ namespace moraine
     Utilities::System::MemoryStats kib;
     Utilities::System::get_memory_stats(kib);
     return file.good() && kib.VmHWM <= kib.VmRSS + 1024;
+  }
+
+
+
+  double
+  free_memory()
+  {
+    double        kib = std::numeric_limits<double>::infinity();
+    std::ifstream file("/proc/meminfo");
+    std::string   line;
+    while (std::getline(file, line))
+      if (line.rfind("MemAvailable:", 0) == 0)
+        std::istringstream(line.substr(13)) >> kib;
+    return 1024 * kib;
+  }
+
+
+
+  std::string
+  lack_of_memory(const double bytes)
+  {
+    const double available = free_memory();
+    if (bytes <= available)
+      return "";
+    constexpr double   gib = 1024. * 1024. * 1024.;
+    std::ostringstream message;
+    message.precision(2);
+    message << ", which take at least " << bytes / gib
+            << " GiB, allowed: what fits into the memory that is free, "
+            << available / gib << " GiB";
+    return message.str();
+  }
+
+
+
+  void
+  require_memory(const double bytes, const std::string &what)
+  {
+    const std::string lack = lack_of_memory(bytes);
+    if (!lack.empty())
+      throw InputError(what + lack);
   }
 } // namespace moraine

@@ -25,13 +25,16 @@ namespace moraine
 
 
 
-    /** "a|b|c " as "a, b, c". */
+    /** "a|b|c " as "a, b, c"; a word without letters as "nothing". */
     std::string
     words_of(const std::string &selection)
     {
-      return std::regex_replace(Utilities::trim(selection),
-                                std::regex("\\s*\\|\\s*"),
-                                ", ");
+      std::string words;
+      for (const std::string &word :
+           Utilities::split_string_list(selection, '|'))
+        words += (words.empty() ? "" : ", ") +
+                 (word.empty() ? std::string("nothing") : word);
+      return words;
     }
 
 
@@ -136,6 +139,20 @@ namespace moraine
       return Patterns::List(positive_integer(), n_min, n_max);
     }
 
+    const char *const NumberText::description_init = "[NumberText]";
+
+    std::string
+    NumberText::description(const OutputStyle) const
+    {
+      return description_init;
+    }
+
+    std::unique_ptr<Patterns::PatternBase>
+    NumberText::clone() const
+    {
+      return std::make_unique<NumberText>();
+    }
+
     Patterns::Selection
     selection(const std::vector<std::string> &words)
     {
@@ -160,6 +177,8 @@ namespace moraine
       R"(\[Integer range (\S+?)\.\.\.(\S+) \(inclusive\)\])");
     static const std::regex list(
       R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(?: separated by <(.*)>)?\])");
+    static const std::regex map(
+      R"(\[Map of <(.*)>:<(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)\])");
     static const std::regex selection(R"(\[Selection (.*)\])");
     static const std::regex several(R"(\[MultipleSelection (.*)\])");
 
@@ -169,6 +188,8 @@ namespace moraine
       return "true or false";
     if (text == "[Anything]")
       return "any text";
+    if (text == patterns::NumberText::description_init)
+      return "numbers in a text";
     if (text == "[DirectoryName]")
       return "the name of a directory";
     if (text.compare(0, 9, "[FileName") == 0)
@@ -194,6 +215,9 @@ namespace moraine
                      std::to_string(std::numeric_limits<int>::max()));
     if (std::regex_match(text, m, list))
       return describe_list(m[1], m[2], m[3], m[4]);
+    if (std::regex_match(text, m, map))
+      return "pairs 'name: value', each value " + describe(m[2].str()) +
+             ", separated by commas";
     if (std::regex_match(text, m, selection))
       return "one of " + words_of(m[1]);
     if (std::regex_match(text, m, several))

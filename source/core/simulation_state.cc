@@ -16,17 +16,10 @@ namespace moraine
   void
   SimulationState::keep(const std::function<void()> &commit)
   {
-    Archive accepted;
-    write(accepted);
-    try
-      {
-        commit();
-      }
-    catch (...)
-      {
-        read(accepted);
-        throw;
-      }
+    accepted.emplace();
+    write(*accepted);
+    commit();
+    accepted.reset();
   }
 
 
@@ -34,6 +27,9 @@ namespace moraine
   void
   SimulationState::undo()
   {
+    if (accepted)
+      read(*accepted);
+    accepted.reset();
     for (StatePart *part : parts)
       part->undo();
   }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace moraine
 {
@@ -100,35 +99,25 @@ namespace moraine
     /** Chains of crossed edges; closed ones in 3D, where each edge has two
      * links. */
     std::vector<std::vector<Edge>>
-    trace(const std::vector<std::pair<Edge, Edge>> &links)
+    trace(std::vector<std::pair<Edge, Edge>> links)
     {
-      std::multimap<Edge, unsigned int> at;
-      for (unsigned int l = 0; l < links.size(); ++l)
-        {
-          at.emplace(links[l].first, l);
-          at.emplace(links[l].second, l);
-        }
-      std::vector<bool>              used(links.size(), false);
       std::vector<std::vector<Edge>> chains;
-      for (unsigned int l = 0; l < links.size(); ++l)
+      while (!links.empty())
         {
-          if (used[l])
-            continue;
-          used[l] = true;
-          std::vector<Edge> chain{links[l].first, links[l].second};
+          std::vector<Edge> chain{links[0].first, links[0].second};
+          links.erase(links.begin());
           while (chain.back() != chain.front())
             {
-              const auto range = at.equal_range(chain.back());
               const auto next =
-                std::find_if(range.first, range.second, [&](const auto &entry) {
-                  return !used[entry.second];
+                std::find_if(links.begin(), links.end(), [&](const auto &link) {
+                  return link.first == chain.back() ||
+                         link.second == chain.back();
                 });
-              if (next == range.second)
+              if (next == links.end())
                 break;
-              const auto &link   = links[next->second];
-              used[next->second] = true;
-              chain.push_back(link.first == chain.back() ? link.second :
-                                                           link.first);
+              chain.push_back(next->first == chain.back() ? next->second :
+                                                            next->first);
+              links.erase(next);
             }
           if (chain.back() == chain.front())
             chain.pop_back();
@@ -211,18 +200,18 @@ namespace moraine
   void
   add_segment_points(const Point<dim>               &origin,
                      const Tensor<1, dim>           &direction,
-                     const double                    from,
-                     const double                    to,
+                     const Stretch                  &stretch,
                      const Tensor<1, dim>           &normal,
                      const unsigned int              n_gauss,
                      std::vector<SurfacePoint<dim>> &out)
   {
     const QGauss<1> gauss(n_gauss);
+    const double    length = stretch.to - stretch.from;
     for (unsigned int q = 0; q < gauss.size(); ++q)
       out.push_back(
-        {origin + (from + gauss.point(q)[0] * (to - from)) * direction,
+        {origin + (stretch.from + gauss.point(q)[0] * length) * direction,
          normal,
-         gauss.weight(q) * (to - from)});
+         gauss.weight(q) * length});
   }
 
   PlaneFrame::PlaneFrame(const Point<3> &origin, const Tensor<1, 3> &n)
@@ -341,8 +330,7 @@ namespace moraine
     const double);                                               \
   template void add_segment_points<dim>(const Point<dim> &,      \
                                         const Tensor<1, dim> &,  \
-                                        const double,            \
-                                        const double,            \
+                                        const Stretch &,         \
                                         const Tensor<1, dim> &,  \
                                         const unsigned int,      \
                                         std::vector<SurfacePoint<dim>> &);

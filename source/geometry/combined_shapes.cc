@@ -3,63 +3,11 @@
 
 #include <moraine/geometry/combined_shapes.h>
 
-#include <deal.II/base/numbers.h>
-
-#include <deal.II/physics/transformations.h>
-
 #include <algorithm>
-#include <cmath>
 
 namespace moraine
 {
   using namespace dealii;
-
-  template <int dim>
-  Placement<dim>::Placement()
-    : rotation(unit_symmetric_tensor<dim>())
-  {}
-
-
-
-  template <int dim>
-  Placement<dim>::Placement(const double          degrees,
-                            const Point<dim>     &centre,
-                            const Tensor<1, dim> &axis,
-                            const Tensor<1, dim> &translation)
-  {
-    const double angle = degrees * numbers::PI / 180.;
-    if constexpr (dim == 2)
-      rotation = Physics::Transformations::Rotations::rotation_matrix_2d(angle);
-    else
-      rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
-        Point<dim>(axis / axis.norm()), angle);
-    // no round-off where the exact entry is 0, 1 or -1
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        if (std::abs(rotation[i][j] - std::round(rotation[i][j])) < 4e-16)
-          rotation[i][j] = std::round(rotation[i][j]);
-    shift = centre - rotation * centre + translation;
-  }
-
-
-
-  template <int dim>
-  Point<dim>
-  Placement<dim>::apply(const Point<dim> &x) const
-  {
-    return Point<dim>(rotation * x + shift);
-  }
-
-
-
-  template <int dim>
-  Point<dim>
-  Placement<dim>::undo(const Point<dim> &x) const
-  {
-    return Point<dim>((x - shift) * rotation);
-  }
-
-
 
   template <int dim>
   MovedShape<dim>::MovedShape(const std::shared_ptr<const Shape<dim>> &shape,
@@ -68,42 +16,48 @@ namespace moraine
     , motion(motion)
   {}
 
-
-
   template <int dim>
   double
   MovedShape<dim>::level(const Point<dim> &p) const
   {
-    return shape->level(motion.undo(p));
+    return shape->level(motion.inverse(p));
   }
-
-
 
   template <int dim>
   BoundingBox<dim>
   MovedShape<dim>::bounding_box() const
   {
-    const BoundingBox<dim> box = shape->bounding_box();
-    if (!is_finite(box))
-      return infinite_box<dim>();
-    std::vector<Point<dim>> corners;
-    for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
-      corners.push_back(motion.apply(box.vertex(v)));
-    return BoundingBox<dim>(corners);
+    return motion.map(shape->bounding_box());
   }
 
+  template <int dim>
+  std::vector<std::string>
+  MovedShape<dim>::parts() const
+  {
+    return shape->parts();
+  }
 
+  template <int dim>
+  void
+  MovedShape<dim>::add_faces(const std::string          &part,
+                             const bool                  body_inside,
+                             const Extent<dim>          &extent,
+                             typename Shape<dim>::Faces &faces) const
+  {
+    typename Shape<dim>::Faces unmoved;
+    shape->add_faces(part, body_inside, extent.seen_from(motion), unmoved);
+    for (const auto &face : unmoved)
+      faces.push_back(std::make_shared<MovedSurface<dim>>(face, motion));
+  }
 
   template <int dim>
   ConvexPolytope<dim>
   MovedShape<dim>::moved_back(const ConvexPolytope<dim> &cell) const
   {
     ConvexPolytope<dim> moved = cell;
-    moved.transform([&](const Point<dim> &x) { return motion.undo(x); });
+    moved.transform([&](const Point<dim> &x) { return motion.inverse(x); });
     return moved;
   }
-
-
 
   template <int dim>
   Overlap
@@ -112,8 +66,6 @@ namespace moraine
     return shape->overlap(moved_back(cell));
   }
 
-
-
   template <int dim>
   bool
   MovedShape<dim>::is_straight() const
@@ -121,20 +73,16 @@ namespace moraine
     return shape->is_straight();
   }
 
-
-
   template <int dim>
   VolumeMoments<dim>
   MovedShape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
                                    const Point<dim>          &reference) const
   {
     VolumeMoments<dim> moved =
-      shape->moments(moved_back(cell), motion.undo(reference));
-    moved.first = motion.rotation * moved.first;
+      shape->moments(moved_back(cell), motion.inverse(reference));
+    moved.first = motion.rotate(moved.first);
     return moved;
   }
-
-
 
   template <int dim>
   void
@@ -147,21 +95,19 @@ namespace moraine
     shape->add_pieces(moved_back(cell), sign, pieces);
     for (std::size_t i = n_before; i < pieces.size(); ++i)
       pieces[i].polytope.transform(
-        [&](const Point<dim> &x) { return motion.apply(x); });
+        [&](const Point<dim> &x) { return motion.map(x); });
   }
-
-
 
   template <int dim>
   CombinedShape<dim>::CombinedShape(const Operation operation,
                                     const std::shared_ptr<const Shape<dim>> &a,
-                                    const std::shared_ptr<const Shape<dim>> &b)
+                                    const std::shared_ptr<const Shape<dim>> &b,
+                                    const std::array<std::string, 2> &names)
     : operation(operation)
     , a(a)
     , b(b)
+    , names(names)
   {}
-
-
 
   template <int dim>
   double
@@ -177,8 +123,6 @@ namespace moraine
           return std::min(a->level(p), -b->level(p));
       }
   }
-
-
 
   template <int dim>
   BoundingBox<dim>
@@ -205,8 +149,6 @@ namespace moraine
     return BoundingBox<dim>(std::make_pair(lower, upper));
   }
 
-
-
   template <int dim>
   Overlap
   CombinedShape<dim>::overlap(const ConvexPolytope<dim> &cell) const
@@ -224,16 +166,12 @@ namespace moraine
     return in_b == Overlap::all ? in_a : in_b;
   }
 
-
-
   template <int dim>
   bool
   CombinedShape<dim>::is_straight() const
   {
     return a->is_straight() && b->is_straight();
   }
-
-
 
   template <int dim>
   VolumeMoments<dim>
@@ -250,8 +188,6 @@ namespace moraine
     return sum;
   }
 
-
-
   template <int dim>
   void
   CombinedShape<dim>::add_pieces_of_part(
@@ -267,8 +203,6 @@ namespace moraine
                       operation == Operation::intersect ? sign : -sign,
                       pieces);
   }
-
-
 
   template <int dim>
   VolumeMoments<dim>
@@ -290,8 +224,6 @@ namespace moraine
     return sum;
   }
 
-
-
   template <int dim>
   void
   CombinedShape<dim>::add_common_pieces(
@@ -312,10 +244,66 @@ namespace moraine
       b->add_pieces(piece.polytope, piece.sign, pieces);
   }
 
+  template <int dim>
+  std::vector<std::string>
+  CombinedShape<dim>::parts() const
+  {
+    std::vector<std::string> result;
+    for (const unsigned int k : {0, 1})
+      {
+        if (!names[k].empty())
+          result.push_back(names[k]);
+        for (const std::string &own : (k == 0 ? a : b)->parts())
+          result.push_back(prefix(k) + own);
+      }
+    return result;
+  }
 
+  template <int dim>
+  std::string
+  CombinedShape<dim>::prefix(const unsigned int k) const
+  {
+    return names[k].empty() ? "" : names[k] + "/";
+  }
 
-  template struct Placement<2>;
-  template struct Placement<3>;
+  template <int dim>
+  void
+  CombinedShape<dim>::add_faces(const std::string          &part,
+                                const bool                  body_inside,
+                                const Extent<dim>          &extent,
+                                typename Shape<dim>::Faces &faces) const
+  {
+    using Along = typename Extent<dim>::Along;
+    const bool takes_off =
+      operation == Operation::subtract || operation == Operation::hollow_out;
+    for (const unsigned int k : {0, 1})
+      {
+        const auto &operand = k == 0 ? a : b;
+        std::string own     = part == names[k] ? "" : part;
+        if (!own.empty())
+          {
+            const auto known = operand->parts();
+            if (own.rfind(prefix(k), 0) != 0)
+              continue;
+            own.erase(0, prefix(k).size());
+            if (std::find(known.begin(), known.end(), own) == known.end())
+              continue;
+          }
+        Extent<dim> limited = extent;
+        // a rim that both have belongs to the first, if it bounds the result
+        const bool outer = (operation == Operation::unite) == body_inside;
+        if (operation != Operation::hollow_out)
+          limited.limits.push_back(
+            {k == 0 ? b : a,
+             operation == Operation::intersect || (k == 1 && takes_off),
+             k == 1 ? Along::never : (outer ? Along::outer : Along::inner)});
+        operand->add_faces(own,
+                           body_inside != (k == 1 && takes_off),
+                           limited,
+                           faces);
+      }
+  }
+
   template class MovedShape<2>;
   template class MovedShape<3>;
   template class CombinedShape<2>;

@@ -27,8 +27,6 @@ namespace moraine
     }
   } // namespace
 
-
-
   template <int dim>
   void
   VolumeMoments<dim>::add(const double factor, const VolumeMoments &other)
@@ -37,15 +35,11 @@ namespace moraine
     first += factor * other.first;
   }
 
-
-
   template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
   {
     make_faces(vertices);
   }
-
-
 
   template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const Point<dim> &lower,
@@ -57,8 +51,6 @@ namespace moraine
         vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
     make_faces(vertices);
   }
-
-
 
   template <int dim>
   void
@@ -79,8 +71,6 @@ namespace moraine
             {{4, 5, 7, 6}}})
         add_face(face);
   }
-
-
 
   template <int dim>
   void
@@ -113,8 +103,6 @@ namespace moraine
       }
   }
 
-
-
   template <int dim>
   void
   ConvexPolytope<dim>::set_tolerance()
@@ -125,8 +113,6 @@ namespace moraine
     round_off =
       std::max(round_off, 4. * std::numeric_limits<double>::epsilon() * scale);
   }
-
-
 
   template <int dim>
   void
@@ -163,8 +149,6 @@ namespace moraine
       }
   }
 
-
-
   template <int dim>
   void
   ConvexPolytope<dim>::clip_polygon(const Distances &distance, PointList *cut)
@@ -190,8 +174,6 @@ namespace moraine
           }
       }
   }
-
-
 
   template <int dim>
   void
@@ -268,8 +250,6 @@ namespace moraine
     close_cut(rim, cut);
   }
 
-
-
   template <int dim>
   void
   ConvexPolytope<dim>::close_cut(
@@ -311,16 +291,12 @@ namespace moraine
       }
   }
 
-
-
   template <int dim>
   bool
   ConvexPolytope<dim>::empty() const
   {
     return corner.empty();
   }
-
-
 
   template <int dim>
   VolumeMoments<dim>
@@ -351,16 +327,12 @@ namespace moraine
     return sum;
   }
 
-
-
   template <int dim>
   double
   ConvexPolytope<dim>::volume() const
   {
     return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
   }
-
-
 
   template <int dim>
   Point<dim>
@@ -375,8 +347,6 @@ namespace moraine
     return offset.norm() <= radius(mean) ? mean + offset : mean;
   }
 
-
-
   template <int dim>
   Point<dim>
   ConvexPolytope<dim>::vertex_mean() const
@@ -386,8 +356,6 @@ namespace moraine
       sum += x - corner[0];
     return corner[0] + sum / double(corner.size());
   }
-
-
 
   template <int dim>
   double
@@ -399,16 +367,12 @@ namespace moraine
     return std::sqrt(square);
   }
 
-
-
   template <int dim>
   double
   ConvexPolytope<dim>::tolerance() const
   {
     return round_off;
   }
-
-
 
   template <int dim>
   const boost::container::small_vector<Point<dim>, 16> &
@@ -417,16 +381,12 @@ namespace moraine
     return corner;
   }
 
-
-
   template <int dim>
   BoundingBox<dim>
   ConvexPolytope<dim>::bounding_box() const
   {
     return BoundingBox<dim>(corner);
   }
-
-
 
   template <int dim>
   Point<dim>
@@ -459,8 +419,6 @@ namespace moraine
     });
     return way < 1. ? centre + way * (point - centre) : point;
   }
-
-
 
   template struct VolumeMoments<2>;
   template struct VolumeMoments<3>;

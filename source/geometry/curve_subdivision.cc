@@ -192,32 +192,36 @@ namespace moraine
     };
   } // namespace
 
-
-
   template <int dim>
   void
-  CurveSubdivision<dim>::add_pieces(const LevelFunction<dim>  &level,
-                                    const bool                 is_distance,
-                                    const ConvexPolytope<dim> &cell,
-                                    const double               sign,
-                                    Pieces<dim>               &pieces) const
+  add_curved_pieces(const LevelFunction<dim>  &level,
+                    const bool                 is_distance,
+                    const ConvexPolytope<dim> &cell,
+                    const double               sign,
+                    Pieces<dim>               &pieces)
   {
+    constexpr unsigned int depth = (dim == 2 ? 10 : 6);
     CurveCutter<dim>(level, is_distance, sign, pieces).add(cell, dim * depth);
   }
 
-
-
   template <int dim>
   Overlap
-  CurveSubdivision<dim>::overlap(const LevelFunction<dim>  &level,
-                                 const ConvexPolytope<dim> &cell)
+  overlap_by_values(const LevelFunction<dim>  &level,
+                    const ConvexPolytope<dim> &cell)
   {
     const Point<dim> middle = cell.vertex_mean();
     return LinearPart<dim>(level, cell, middle, cell.radius(middle)).overlap();
   }
 
-
-
-  template struct CurveSubdivision<2>;
-  template struct CurveSubdivision<3>;
+#define INSTANTIATE(dim)                                          \
+  template void    add_curved_pieces(const LevelFunction<dim> &,  \
+                                     const bool,                  \
+                                     const ConvexPolytope<dim> &, \
+                                     const double,                \
+                                     Pieces<dim> &);              \
+  template Overlap overlap_by_values(const LevelFunction<dim> &,  \
+                                     const ConvexPolytope<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

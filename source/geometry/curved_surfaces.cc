@@ -3,8 +3,15 @@
 
 #include <moraine/geometry/curved_surfaces.h>
 
-#include <moraine/geometry/cell_cut.h>
 #include <moraine/core/exceptions.h>
+
+#include <moraine/geometry/cell_cut.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/hp/q_collection.h>
+
+#include <deal.II/non_matching/quadrature_generator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,231 +20,447 @@ namespace moraine
 {
   using namespace dealii;
 
-  RoundSurface::RoundSurface(const double radius, const bool body_inside)
-    : radius(radius)
+  Arc::Arc(const Point<2>  &centre,
+           const double     radius,
+           const bool       body_inside,
+           const double     start_angle,
+           const double     end_angle,
+           const Extent<2> &extent)
+    : centre(centre)
+    , radius(radius)
     , sign(body_inside ? 1. : -1.)
+    , start(start_angle * numbers::PI / 180.)
+    , sweep((end_angle - start_angle) * numbers::PI / 180.)
+    , extent(extent)
   {
-    check_radius(radius);
+    if (!(radius > 0.) || !std::isfinite(radius))
+      throw InputError("a radius must be positive, found " +
+                       std::to_string(radius));
+    if (!(end_angle > start_angle) || end_angle > start_angle + 360.)
+      throw InputError("an arc must end after its start and within 360 degrees "
+                       "of it, found " +
+                       std::to_string(start_angle) + " to " +
+                       std::to_string(end_angle));
+    std::vector<Point<2>> extremes{at_angle(0.), at_angle(sweep)};
+    for (int quarter = std::ceil(2. * start / numbers::PI);
+         quarter * numbers::PI / 2. < start + sweep;
+         ++quarter)
+      extremes.push_back(at_angle(quarter * numbers::PI / 2. - start));
+    box = BoundingBox<2>(extremes);
   }
 
   double
-  RoundSurface::level(const Point<3> &x) const
+  Arc::from_start(const double angle) const
   {
-    return sign * (radius - radial(x).norm());
+    constexpr double turn = 2. * numbers::PI;
+    return angle - start - turn * std::floor((angle - start) / turn);
   }
 
-  Tensor<1, 3>
-  RoundSurface::normal(const Point<3> &x) const
+  Point<2>
+  Arc::at_angle(const double from_start) const
   {
-    return sign * unit_or_any<3>(radial(x));
+    return centre + radius * Point<2>(std::cos(start + from_start),
+                                      std::sin(start + from_start));
   }
 
-  // (R² − r²)/(2R) has the zeros of the distance and is smooth at the centre
-  double
-  RoundSurface::function_value(const Point<3> &x) const
+  Tensor<1, 2>
+  Arc::normal_at(const Point<2> &x) const
   {
-    return sign * (radius * radius - radial(x).norm_square()) / (2. * radius);
+    return sign * unit_or_any<2>(x - centre);
   }
 
-  Tensor<1, 3>
-  RoundSurface::function_gradient(const Point<3> &x, const double) const
+  NearestPoint<2>
+  Arc::nearest(const Point<2> &x) const
   {
-    return -sign / radius * radial(x);
+    const Tensor<1, 2> arm       = x - centre;
+    const double       level     = sign * (radius - arm.norm());
+    const Tensor<1, 2> normal    = normal_at(x);
+    const double       angle     = from_start(std::atan2(arm[1], arm[0]));
+    constexpr double   tolerance = 1e-10;
+    return {level,
+            normal,
+            (angle <= sweep + tolerance ||
+             angle >= 2. * numbers::PI - tolerance) &&
+              extent.contains(x + level * normal, normal)};
   }
 
-  Sphere::Sphere(const Point<3> &centre,
-                 const double    radius,
-                 const bool      body_inside)
-    : RoundSurface(radius, body_inside)
-    , centre(centre)
-  {}
-
-  Tensor<1, 3>
-  Sphere::radial(const Point<3> &x) const
+  namespace
   {
-    return x - centre;
-  }
+    /**
+     * The line of a cell's edge as a circle sees it: points of the circle
+     * within
+     * @p half_angle of the direction @p middle lie on the cell's side if
+     * @p cell_within, else on the other. Computed from the ends in an order
+     * that neighbours share, so both see the same angles, even where it grazes.
+     */
+    struct EdgeOnCircle
+    {
+      double middle, half_angle;
+      bool   cell_within;
+      /** Crossings on the edge or so near that they may be. */
+      std::vector<double> breaks;
+    };
 
-  BoundingBox<3>
-  Sphere::bounding_box() const
-  {
-    const Tensor<1, 3> reach({radius, radius, radius});
-    return BoundingBox<3>({centre - reach, centre + reach});
-  }
+    EdgeOnCircle
+    edge_on_circle(Point<2>        a,
+                   Point<2>        b,
+                   const Point<2> &centre,
+                   const double    radius)
+    {
+      EdgeOnCircle edge;
+      edge.cell_within =
+        std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
+      if (!edge.cell_within)
+        std::swap(a, b);
+      const double       length = a.distance(b);
+      const Tensor<1, 2> t      = (b - a) / length;
+      const Tensor<1, 2> left   = Point<2>(-t[1], t[0]);
+      const double       height = (centre - a) * left;
+      // (R − h)(R + h) keeps the digits of a grazing line
+      const double half_chord =
+        std::sqrt(std::max(0., (radius - height) * (radius + height)));
+      edge.middle = std::atan2(left[1], left[0]);
+      // a line that does not cross leaves every angle on one side, ±π too
+      edge.half_angle = half_chord > 0. ? std::atan2(half_chord, -height) :
+                        height > 0.     ? 4. :
+                                          0.;
+      if (half_chord > 0.)
+        for (const double side : {-1., 1.})
+          {
+            const double abscissa = (centre - a) * t - side * half_chord;
+            // one break too many does no harm, one too few does
+            if (abscissa >= -1e-3 * length && abscissa <= 1.001 * length)
+              edge.breaks.push_back(edge.middle + side * edge.half_angle);
+          }
+      return edge;
+    }
 
-  SymmetricTensor<2, 3>
-  Sphere::function_hessian(const Point<3> &, const double) const
-  {
-    return -sign / radius * unit_symmetric_tensor<3>();
-  }
+    bool
+    contains(const std::vector<EdgeOnCircle> &edges, const double angle)
+    {
+      return std::all_of(edges.begin(), edges.end(), [angle](const auto &edge) {
+        const double off =
+          std::remainder(angle - edge.middle, 2. * numbers::PI);
+        return (std::abs(off) < edge.half_angle) == edge.cell_within;
+      });
+    }
+  } // namespace
 
-  Point<3>
-  Sphere::foot_point(const Point<3> &x) const
+  void
+  Arc::pieces(const CellVertices<2>        &cell,
+              const unsigned int            n_gauss,
+              std::vector<SurfacePoint<2>> &out) const
   {
-    return centre + radius * unit_or_any<3>(radial(x));
-  }
-
-  Cylinder::Cylinder(const Point<3> &axis_start,
-                     const Point<3> &axis_end,
-                     const double    radius,
-                     const bool      body_inside)
-    : RoundSurface(radius, body_inside)
-    , start(axis_start)
-    , end(axis_end)
-    , axis(axis_end - axis_start)
-  {
-    if (!(axis.norm() > 0.))
-      throw InputError("the axis of a cylinder must have a length");
-    axis /= axis.norm();
-    limits = {{axis, axis * start}, {-axis, -(axis * end)}};
-  }
-
-  Tensor<1, 3>
-  Cylinder::radial(const Point<3> &x) const
-  {
-    return (x - start) - ((x - start) * axis) * axis;
-  }
-
-  BoundingBox<3>
-  Cylinder::bounding_box() const
-  {
-    Tensor<1, 3> reach;
-    for (unsigned int d = 0; d < 3; ++d)
-      reach[d] = radius * std::sqrt(std::max(0., 1. - axis[d] * axis[d]));
-    return BoundingBox<3>(std::vector<Point<3>>{
-      start - reach, start + reach, end - reach, end + reach});
-  }
-
-  SymmetricTensor<2, 3>
-  Cylinder::function_hessian(const Point<3> &, const double) const
-  {
-    return -sign / radius *
-           (unit_symmetric_tensor<3>() - symmetrize(outer_product(axis, axis)));
-  }
-
-  Point<3>
-  Cylinder::foot_point(const Point<3> &x) const
-  {
-    const Tensor<1, 3> r       = radial(x);
-    Tensor<1, 3>       outward = unit_or_any<3>(r);
-    // on the axis r is round-off in any direction
-    outward -= (outward * axis) * axis;
-    return x - r + radius * unit_or_any<3>(outward);
-  }
-
-  template <int dim>
-  ExpressionSurface<dim>::ExpressionSurface(const std::string      &expression,
-                                            const std::string      &place,
-                                            const BoundingBox<dim> &extent)
-    : function(expression, place, 1, {}, false)
-    , box(extent)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
+    if (!may_touch<2>(cell, box))
+      return;
+    constexpr unsigned int    cycle[5] = {0, 1, 3, 2, 0};
+    std::vector<EdgeOnCircle> edges;
+    std::vector<double>       breaks{0., sweep};
+    for (unsigned int e = 0; e < 4; ++e)
       {
-        const Tensor<1, dim> e = Point<dim>::unit_vector(d);
-        if (box.lower_bound(d) > -unlimited_extent)
-          this->limits.push_back({e, box.lower_bound(d)});
-        if (box.upper_bound(d) < unlimited_extent)
-          this->limits.push_back({-e, -box.upper_bound(d)});
+        edges.push_back(
+          edge_on_circle(cell[cycle[e]], cell[cycle[e + 1]], centre, radius));
+        for (const double angle : edges.back().breaks)
+          if (from_start(angle) < sweep)
+            breaks.push_back(from_start(angle));
+      }
+    std::sort(breaks.begin(), breaks.end());
+
+    const double tolerance = 1e-9 * cell_size<2>(cell);
+    for (unsigned int i = 0; i + 1 < breaks.size();)
+      {
+        unsigned int j = i + 1;
+        while (j < breaks.size() &&
+               contains(edges, start + .5 * (breaks[j - 1] + breaks[j])))
+          ++j;
+        const Stretch piece{breaks[i], breaks[j - 1]};
+        i = j;
+        if (piece.to - piece.from > 4e-15)
+          for (const Stretch &part :
+               extent.stretches(piece, tolerance, [this](const double angle) {
+                 const Point<2> x = at_angle(angle);
+                 return std::make_pair(x, normal_at(x));
+               }))
+            add_points(part.from, part.to, n_gauss, out);
       }
   }
 
-  template <int dim>
-  double
-  ExpressionSurface<dim>::length_near(const Point<dim> &x) const
+  void
+  Arc::add_points(const double                  from,
+                  const double                  to,
+                  const unsigned int            n_gauss,
+                  std::vector<SurfacePoint<2>> &out) const
   {
-    const double largest = coordinate_magnitude<dim>(x);
-    if (!this->limits.empty())
-      {
-        const double side = box.side_length(0);
-        return side < unlimited_extent ? side : std::max(largest, 1e-3);
-      }
-    return std::max(largest, 1e-3);
+    const QGauss<1>    gauss(n_gauss);
+    const double       angle = to - from;
+    const unsigned int n =
+      std::max(1., std::ceil(angle / (numbers::PI / 4.) - 1e-9));
+    for (unsigned int part = 0; part < n; ++part)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const auto x =
+            at_angle(from + (part + gauss.point(q)[0]) * angle / n);
+          out.push_back(
+            {x, normal_at(x), gauss.weight(q) * radius * angle / n});
+        }
   }
 
-  template <int dim>
-  double
-  ExpressionSurface<dim>::level(const Point<dim> &x) const
-  {
-    const double slope = function_gradient(x, length_near(x)).norm();
-    const double value = function_value(x);
-    return slope > 0. ? value / slope : value;
-  }
-
-  template <int dim>
-  Tensor<1, dim>
-  ExpressionSurface<dim>::normal(const Point<dim> &x) const
-  {
-    return -unit_or_any<dim>(function_gradient(x, length_near(x)));
-  }
-
-  template <int dim>
-  BoundingBox<dim>
-  ExpressionSurface<dim>::bounding_box() const
+  BoundingBox<2>
+  Arc::bounding_box() const
   {
     return box;
   }
 
-  template <int dim>
-  double
-  ExpressionSurface<dim>::function_value(const Point<dim> &x) const
+  namespace
   {
-    return function.value(x);
-  }
+    /**
+     * φ of a smooth shape, or of what is around it, composed with the map of a
+     * cell and lowered by a shift.
+     */
+    template <int dim>
+    class ReferenceLevelSet : public Function<dim>
+    {
+    public:
+      ReferenceLevelSet(const SmoothShape<dim> &shape,
+                        const double            sign,
+                        const CellMap<dim>     &map,
+                        const double            length,
+                        const double            shift)
+        : shape(shape)
+        , sign(sign)
+        , map(map)
+        , length(length)
+        , shift(shift)
+      {}
 
-  template <int dim>
-  Tensor<1, dim>
-  ExpressionSurface<dim>::function_gradient(const Point<dim> &x,
-                                            const double      length) const
-  {
-    // step ~ eps^(1/3)
-    const double   h = 1e-5 * length;
-    Tensor<1, dim> gradient;
-    for (unsigned int d = 0; d < dim; ++d)
+      double
+      value(const Point<dim> &xi, const unsigned int = 0) const override
       {
-        const Tensor<1, dim> e = h * Point<dim>::unit_vector(d);
-        gradient[d] =
-          (function.value(x + e) - function.value(x - e)) / (2. * h);
+        return sign * shape.value(map.place(xi)) - shift;
       }
-    return gradient;
+
+      Tensor<1, dim>
+      gradient(const Point<dim> &xi, const unsigned int = 0) const override
+      {
+        return sign * transpose(map.jacobian(xi)) *
+               shape.gradient(map.place(xi), length);
+      }
+
+      SymmetricTensor<2, dim>
+      hessian(const Point<dim> &xi, const unsigned int = 0) const override
+      {
+        const Point<dim>        x        = map.place(xi);
+        const Tensor<2, dim>    J        = map.jacobian(xi);
+        const Tensor<1, dim>    gradient = shape.gradient(x, length);
+        const Tensor<2, dim>    H        = shape.hessian(x, length);
+        SymmetricTensor<2, dim> result   = symmetrize(transpose(J) * H * J);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = d + 1; e < dim; ++e)
+            result[d][e] += gradient * map.second(xi, d, e);
+        return sign * result;
+      }
+
+    private:
+      const SmoothShape<dim> &shape;
+      const double            sign;
+      const CellMap<dim>     &map;
+      const double            length;
+      const double            shift;
+    };
+
+    /** Boxes that make up the part of a cell within an extent. */
+    template <int dim>
+    class BoxesWithin
+    {
+    public:
+      BoxesWithin(const SmoothShape<dim> &shape,
+                  const CellMap<dim>     &map,
+                  const double            cell_size,
+                  const Extent<dim>      &extent)
+        : shape(shape)
+        , map(map)
+        , tolerance(1e-12 * cell_size)
+        , extent(extent)
+      {}
+
+      void
+      add(BoundingBox<dim> box, const unsigned int halvings)
+      {
+        bool exact = true;
+        if (is_far(box))
+          return;
+        for (const auto &limit : extent.limits)
+          if (!trim(limit, box, exact))
+            return;
+        if (exact || halvings == 0)
+          boxes.push_back(box);
+        else
+          for (unsigned int child = 0; child < (1 << dim); ++child)
+            add(box.child(child), halvings - 1);
+      }
+
+      std::vector<BoundingBox<dim>> boxes;
+
+    private:
+      CellVertices<dim>
+      image(const BoundingBox<dim> &box) const
+      {
+        CellVertices<dim> vertices;
+        for (unsigned int v = 0; v < vertices.size(); ++v)
+          vertices[v] = map.place(box.vertex(v));
+        return vertices;
+      }
+
+      /** Whether the surface surely keeps away from the image of a box. */
+      bool
+      is_far(const BoundingBox<dim> &box) const
+      {
+        const Point<dim> middle = map.place(box.center());
+        const bool       inside = shape.value(middle) > 0.;
+        double           radius = 0.;
+        for (const auto &x : image(box))
+          {
+            if ((shape.value(x) > 0.) != inside)
+              return false;
+            radius = std::max(radius, x.distance(middle));
+          }
+        // twice: the distance from an expression is only an estimate
+        return std::abs(shape.nearest(middle).level) > 2. * radius;
+      }
+
+      /**
+       * Cut a box down to the part within a limit. False where none is left;
+       * @p exact is cleared where the limit runs across the box.
+       */
+      bool
+      trim(const typename Extent<dim>::Limit &limit,
+           BoundingBox<dim>                  &box,
+           bool                              &exact) const
+      {
+        const CellVertices<dim>   vertices = image(box);
+        const ConvexPolytope<dim> polytope(vertices);
+        const Overlap             overlap = limit.shape->overlap(polytope);
+        if (overlap != Overlap::part)
+          return (overlap == Overlap::all) == limit.inside;
+        const auto margin = [&](const Point<dim> &x) {
+          return (limit.inside ? 1. : -1.) * limit.shape->level(x);
+        };
+        std::array<double, (1 << dim)> margins;
+        for (unsigned int v = 0; v < vertices.size(); ++v)
+          margins[v] = margin(vertices[v]);
+        // a limit along the axes changes the margin in one direction only
+        unsigned int along = dim, n_along = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int v = 0; v < vertices.size(); ++v)
+            if (std::abs(margins[v] - margins[v ^ (1u << d)]) > tolerance)
+              {
+                along = d;
+                ++n_along;
+                break;
+              }
+        const double low  = margins[0],
+                     high = n_along == 1 ? margins[1u << along] : low;
+        if (!limit.shape->is_straight() || low * high >= 0. ||
+            std::abs(2. * margin(map.place(box.center())) - low - high) >
+              2. * tolerance)
+          {
+            exact = false;
+            return true;
+          }
+        auto         corners = box.get_boundary_points();
+        const double cut =
+          corners.first[along] +
+          low / (low - high) * (corners.second[along] - corners.first[along]);
+        (low < 0. ? corners.first : corners.second)[along] = cut;
+        box = BoundingBox<dim>(corners);
+        return true;
+      }
+
+      const SmoothShape<dim> &shape;
+      const CellMap<dim>     &map;
+      const double            tolerance;
+      const Extent<dim>      &extent;
+    };
+  } // namespace
+
+  template <int dim>
+  LevelSetSurface<dim>::LevelSetSurface(
+    const std::shared_ptr<const SmoothShape<dim>> &shape,
+    const bool                                     body_inside,
+    const Extent<dim>                             &extent,
+    const BoundingBox<dim>                        &box)
+    : shape(shape)
+    , body_inside(body_inside)
+    , extent(extent)
+    , box(box)
+  {}
+
+  template <int dim>
+  NearestPoint<dim>
+  LevelSetSurface<dim>::nearest(const Point<dim> &x) const
+  {
+    NearestPoint<dim> point = shape->nearest(x);
+    if (!body_inside)
+      {
+        point.level *= -1.;
+        point.normal *= -1.;
+      }
+    point.in_extent =
+      extent.contains(x + point.level * point.normal, point.normal);
+    return point;
   }
 
   template <int dim>
-  SymmetricTensor<2, dim>
-  ExpressionSurface<dim>::function_hessian(const Point<dim> &x,
-                                           const double      length) const
+  void
+  LevelSetSurface<dim>::pieces(const CellVertices<dim>        &cell,
+                               const unsigned int              n_gauss,
+                               std::vector<SurfacePoint<dim>> &out) const
   {
-    // step ~ eps^(1/4)
-    const double            h = 2e-4 * length;
-    SymmetricTensor<2, dim> hessian;
-    const double            middle = function.value(x);
-    for (unsigned int d = 0; d < dim; ++d)
+    if (!may_touch<dim>(cell, box))
+      return;
+    const CellMap<dim> map(cell);
+    const double       size = cell_size<dim>(cell);
+    BoxesWithin<dim>   within(*shape, map, size, extent);
+    within.add(create_unit_bounding_box<dim>(), 4);
+    if (within.boxes.empty())
+      return;
+    const double sign = body_inside ? 1. : -1.;
+    // a surface that follows a face is moved into the body, to be found once
+    const double shift =
+      1e-10 * size *
+      shape->gradient(map.place(within.boxes[0].center()), size).norm();
+    const ReferenceLevelSet<dim> level_set(*shape, sign, map, size, shift);
+    const hp::QCollection<1>     gauss((QGauss<1>(n_gauss)));
+    NonMatching::QuadratureGenerator<dim> generator(gauss);
+    for (const auto &part : within.boxes)
       {
-        const Tensor<1, dim> a = h * Point<dim>::unit_vector(d);
-        hessian[d][d] =
-          (function.value(x + a) - 2. * middle + function.value(x - a)) /
-          (h * h);
-        for (unsigned int e = d + 1; e < dim; ++e)
+        generator.generate(level_set, part);
+        const auto &rule = generator.get_surface_quadrature();
+        for (unsigned int q = 0; q < rule.size(); ++q)
           {
-            const Tensor<1, dim> b = h * Point<dim>::unit_vector(e);
-            hessian[d][e] =
-              (function.value(x + a + b) - function.value(x + a - b) -
-               function.value(x - a + b) + function.value(x - a - b)) /
-              (4. * h * h);
+            const Tensor<2, dim> J = map.jacobian(rule.point(q));
+            Point<dim>           x = map.place(rule.point(q));
+            Tensor<1, dim>       g = shape->gradient(x, size);
+            x -= shape->value(x) / g.norm_square() * g;
+            g                           = shape->gradient(x, size);
+            const Tensor<1, dim> normal = -sign / g.norm() * g;
+            if (!extent.contains(x, normal))
+              continue;
+            const double stretch =
+              determinant(J) *
+              (transpose(invert(J)) * rule.normal_vector(q)).norm();
+            out.push_back({x, normal, rule.weight(q) * stretch});
           }
       }
-    return hessian;
   }
 
   template <int dim>
-  Point<dim>
-  ExpressionSurface<dim>::foot_point(const Point<dim> &x) const
+  BoundingBox<dim>
+  LevelSetSurface<dim>::bounding_box() const
   {
-    const Tensor<1, dim> g      = function_gradient(x, length_near(x));
-    const double         square = g.norm_square();
-    return square > 0. ? x - function_value(x) / square * g : x;
+    return box;
   }
 
-  template class ExpressionSurface<2>;
-  template class ExpressionSurface<3>;
+  template class LevelSetSurface<2>;
+  template class LevelSetSurface<3>;
 } // namespace moraine

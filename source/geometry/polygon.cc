@@ -37,8 +37,6 @@ namespace moraine
     }
   } // namespace
 
-
-
   double
   polygon_area(const Polygon &polygon)
   {
@@ -47,8 +45,6 @@ namespace moraine
       area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
     return area;
   }
-
-
 
   bool
   is_convex(const Polygon &p)
@@ -59,8 +55,6 @@ namespace moraine
         return false;
     return true;
   }
-
-
 
   bool
   edges_cross(const Polygon &p)
@@ -78,8 +72,6 @@ namespace moraine
         }
     return false;
   }
-
-
 
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &vertices)
@@ -104,8 +96,6 @@ namespace moraine
           return {i, j};
     return {n, n};
   }
-
-
 
   // by cutting ears
   std::vector<Polygon>
@@ -142,8 +132,6 @@ namespace moraine
       }
     return triangles;
   }
-
-
 
   Polygon
   clip_polygon(const Polygon &polygon, const Polygon &convex)

@@ -356,8 +356,6 @@ namespace moraine
     };
   } // namespace
 
-
-
   template <int dim>
   VolumeMoments<dim>
   moments_in_ball(const ConvexPolytope<dim> &cell,
@@ -382,8 +380,6 @@ namespace moraine
         return part.sum;
       }
   }
-
-
 
   VolumeMoments<3>
   moments_in_cylinder(const ConvexPolytope<3> &cell,
@@ -427,8 +423,6 @@ namespace moraine
       sum.first += m[d + 1] * frame[d];
     return sum;
   }
-
-
 
 #define INSTANTIATE(dim)                                                   \
   template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &, \

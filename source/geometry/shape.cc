@@ -3,9 +3,6 @@
 
 #include <moraine/geometry/shape.h>
 
-#include <cmath>
-#include <limits>
-
 namespace moraine
 {
   using namespace dealii;
@@ -16,8 +13,6 @@ namespace moraine
   {
     return level(p) > 0.;
   }
-
-
 
   template <int dim>
   ClippedVolume<dim>
@@ -44,8 +39,6 @@ namespace moraine
     return part;
   }
 
-
-
   template <int dim>
   Overlap
   Shape<dim>::overlap(const ConvexPolytope<dim> &cell) const
@@ -56,8 +49,6 @@ namespace moraine
     return value >= reach ? Overlap::all :
                             (value <= -reach ? Overlap::none : Overlap::part);
   }
-
-
 
   template <int dim>
   VolumeMoments<dim>
@@ -76,8 +67,6 @@ namespace moraine
         }
     return {};
   }
-
-
 
   template <int dim>
   void
@@ -99,16 +88,12 @@ namespace moraine
         }
   }
 
-
-
   template <int dim>
   bool
   Shape<dim>::is_straight() const
   {
     return false;
   }
-
-
 
   template <int dim>
   VolumeMoments<dim>
@@ -123,44 +108,24 @@ namespace moraine
     return sum;
   }
 
-
-
   template <int dim>
-  BoundingBox<dim>
-  infinite_box()
+  std::vector<std::string>
+  Shape<dim>::parts() const
   {
-    Point<dim> lower, upper;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = -std::numeric_limits<double>::infinity();
-        upper[d] = std::numeric_limits<double>::infinity();
-      }
-    return BoundingBox<dim>(std::make_pair(lower, upper));
+    return {};
   }
 
-
-
   template <int dim>
-  bool
-  is_finite(const BoundingBox<dim> &box)
+  std::shared_ptr<const Surface<dim>>
+  Shape<dim>::rim(const std::string &part) const
   {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!std::isfinite(box.lower_bound(d)) ||
-          !std::isfinite(box.upper_bound(d)))
-        return false;
-    return true;
+    Faces faces;
+    add_faces(part, true, {}, faces);
+    if (faces.size() < 2)
+      return faces.empty() ? nullptr : faces[0];
+    return std::make_shared<SurfaceList<dim>>(faces);
   }
-
-
 
   template class Shape<2>;
   template class Shape<3>;
-  template BoundingBox<2>
-  infinite_box();
-  template BoundingBox<3>
-  infinite_box();
-  template bool
-  is_finite(const BoundingBox<2> &);
-  template bool
-  is_finite(const BoundingBox<3> &);
 } // namespace moraine

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -34,8 +35,6 @@ namespace moraine
     }
   } // namespace
 
-
-
   template <int dim>
   Point<dim>
   to_point(const std::vector<double> &list,
@@ -48,8 +47,6 @@ namespace moraine
     std::copy(list.begin(), list.end(), p.begin_raw());
     return p;
   }
-
-
 
   namespace
   {
@@ -119,19 +116,20 @@ namespace moraine
                "from 0 to less than Radius (" + text({p.radius}) + ")");
     }
 
-    // a round shape, hollow if there is an inner radius
-    template <int dim, typename Make>
+    template <int dim>
     std::shared_ptr<const Shape<dim>>
-    make_round(const ShapeParameters<dim> &p,
-               const std::string          &section,
-               const Make                 &make)
+    make_ball(const ShapeParameters<dim> &p, const std::string &section)
     {
       check_radii(p, section);
-      std::shared_ptr<const Shape<dim>> outer = make(p.radius);
+      const auto centre = to_point<dim>(p.centre, section, "Centre");
+      const auto outer  = std::make_shared<RoundShape<dim>>(centre, p.radius);
       if (p.inner_radius == 0.)
         return outer;
       return std::make_shared<CombinedShape<dim>>(
-        CombinedShape<dim>::Operation::hollow_out, outer, make(p.inner_radius));
+        CombinedShape<dim>::Operation::hollow_out,
+        outer,
+        std::make_shared<RoundShape<dim>>(centre, p.inner_radius),
+        std::array<std::string, 2>{{"outer", "inner"}});
     }
 
     template <int dim>
@@ -163,13 +161,31 @@ namespace moraine
                text(p.axis_end),
                "another point than Axis "
                "start");
+      check_radii(p, section);
       if constexpr (dim == 3)
-        return make_round(p, section, [&](const double radius) {
-          return std::make_shared<CylinderShape>(start, end, radius);
-        });
-      else
-        Assert(false, ExcInternalError());
+        return std::make_shared<CylinderShape>(start,
+                                               end,
+                                               p.radius,
+                                               p.inner_radius);
+      Assert(false, ExcInternalError());
       return nullptr;
+    }
+
+    /** That an operand is in a map of bodies. */
+    template <typename Bodies>
+    void
+    check_operand(const std::string &name,
+                  const Bodies      &bodies,
+                  const std::string &section)
+    {
+      if (bodies.count(name) > 0)
+        return;
+      std::vector<std::string> names;
+      for (const auto &body : bodies)
+        names.push_back(body.first);
+      throw InputError(place(section, "Operands") + ": found '" + name +
+                       "', which is not the name of a body" +
+                       suggest(name, names));
     }
 
     template <int dim>
@@ -181,37 +197,37 @@ namespace moraine
       using Operation = typename CombinedShape<dim>::Operation;
       if (p.operands.size() < 2)
         reject(section, "Operands", p.operands[0], "two or more names");
-      std::vector<std::string> names;
-      for (const auto &shape : known)
-        names.push_back(shape.first);
       std::vector<std::shared_ptr<const Shape<dim>>> shapes;
       for (const auto &name : p.operands)
         {
-          const auto shape = known.find(name);
-          if (shape == known.end())
-            throw InputError(place(section, "Operands") + ": found '" + name +
-                             "', which is not the name of a body" +
-                             suggest(name, names));
-          if (shape->second == nullptr)
+          check_operand(name, known, section);
+          if (known.at(name) == nullptr)
             reject(section,
                    "Operands",
                    name,
                    "bodies with a shape; the points of this one come from a "
                    "file");
-          shapes.push_back(shape->second);
+          shapes.push_back(known.at(name));
         }
-      // a - b - c = a - (b + c)
-      const bool      is_difference = p.shape == "difference";
-      const Operation operation =
-        p.shape == "intersection" ? Operation::intersect : Operation::unite;
-      auto result = shapes[is_difference ? 1 : 0];
-      for (unsigned int i = is_difference ? 2 : 1; i < shapes.size(); ++i)
-        result =
-          std::make_shared<CombinedShape<dim>>(operation, result, shapes[i]);
-      if (is_difference)
-        result = std::make_shared<CombinedShape<dim>>(Operation::subtract,
-                                                      shapes[0],
-                                                      result);
+      using Names = std::array<std::string, 2>;
+      // a - b - c = a - (b + c); what is joined has the parts of its operands
+      const unsigned int first  = p.shape == "difference" ? 1 : 0;
+      auto               result = shapes[first];
+      std::string        name   = p.operands[first];
+      for (unsigned int i = first + 1; i < shapes.size(); ++i)
+        {
+          result =
+            std::make_shared<CombinedShape<dim>>(p.shape == "intersection" ?
+                                                   Operation::intersect :
+                                                   Operation::unite,
+                                                 result,
+                                                 shapes[i],
+                                                 Names{{name, p.operands[i]}});
+          name = "";
+        }
+      if (first == 1)
+        result = std::make_shared<CombinedShape<dim>>(
+          Operation::subtract, shapes[0], result, Names{{p.operands[0], name}});
       return result;
     }
 
@@ -226,12 +242,7 @@ namespace moraine
       if (p.shape == "polygon")
         return make_polygon(p, section);
       if (p.shape == "disc" || p.shape == "ring" || p.shape == "sphere")
-        {
-          const auto centre = to_point<dim>(p.centre, section, "Centre");
-          return make_round(p, section, [&](const double radius) {
-            return std::make_shared<BallShape<dim>>(centre, radius);
-          });
-        }
+        return make_ball(p, section);
       if (p.shape == "cylinder")
         return make_cylinder(p, section);
       if (p.shape == "half-space")
@@ -251,60 +262,7 @@ namespace moraine
         return std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space());
       return combine(p, known, section);
     }
-
-    // Makes bodies in the order their operands ask for.
-    template <int dim>
-    class ShapeMaker
-    {
-    public:
-      ShapeMaker(const std::map<std::string, ShapeParameters<dim>> &bodies,
-                 const std::string                                 &section)
-        : bodies(bodies)
-        , section(section)
-      {}
-
-      void
-      make(const std::string &name, const std::string &asked_in)
-      {
-        if (made.count(name) > 0)
-          return;
-        if (!under_way.insert(name).second)
-          reject(asked_in,
-                 "Operands",
-                 name,
-                 "bodies that are not themselves made from this one");
-        const auto        body = bodies.find(name);
-        const std::string here = section + "/" + name;
-        for (const auto &operand : body->second.operands)
-          if (bodies.count(operand) > 0)
-            make(operand, here);
-          else
-            refuse_unknown(operand, here);
-        made[name] = make_shape(body->second, made, here);
-        under_way.erase(name);
-      }
-
-      NamedShapes<dim> made;
-
-    private:
-      [[noreturn]] void
-      refuse_unknown(const std::string &operand, const std::string &here) const
-      {
-        std::vector<std::string> names;
-        for (const auto &body : bodies)
-          names.push_back(body.first);
-        throw InputError(place(here, "Operands") + ": found '" + operand +
-                         "', which is not the name of a body" +
-                         suggest(operand, names));
-      }
-
-      const std::map<std::string, ShapeParameters<dim>> &bodies;
-      const std::string                                  section;
-      std::set<std::string>                              under_way;
-    };
   } // namespace
-
-
 
   template <int dim>
   Placement<dim>
@@ -316,14 +274,10 @@ namespace moraine
       centre = to_point<dim>(p.rotation_centre, section, "Rotation centre");
     if (!p.translation.empty())
       translation = to_point<dim>(p.translation, section, "Translation");
-    if (p.rotation_angle == 0.)
-      {
-        Placement<dim> placed;
-        placed.shift = translation;
-        return placed;
-      }
     if constexpr (dim == 3)
       {
+        if (p.rotation_angle == 0.)
+          return {0., centre, Point<3>::unit_vector(0), translation};
         if (p.rotation_axis.empty())
           throw InputError(place(section, "Rotation axis") +
                            ": not set. A rotation in 3D needs it");
@@ -336,8 +290,6 @@ namespace moraine
       }
     return {p.rotation_angle, centre, axis, translation};
   }
-
-
 
   template <int dim>
   std::shared_ptr<const Shape<dim>>
@@ -360,20 +312,36 @@ namespace moraine
     return std::make_shared<MovedShape<dim>>(shape, placement);
   }
 
-
-
   template <int dim>
   NamedShapes<dim>
   make_shapes(const std::map<std::string, ShapeParameters<dim>> &bodies,
               const std::string                                 &section)
   {
-    ShapeMaker<dim> maker(bodies, section);
+    NamedShapes<dim>      made;
+    std::set<std::string> under_way;
+    // in the order their operands ask for
+    const std::function<void(const std::string &, const std::string &)> make =
+      [&](const std::string &name, const std::string &asked_in) {
+        if (made.count(name) > 0)
+          return;
+        if (!under_way.insert(name).second)
+          reject(asked_in,
+                 "Operands",
+                 name,
+                 "bodies that are not themselves made from this one");
+        const std::string here = section + "/" + name;
+        for (const auto &operand : bodies.at(name).operands)
+          {
+            check_operand(operand, bodies, here);
+            make(operand, here);
+          }
+        made[name] = make_shape(bodies.at(name), made, here);
+        under_way.erase(name);
+      };
     for (const auto &body : bodies)
-      maker.make(body.first, section);
-    return maker.made;
+      make(body.first, section);
+    return made;
   }
-
-
 
 #define INSTANTIATE(dim)                                               \
   template Point<dim>     to_point(const std::vector<double> &,        \

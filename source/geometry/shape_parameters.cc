@@ -90,8 +90,6 @@ namespace moraine
     }
   } // namespace
 
-
-
   template <int dim>
   void
   ShapeParameters<dim>::add_parameters(ParameterHandler &prm)
@@ -118,7 +116,8 @@ namespace moraine
                       vertices,
                       "Corners of a polygon in order, 'x y; x y; ...' "
                       "[length]. It may be non-convex but must not touch "
-                      "itself");
+                      "itself",
+                      patterns::NumberText());
     if (dim == 3)
       prm.add_parameter("Extent",
                         extent,
@@ -174,16 +173,12 @@ namespace moraine
     add_placement(*this, prm);
   }
 
-
-
   template <int dim>
   bool
   ShapeParameters<dim>::is_point_file() const
   {
     return shape == "points-from-file";
   }
-
-
 
   template <int dim>
   const std::vector<ShapeEntry> &
@@ -203,8 +198,6 @@ namespace moraine
     }();
     return entries;
   }
-
-
 
   template <int dim>
   void
@@ -241,8 +234,6 @@ namespace moraine
                " and, if wanted, " + list_of(entry->may_have)));
       }
   }
-
-
 
 #define INSTANTIATE(dim)                                        \
   template struct ShapeParameters<dim>;                         \

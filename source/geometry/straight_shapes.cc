@@ -4,6 +4,7 @@
 #include <moraine/geometry/straight_shapes.h>
 
 #include <moraine/geometry/polygon.h>
+#include <moraine/geometry/straight_surfaces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,16 +28,14 @@ namespace moraine
 
   } // namespace
 
-
-
   template <int dim>
-  ConvexShape<dim>::ConvexShape(const std::vector<HalfSpace> &sides,
-                                const BoundingBox<dim>       &bounding_box)
+  ConvexShape<dim>::ConvexShape(const std::vector<HalfSpace>   &sides,
+                                const BoundingBox<dim>         &bounding_box,
+                                const std::vector<std::string> &names)
     : sides(sides)
     , bounds(bounding_box)
+    , names(names)
   {}
-
-
 
   template <int dim>
   ConvexShape<dim>
@@ -48,30 +47,29 @@ namespace moraine
         sides.push_back({lower, -Point<dim>::unit_vector(d)});
         sides.push_back({upper, Point<dim>::unit_vector(d)});
       }
-    return {sides, BoundingBox<dim>(std::make_pair(lower, upper))};
+    return {sides,
+            BoundingBox<dim>(std::make_pair(lower, upper)),
+            dim == 2 ?
+              std::vector<std::string>{"left", "right", "bottom", "top"} :
+              std::vector<std::string>{
+                "left", "right", "front", "back", "bottom", "top"}};
   }
-
-
 
   template <int dim>
   ConvexShape<dim>
   ConvexShape<dim>::space()
   {
-    return {{}, infinite_box<dim>()};
+    return ConvexShape<dim>(std::vector<HalfSpace>());
   }
-
-
 
   template <int dim>
   ConvexShape<dim>
   ConvexShape<dim>::half_space(const Point<dim>     &point,
                                const Tensor<1, dim> &outward_normal)
   {
-    return {{{point, outward_normal / outward_normal.norm()}},
-            infinite_box<dim>()};
+    return ConvexShape<dim>(
+      std::vector<HalfSpace>{{point, outward_normal / outward_normal.norm()}});
   }
-
-
 
   template <int dim>
   double
@@ -83,16 +81,12 @@ namespace moraine
     return value;
   }
 
-
-
   template <int dim>
   BoundingBox<dim>
   ConvexShape<dim>::bounding_box() const
   {
     return bounds;
   }
-
-
 
   template <int dim>
   Overlap
@@ -117,16 +111,12 @@ namespace moraine
     return answer;
   }
 
-
-
   template <int dim>
   bool
   ConvexShape<dim>::is_straight() const
   {
     return true;
   }
-
-
 
   template <int dim>
   void
@@ -143,19 +133,74 @@ namespace moraine
       pieces.push_back({sign, part});
   }
 
+  template <int dim>
+  std::vector<std::string>
+  ConvexShape<dim>::parts() const
+  {
+    return names;
+  }
 
+  template <int dim>
+  std::vector<Point<dim>>
+  ConvexShape<dim>::corners_of(const unsigned int side) const
+  {
+    // a larger box, so that its own sides are not the shape's
+    const auto          corners = bounds.get_boundary_points();
+    const auto          widen   = corners.second - corners.first;
+    ConvexPolytope<dim> part(corners.first - widen, corners.second + widen);
+    for (unsigned int i = 0; i < sides.size(); ++i)
+      if (i != side)
+        part.clip(sides[i].point, -sides[i].outward);
+    typename ConvexPolytope<dim>::PointList cut;
+    part.clip(sides[side].point, -sides[side].outward, &cut);
+    if constexpr (dim == 2)
+      if (cross(cut[1] - cut[0], sides[side].outward) > 0.)
+        std::swap(cut[0], cut[1]);
+    return {cut.begin(), cut.end()};
+  }
+
+  template <int dim>
+  void
+  ConvexShape<dim>::add_faces(const std::string          &part,
+                              const bool                  body_inside,
+                              const Extent<dim>          &extent,
+                              typename Shape<dim>::Faces &faces) const
+  {
+    using Plane = PlaneSurface<dim>;
+    for (unsigned int i = 0; i < sides.size(); ++i)
+      if (part.empty() || names[i] == part)
+        {
+          if (is_finite(bounds))
+            {
+              faces.push_back(
+                std::make_shared<Plane>(corners_of(i), !body_inside, extent));
+              continue;
+            }
+          Extent<dim> limited = extent;
+          for (unsigned int j = 0; j < sides.size(); ++j)
+            if (j != i)
+              limited.limits.push_back(
+                {std::make_shared<ConvexShape<dim>>(
+                   half_space(sides[j].point, sides[j].outward)),
+                 true,
+                 Extent<dim>::Along::inner});
+          faces.push_back(std::make_shared<Plane>(
+            Plane::plane(sides[i].point,
+                         (body_inside ? 1. : -1.) * sides[i].outward,
+                         limited)));
+        }
+  }
 
   template <int dim>
   PolygonShape<dim>::PolygonShape(const std::vector<Point<2>>     &vertices,
-                                  const std::pair<double, double> &extent)
+                                  const std::pair<double, double> &heights)
     : vertices(vertices)
-    , extent(extent)
+    , heights(heights)
+    , reversed(polygon_area(vertices) < 0.)
   {
-    if (polygon_area(vertices) < 0.)
+    if (reversed)
       std::reverse(this->vertices.begin(), this->vertices.end());
   }
-
-
 
   template <int dim>
   double
@@ -179,12 +224,10 @@ namespace moraine
       }
     const double value = inside ? std::sqrt(square) : -std::sqrt(square);
     if constexpr (dim == 3)
-      return std::min({value, p[2] - extent.first, extent.second - p[2]});
+      return std::min({value, p[2] - heights.first, heights.second - p[2]});
     else
       return value;
   }
-
-
 
   template <int dim>
   BoundingBox<dim>
@@ -199,13 +242,11 @@ namespace moraine
         }
     if constexpr (dim == 3)
       {
-        lower[2] = extent.first;
-        upper[2] = extent.second;
+        lower[2] = heights.first;
+        upper[2] = heights.second;
       }
     return BoundingBox<dim>(std::make_pair(lower, upper));
   }
-
-
 
   template <int dim>
   bool
@@ -213,8 +254,6 @@ namespace moraine
   {
     return true;
   }
-
-
 
   template <int dim>
   void
@@ -227,9 +266,9 @@ namespace moraine
     if constexpr (dim == 3)
       {
         const Tensor<1, dim> up = Point<dim>::unit_vector(2);
-        slice.clip(Point<dim>(extent.first * up), up);
+        slice.clip(Point<dim>(heights.first * up), up);
         if (!slice.empty())
-          slice.clip(Point<dim>(extent.second * up), -up);
+          slice.clip(Point<dim>(heights.second * up), -up);
       }
     for (unsigned int i = 1; i + 1 < vertices.size(); ++i)
       {
@@ -252,7 +291,65 @@ namespace moraine
       }
   }
 
+  template <int dim>
+  std::vector<std::string>
+  PolygonShape<dim>::parts() const
+  {
+    std::vector<std::string> names;
+    for (unsigned int i = 1; i <= vertices.size(); ++i)
+      names.push_back(std::to_string(i));
+    if (dim == 3)
+      names.insert(names.end(), {"bottom", "top"});
+    return names;
+  }
 
+  template <int dim>
+  void
+  PolygonShape<dim>::add_faces(const std::string          &part,
+                               const bool                  body_inside,
+                               const Extent<dim>          &extent,
+                               typename Shape<dim>::Faces &faces) const
+  {
+    const auto add = [&](const std::vector<Point<dim>> &corners) {
+      faces.push_back(
+        std::make_shared<PlaneSurface<dim>>(corners, !body_inside, extent));
+    };
+    const unsigned int n = vertices.size();
+    if constexpr (dim == 2)
+      if (part.empty())
+        {
+          auto line = vertices;
+          line.push_back(vertices[0]);
+          return add(line);
+        }
+    for (unsigned int i = 0; i < n; ++i)
+      if (part.empty() || part == std::to_string(i + 1))
+        {
+          // the edge from vertex i in the order given
+          const unsigned int a = reversed ? (2 * n - 2 - i) % n : i;
+          const Point<2>    &x = vertices[a], &y = vertices[(a + 1) % n];
+          if constexpr (dim == 2)
+            add({x, y});
+          else
+            add({{x[0], x[1], heights.first},
+                 {y[0], y[1], heights.first},
+                 {y[0], y[1], heights.second},
+                 {x[0], x[1], heights.second}});
+        }
+    if constexpr (dim == 3)
+      for (const bool top : {false, true})
+        if (part.empty() || part == (top ? "top" : "bottom"))
+          {
+            std::vector<Point<3>> outline;
+            for (const auto &x : vertices)
+              outline.emplace_back(x[0],
+                                   x[1],
+                                   top ? heights.second : heights.first);
+            if (!top)
+              std::reverse(outline.begin(), outline.end());
+            add(outline);
+          }
+  }
 
   template class ConvexShape<2>;
   template class ConvexShape<3>;

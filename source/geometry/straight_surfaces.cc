@@ -3,6 +3,7 @@
 
 #include <moraine/geometry/straight_surfaces.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/geometry/curve_subdivision.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,31 @@ namespace moraine
         magnitude = std::max(magnitude, coordinate_magnitude<dim>(p));
       return magnitude;
     }
+
+    template <int dim>
+    Tensor<1, dim>
+    unit_normal_of_plane(const Tensor<1, dim> &normal)
+    {
+      if (!(normal.norm() > 0.))
+        throw InputError("the normal of a plane must not be zero");
+      return normal / normal.norm();
+    }
   } // namespace
 
-  Polyline::Polyline(const std::vector<Point<2>> &points, const bool flip)
-    : closed(points.size() > 2 && points.front() == points.back())
-    , box(points)
-    , magnitude(largest_magnitude<2>(points))
+  Polyline::Polyline(const BoundingBox<2> &box,
+                     const double          magnitude,
+                     const Extent<2>      &extent)
+    : box(box)
+    , magnitude(magnitude)
+    , extent(extent)
+  {}
+
+  Polyline::Polyline(const std::vector<Point<2>> &points,
+                     const bool                   flip,
+                     const Extent<2>             &extent)
+    : Polyline(BoundingBox<2>(points), largest_magnitude<2>(points), extent)
   {
+    closed = points.size() > 2 && points.front() == points.back();
     if (points.size() < 2)
       throw InputError("a line needs at least two points, found " +
                        std::to_string(points.size()));
@@ -38,12 +57,13 @@ namespace moraine
         Segment segment;
         segment.start     = points[i - 1];
         segment.direction = points[i] - points[i - 1];
-        segment.length    = segment.direction.norm();
-        if (segment.length <= 1e-12 * magnitude)
+        segment.from      = 0.;
+        segment.to        = segment.direction.norm();
+        if (segment.to <= 1e-12 * magnitude)
           throw InputError("points " + std::to_string(i) + " and " +
                            std::to_string(i + 1) +
                            " of a line are the same place");
-        segment.direction /= segment.length;
+        segment.direction /= segment.to;
         segment.normal[0] = segment.direction[1];
         segment.normal[1] = -segment.direction[0];
         if (flip)
@@ -52,7 +72,20 @@ namespace moraine
       }
   }
 
-  Polyline::Foot
+  Polyline
+  Polyline::plane(const Point<2>     &point,
+                  const Tensor<1, 2> &normal,
+                  const Extent<2>    &extent)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Polyline line(unlimited_box<2>(), coordinate_magnitude<2>(point), extent);
+    const Tensor<1, 2> n = unit_normal_of_plane<2>(normal);
+    line.segments.push_back(
+      {point, Point<2>(-n[1], n[0]), n, -infinity, infinity});
+    return line;
+  }
+
+  NearestPoint<2>
   Polyline::nearest(const Point<2> &x) const
   {
     unsigned int best     = 0;
@@ -61,7 +94,7 @@ namespace moraine
       {
         const auto  &s = segments[i];
         const double abscissa =
-          std::clamp((x - s.start) * s.direction, 0., s.length);
+          std::clamp((x - s.start) * s.direction, s.from, s.to);
         const double d = x.distance(s.start + abscissa * s.direction);
         if (d < distance)
           {
@@ -72,46 +105,30 @@ namespace moraine
     const auto        &s         = segments[best];
     const unsigned int n         = segments.size();
     const double       abscissa  = (x - s.start) * s.direction;
-    const double       tolerance = 1e-10 * s.length;
-    Foot               foot{&s, -((x - s.start) * s.normal), s.normal, false};
-    if (abscissa < -tolerance || abscissa > s.length + tolerance)
+    const double       tolerance = 1e-10 * (s.to - s.from);
+    NearestPoint<2>    point{-((x - s.start) * s.normal), s.normal, true};
+    if (abscissa < s.from - tolerance || abscissa > s.to + tolerance)
       {
-        const bool at_start = abscissa < 0.;
+        const bool at_start = abscissa < s.from;
         if (!closed && best == (at_start ? 0 : n - 1))
-          foot.beyond_end = true;
+          point.in_extent = false;
         else
           {
             // at a corner the mean normal tells inside from outside
             const auto &other = segments[(best + (at_start ? n - 1 : 1)) % n];
             const Point<2> corner =
-              at_start ? s.start : s.start + s.length * s.direction;
-            foot.normal = s.normal + other.normal;
-            if (foot.normal.norm() <= 1e-10)
-              foot.normal = (at_start ? -1. : 1.) * s.direction;
-            foot.normal /= foot.normal.norm();
-            foot.distance =
-              -std::copysign(distance, (x - corner) * foot.normal);
+              s.start + (at_start ? s.from : s.to) * s.direction;
+            point.normal = s.normal + other.normal;
+            if (point.normal.norm() <= 1e-10)
+              point.normal = (at_start ? -1. : 1.) * s.direction;
+            point.normal /= point.normal.norm();
+            point.level = -std::copysign(distance, (x - corner) * point.normal);
           }
       }
-    return foot;
-  }
-
-  double
-  Polyline::level(const Point<2> &x) const
-  {
-    return nearest(x).distance;
-  }
-
-  Tensor<1, 2>
-  Polyline::normal(const Point<2> &x) const
-  {
-    return nearest(x).normal;
-  }
-
-  bool
-  Polyline::in_extent(const Point<2> &x) const
-  {
-    return !nearest(x).beyond_end;
+    point.in_extent =
+      point.in_extent &&
+      extent.contains(x + point.level * point.normal, point.normal);
+    return point;
   }
 
   void
@@ -121,6 +138,7 @@ namespace moraine
   {
     if (!may_touch<2>(cell, box))
       return;
+    const double size = cell_size<2>(cell);
     for (const auto &s : segments)
       {
         std::array<double, 4> distance;
@@ -128,16 +146,19 @@ namespace moraine
           distance[v] = -((cell[v] - s.start) * s.normal);
         for (const auto &chord : cut_cell<2>(cell, distance, magnitude))
           {
-            double from = (chord[0] - s.start) * s.direction,
-                   to   = (chord[1] - s.start) * s.direction;
-            if (from > to)
-              std::swap(from, to);
-            from = std::max(from, 0.);
-            to   = std::min(to, s.length);
+            const double a = (chord[0] - s.start) * s.direction,
+                         b = (chord[1] - s.start) * s.direction;
             // round-off at a corner of the cell is not a piece
-            if (to - from > 1e-15 * std::max(s.length, magnitude))
-              add_segment_points<2>(
-                s.start, s.direction, from, to, s.normal, n_gauss, out);
+            const Stretch piece{std::max(std::min(a, b), s.from),
+                                std::min(std::max(a, b), s.to)};
+            if (piece.to - piece.from > 1e-15 * std::max(size, magnitude))
+              for (const Stretch &part :
+                   extent.stretches(piece, 1e-9 * size, [&](const double a) {
+                     return std::make_pair(Point<2>(s.start + a * s.direction),
+                                           s.normal);
+                   }))
+                add_segment_points<2>(
+                  s.start, s.direction, part, s.normal, n_gauss, out);
           }
       }
   }
@@ -150,78 +171,6 @@ namespace moraine
 
   bool
   Polyline::curved() const
-  {
-    return false;
-  }
-
-  template <int dim>
-  Plane<dim>::Plane(const Point<dim> &point, const Tensor<1, dim> &normal)
-    : point(point)
-    , magnitude(coordinate_magnitude<dim>(point))
-  {
-    const double length = normal.norm();
-    if (!(length > 0.))
-      throw InputError("the normal of a plane must not be zero");
-    unit_normal = normal / length;
-  }
-
-  template <int dim>
-  double
-  Plane<dim>::level(const Point<dim> &x) const
-  {
-    return -((x - point) * unit_normal);
-  }
-
-  template <int dim>
-  Tensor<1, dim>
-  Plane<dim>::normal(const Point<dim> &) const
-  {
-    return unit_normal;
-  }
-
-  template <int dim>
-  bool
-  Plane<dim>::in_extent(const Point<dim> &) const
-  {
-    return true;
-  }
-
-  template <int dim>
-  void
-  Plane<dim>::pieces(const CellVertices<dim>        &cell,
-                     const unsigned int              n_gauss,
-                     std::vector<SurfacePoint<dim>> &out) const
-  {
-    std::array<double, (1 << dim)> distance;
-    for (unsigned int v = 0; v < cell.size(); ++v)
-      distance[v] = level(cell[v]);
-    for (const auto &cut : cut_cell<dim>(cell, distance, magnitude))
-      if constexpr (dim == 2)
-        {
-          const Tensor<1, 2> chord  = cut[1] - cut[0];
-          const double       length = chord.norm();
-          if (length > 1e-15 * std::max(magnitude, cell_size<dim>(cell)))
-            add_segment_points<2>(
-              cut[0], chord / length, 0., length, unit_normal, n_gauss, out);
-        }
-      else
-        {
-          const PlaneFrame frame(point, unit_normal);
-          add_polygon_points(
-            frame.to_plane(cut), frame, unit_normal, n_gauss, out);
-        }
-  }
-
-  template <int dim>
-  BoundingBox<dim>
-  Plane<dim>::bounding_box() const
-  {
-    return unlimited_box<dim>();
-  }
-
-  template <int dim>
-  bool
-  Plane<dim>::curved() const
   {
     return false;
   }
@@ -255,12 +204,28 @@ namespace moraine
     }
   } // namespace
 
-  PlanePatch::PlanePatch(const std::vector<Point<3>> &vertices, const bool flip)
-    : frame(frame_of(vertices))
-    , unit_normal((flip ? -1. : 1.) * frame.normal)
-    , box(vertices)
-    , magnitude(largest_magnitude<3>(vertices))
+  PlanePatch::PlanePatch(const PlaneFrame     &frame,
+                         const Tensor<1, 3>   &unit_normal,
+                         const BoundingBox<3> &box,
+                         const double          magnitude,
+                         const Extent<3>      &extent)
+    : frame(frame)
+    , unit_normal(unit_normal)
+    , box(box)
+    , magnitude(magnitude)
+    , extent(extent)
+  {}
+
+  PlanePatch::PlanePatch(const std::vector<Point<3>> &vertices,
+                         const bool                   flip,
+                         const Extent<3>             &extent)
+    : PlanePatch(frame_of(vertices),
+                 {},
+                 BoundingBox<3>(vertices),
+                 largest_magnitude<3>(vertices),
+                 extent)
   {
+    unit_normal           = (flip ? -1. : 1.) * frame.normal;
     const Polygon outline = frame.to_plane(vertices);
     if (edges_cross(outline))
       throw InputError("the edges of a plane patch cross each other");
@@ -270,34 +235,39 @@ namespace moraine
       convex_parts = triangulate(outline);
   }
 
-  double
-  PlanePatch::level(const Point<3> &x) const
+  PlanePatch
+  PlanePatch::plane(const Point<3>     &point,
+                    const Tensor<1, 3> &normal,
+                    const Extent<3>    &extent)
   {
-    return -((x - frame.origin) * unit_normal);
+    const Tensor<1, 3> n = unit_normal_of_plane<3>(normal);
+    return {PlaneFrame(point, n),
+            n,
+            unlimited_box<3>(),
+            coordinate_magnitude<3>(point),
+            extent};
   }
 
-  Tensor<1, 3>
-  PlanePatch::normal(const Point<3> &) const
+  NearestPoint<3>
+  PlanePatch::nearest(const Point<3> &x) const
   {
-    return unit_normal;
-  }
-
-  bool
-  PlanePatch::in_extent(const Point<3> &x) const
-  {
-    const Point<2> p = frame.to_plane(x);
-    for (const auto &part : convex_parts)
-      {
-        bool inside = true;
-        for (unsigned int i = 0; i < part.size() && inside; ++i)
-          {
-            const Tensor<1, 2> edge = part[(i + 1) % part.size()] - part[i];
-            inside = cross(edge, p - part[i]) >= -1e-10 * edge.norm_square();
-          }
-        if (inside)
-          return true;
-      }
-    return false;
+    const double   level     = -((x - frame.origin) * unit_normal);
+    const Point<2> p         = frame.to_plane(x);
+    const auto     is_inside = [&p](const Polygon &part) {
+      for (unsigned int i = 0; i < part.size(); ++i)
+        {
+          const Tensor<1, 2> edge = part[(i + 1) % part.size()] - part[i];
+          if (cross(edge, p - part[i]) < -1e-10 * edge.norm_square())
+            return false;
+        }
+      return true;
+    };
+    return {level,
+            unit_normal,
+            (convex_parts.empty() || std::any_of(convex_parts.begin(),
+                                                 convex_parts.end(),
+                                                 is_inside)) &&
+              extent.contains(x + level * unit_normal, unit_normal)};
   }
 
   void
@@ -309,16 +279,48 @@ namespace moraine
       return;
     std::array<double, 8> distance;
     for (unsigned int v = 0; v < cell.size(); ++v)
-      distance[v] = level(cell[v]);
+      distance[v] = -((cell[v] - frame.origin) * unit_normal);
+    const double tolerance = 1e-9 * cell_size<3>(cell);
     for (const auto &cut : cut_cell<3>(cell, distance, magnitude))
       {
         const Polygon polygon = frame.to_plane(cut);
+        if (convex_parts.empty())
+          add_points(polygon, tolerance, n_gauss, out);
         for (const auto &part : convex_parts)
-          {
-            const auto piece = clip_polygon(polygon, part);
-            if (piece.size() >= 3)
-              add_polygon_points(piece, frame, unit_normal, n_gauss, out);
-          }
+          add_points(clip_polygon(polygon, part), tolerance, n_gauss, out);
+      }
+  }
+
+  void
+  PlanePatch::add_points(const Polygon                &polygon,
+                         const double                  tolerance,
+                         const unsigned int            n_gauss,
+                         std::vector<SurfacePoint<3>> &out) const
+  {
+    if (polygon.size() < 3)
+      return;
+    if (extent.limits.empty())
+      {
+        add_polygon_points(polygon, frame, unit_normal, n_gauss, out);
+        return;
+      }
+    const auto corners = BoundingBox<2>(polygon).get_boundary_points();
+    std::vector<SignedPiece<2>> pieces;
+    add_curved_pieces<2>(
+      [&](const Point<2> &p) {
+        return extent.value(frame.to_space(p), unit_normal, tolerance);
+      },
+      false,
+      ConvexPolytope<2>(corners.first, corners.second),
+      1.,
+      pieces);
+    for (const auto &piece : pieces)
+      {
+        const auto   &outline = piece.polytope.vertices();
+        const Polygon part =
+          clip_polygon(polygon, Polygon(outline.begin(), outline.end()));
+        if (part.size() >= 3)
+          add_polygon_points(part, frame, unit_normal, n_gauss, out);
       }
   }
 
@@ -333,7 +335,4 @@ namespace moraine
   {
     return false;
   }
-
-  template class Plane<2>;
-  template class Plane<3>;
 } // namespace moraine

@@ -2,45 +2,227 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/geometry/surface.h>
-#include <moraine/core/exceptions.h>
 
+#include <moraine/geometry/cell_cut.h>
+#include <moraine/geometry/combined_shapes.h>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace moraine
 {
   using namespace dealii;
 
   template <int dim>
-  BoundingBox<dim>
-  unlimited_box()
+  double
+  Extent<dim>::value(const Point<dim>     &x,
+                     const Tensor<1, dim> &normal,
+                     const double          tolerance) const
   {
-    Point<dim> corner;
-    for (unsigned int d = 0; d < dim; ++d)
-      corner[d] = unlimited_extent;
-    return BoundingBox<dim>({-1. * corner, corner});
+    double value = std::numeric_limits<double>::infinity();
+    for (const auto &[shape, inside, along] : limits)
+      for (const auto &[side, other] : {std::make_pair(-1., Along::outer),
+                                        std::make_pair(1., Along::inner)})
+        if (along != other)
+          {
+            const double sign  = inside ? 1. : -1.;
+            double       level = shape->level(x + side * tolerance * normal);
+            // along a boundary of the shape, further off there is a distance
+            // from the end that is not round-off
+            if (std::abs(level) <= 1.5 * tolerance)
+              {
+                const double off =
+                  shape->level(x + side * 1e8 * tolerance * normal);
+                level =
+                  level > 0. ? std::max(level, off) : std::min(level, off);
+              }
+            value = std::min(value, sign * level);
+          }
+    return value;
   }
 
-  /** The direction of v, or any where v is zero. */
   template <int dim>
-  Tensor<1, dim>
-  unit_or_any(const Tensor<1, dim> &v)
+  bool
+  Extent<dim>::contains(const Point<dim> &x, const Tensor<1, dim> &normal) const
   {
-    const double length = v.norm();
-    return length > 0. ? v / length : Point<dim>::unit_vector(0);
+    const double tolerance = 1e-10 * coordinate_magnitude<dim>(x);
+    return limits.empty() || value(x, normal, tolerance) >= -2. * tolerance;
   }
 
+  template <int dim>
+  std::vector<Stretch>
+  Extent<dim>::stretches(
+    const Stretch &piece,
+    const double   tolerance,
+    const std::function<std::pair<Point<dim>, Tensor<1, dim>>(double)> &curve)
+    const
+  {
+    if (limits.empty())
+      return {piece};
+    const auto is_within = [&](const double s) {
+      const auto [x, normal] = curve(s);
+      return value(x, normal, tolerance) > 0.;
+    };
+    constexpr unsigned int n    = 32;
+    const double           step = (piece.to - piece.from) / n;
+    std::vector<Stretch>   result;
+    double                 last   = piece.from;
+    bool                   inside = is_within(piece.from + 1e-9 * step);
+    if (inside)
+      result.push_back(piece);
+    for (unsigned int i = 0; i <= n; ++i)
+      {
+        const double next =
+          std::min(piece.from + (i + .5) * step, piece.to - 1e-9 * step);
+        if (is_within(next) != inside)
+          {
+            double       here = last, there = next;
+            const double tiny = 1e-16 * (piece.to - piece.from);
+            for (double middle = (here + there) / 2.;
+                 middle > here + tiny && middle < there - tiny;
+                 middle = (here + there) / 2.)
+              (is_within(middle) == inside ? here : there) = middle;
+            if (inside)
+              result.back().to = there;
+            else
+              result.push_back({there, piece.to});
+            inside = !inside;
+          }
+        last = next;
+      }
+    return result;
+  }
+
+  template <int dim>
+  Extent<dim>
+  Extent<dim>::seen_from(const Placement<dim> &placement) const
+  {
+    Extent<dim> result;
+    for (const auto &[shape, inside, along] : limits)
+      result.limits.push_back(
+        {std::make_shared<MovedShape<dim>>(shape, placement.inverse()),
+         inside,
+         along});
+    return result;
+  }
+
+  template <int dim>
+  MovedSurface<dim>::MovedSurface(std::shared_ptr<const Surface<dim>> reference,
+                                  const Placement<dim>               &pose)
+    : reference(std::move(reference))
+    , present(pose)
+  {}
+
+  template <int dim>
   void
-  check_radius(const double radius)
+  MovedSurface<dim>::set_pose(const Placement<dim> &pose)
   {
-    if (!(radius > 0.) || !std::isfinite(radius))
-      throw InputError("a radius must be positive, found " +
-                       std::to_string(radius));
+    present = pose;
   }
 
-#define INSTANTIATE(dim)                     \
-  template BoundingBox<dim> unlimited_box(); \
-  template Tensor<1, dim>   unit_or_any(const Tensor<1, dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template <int dim>
+  const Placement<dim> &
+  MovedSurface<dim>::pose() const
+  {
+    return present;
+  }
+
+  template <int dim>
+  NearestPoint<dim>
+  MovedSurface<dim>::nearest(const Point<dim> &x) const
+  {
+    NearestPoint<dim> point = reference->nearest(present.inverse(x));
+    point.normal            = present.rotate(point.normal);
+    return point;
+  }
+
+  template <int dim>
+  void
+  MovedSurface<dim>::pieces(const CellVertices<dim>        &cell,
+                            const unsigned int              n_gauss,
+                            std::vector<SurfacePoint<dim>> &out) const
+  {
+    CellVertices<dim> mapped;
+    for (unsigned int v = 0; v < cell.size(); ++v)
+      mapped[v] = present.inverse(cell[v]);
+    const std::size_t before = out.size();
+    reference->pieces(mapped, n_gauss, out);
+    for (std::size_t i = before; i < out.size(); ++i)
+      {
+        out[i].x      = present.map(out[i].x);
+        out[i].normal = present.rotate(out[i].normal);
+      }
+  }
+
+  template <int dim>
+  BoundingBox<dim>
+  MovedSurface<dim>::bounding_box() const
+  {
+    return present.map(reference->bounding_box());
+  }
+
+  template <int dim>
+  bool
+  MovedSurface<dim>::curved() const
+  {
+    return reference->curved();
+  }
+
+  template <int dim>
+  SurfaceList<dim>::SurfaceList(const Members &members)
+    : members(members)
+  {}
+
+  template <int dim>
+  NearestPoint<dim>
+  SurfaceList<dim>::nearest(const Point<dim> &x) const
+  {
+    NearestPoint<dim> best = members[0]->nearest(x);
+    for (unsigned int i = 1; i < members.size(); ++i)
+      {
+        const NearestPoint<dim> other = members[i]->nearest(x);
+        if (other.in_extent != best.in_extent ?
+              other.in_extent :
+              std::abs(other.level) < std::abs(best.level))
+          best = other;
+      }
+    return best;
+  }
+
+  template <int dim>
+  void
+  SurfaceList<dim>::pieces(const CellVertices<dim>        &cell,
+                           const unsigned int              n_gauss,
+                           std::vector<SurfacePoint<dim>> &out) const
+  {
+    for (const auto &member : members)
+      member->pieces(cell, n_gauss, out);
+  }
+
+  template <int dim>
+  BoundingBox<dim>
+  SurfaceList<dim>::bounding_box() const
+  {
+    BoundingBox<dim> box = members[0]->bounding_box();
+    for (const auto &member : members)
+      box.merge_with(member->bounding_box());
+    return box;
+  }
+
+  template <int dim>
+  bool
+  SurfaceList<dim>::curved() const
+  {
+    return std::any_of(members.begin(), members.end(), [](const auto &member) {
+      return member->curved();
+    });
+  }
+
+  template struct Extent<2>;
+  template struct Extent<3>;
+  template class MovedSurface<2>;
+  template class MovedSurface<3>;
+  template class SurfaceList<2>;
+  template class SurfaceList<3>;
 } // namespace moraine

@@ -3,17 +3,20 @@
 
 #include <moraine/geometry/surface_library.h>
 
-#include <moraine/geometry/arc.h>
-#include <moraine/geometry/curved_surfaces.h>
-#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/nearest.h>
+#include <moraine/core/patterns.h>
+
+#include <moraine/geometry/curved_shapes.h>
+#include <moraine/geometry/curved_surfaces.h>
+#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/straight_surfaces.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace moraine
 {
@@ -21,37 +24,38 @@ namespace moraine
 
   namespace
   {
-    /** Each kind with the keys it uses; those it cannot do without come first.
-     */
+    /** The keys a kind of surface uses; those it cannot do without first. */
     struct Kind
     {
       std::vector<std::string> needed, optional;
     };
 
+    const std::string rim = "rim of a body";
+
     template <int dim>
     const std::map<std::string, Kind> &
     kinds()
     {
-      static const std::map<std::string, Kind> result =
-        dim == 2 ?
-          std::map<std::string, Kind>{
-            {"polyline", {{"Points"}, {"Flip"}}},
-            {"circle", {{"Centre", "Radius", "Body side"}, {}}},
-            {"arc",
-             {{"Centre", "Radius", "Start angle", "End angle", "Body side"},
-              {}}},
-            {"plane", {{"Point", "Normal"}, {"Flip"}}},
-            {"expression",
-             {{"Expression"},
-              {"Extent lower corner", "Extent upper corner"}}}} :
-          std::map<std::string, Kind>{
-            {"plane patch", {{"Points"}, {"Flip"}}},
-            {"plane", {{"Point", "Normal"}, {"Flip"}}},
-            {"sphere", {{"Centre", "Radius", "Body side"}, {}}},
-            {"cylinder",
-             {{"Axis start", "Axis end", "Radius", "Body side"}, {}}},
-            {"expression",
-             {{"Expression"}, {"Extent lower corner", "Extent upper corner"}}}};
+      static const std::map<std::string, Kind> result = [] {
+        std::map<std::string, Kind> all{
+          {"plane", {{"Point", "Normal"}, {"Flip"}}},
+          {"expression",
+           {{"Expression"}, {"Extent lower corner", "Extent upper corner"}}}};
+        if (dim == 2)
+          all.insert(
+            {{"polyline", {{"Points"}, {"Flip"}}},
+             {"circle", {{"Centre", "Radius", "Body side"}, {}}},
+             {"arc",
+              {{"Centre", "Radius", "Start angle", "End angle", "Body side"},
+               {}}}});
+        else
+          all.insert(
+            {{"plane patch", {{"Points"}, {"Flip"}}},
+             {"sphere", {{"Centre", "Radius", "Body side"}, {}}},
+             {"cylinder",
+              {{"Axis start", "Axis end", "Radius", "Body side"}, {}}}});
+        return all;
+      }();
       return result;
     }
 
@@ -65,63 +69,71 @@ namespace moraine
       return names;
     }
 
-    /** The keys the user gave, with errors that name section and key. */
+    constexpr const char *
+    default_kind(const int dim)
+    {
+      return dim == 2 ? "polyline" : "plane patch";
+    }
+
+    /** Makes one surface, with errors that name section and key. */
     template <int dim>
-    class Entries
+    class SurfaceMaker
     {
     public:
-      Entries(const SurfaceParameters<dim> &p, const std::string &section)
-        : section(section)
-        , kind(p.surface)
-        , texts{{"Points", p.points},
-                {"Centre", p.centre},
-                {"Radius", p.radius},
-                {"Start angle", p.start_angle},
-                {"End angle", p.end_angle},
-                {"Point", p.point},
-                {"Normal", p.normal},
-                {"Axis start", p.axis_start},
-                {"Axis end", p.axis_end},
-                {"Body side", p.body_side},
-                {"Expression", p.expression},
-                {"Extent lower corner", p.lower_corner},
-                {"Extent upper corner", p.upper_corner},
-                {"Flip", p.flip ? "true" : ""}}
+      SurfaceMaker(const SurfaceParameters<dim> &parameters,
+                   const NamedShapes<dim>       &bodies,
+                   const std::string            &section)
+        : texts(parameters.texts)
+        , bodies(bodies)
+        , section(section)
+        , kind(given("Body") || given("Part") ? rim : texts.at("Surface"))
       {}
 
+      std::shared_ptr<const Surface<dim>>
+      make() const
+      {
+        check_keys();
+        if (kind == rim)
+          return rim_of_body();
+        const bool flip = texts.at("Flip") == "true";
+        if (kind == "plane")
+          return make_plane((flip ? -1. : 1.) * point("Normal"));
+        if (kind == "expression")
+          return make_expression();
+        if constexpr (dim == 2)
+          {
+            if (kind == "polyline")
+              return std::make_shared<Polyline>(points(), flip);
+            const bool is_arc = kind == "arc";
+            return std::make_shared<Arc>(point("Centre"),
+                                         radius(),
+                                         body_inside(),
+                                         is_arc ? number("Start angle") : 0.,
+                                         is_arc ? number("End angle") : 360.);
+          }
+        else if (kind == "plane patch")
+          return std::make_shared<PlanePatch>(points(), flip);
+        typename Shape<dim>::Faces faces;
+        if constexpr (dim == 3)
+          {
+            if (kind == "sphere")
+              RoundShape<3>(point("Centre"), radius())
+                .add_faces("", body_inside(), {}, faces);
+            else
+              CylinderShape(point("Axis start"), point("Axis end"), radius())
+                .add_faces("side", body_inside(), {}, faces);
+          }
+        return faces[0];
+      }
+
+    private:
       [[noreturn]] void
-      reject(const std::string &key,
+      refuse(const std::string &key,
              const std::string &found,
              const std::string &allowed) const
       {
-        throw InputError("section '" + section + "', key '" + key +
-                         "': found " + found + ", allowed: " + allowed);
-      }
-
-      /** Every needed key is there and no key that means nothing here. */
-      void
-      check_keys() const
-      {
-        const auto found = kinds<dim>().find(kind);
-        if (found == kinds<dim>().end())
-          reject("Surface",
-                 "'" + kind + "'",
-                 Utilities::int_to_string(dim) + "D surfaces " +
-                   kind_names<dim>());
-        const auto &needed   = found->second.needed;
-        const auto &optional = found->second.optional;
-        for (const auto &key : needed)
-          if (!given(key))
-            reject(key, "nothing", "a value, needed by a " + kind);
-        for (const auto &entry : texts)
-          if (!entry.second.empty() &&
-              std::find(needed.begin(), needed.end(), entry.first) ==
-                needed.end() &&
-              std::find(optional.begin(), optional.end(), entry.first) ==
-                optional.end())
-            reject(entry.first,
-                   "'" + entry.second + "'",
-                   "nothing, a " + kind + " has no such entry");
+        throw InputError(place(section, key) + ": found " + found +
+                         ", allowed: " + allowed);
       }
 
       bool
@@ -130,10 +142,140 @@ namespace moraine
         return !texts.at(key).empty();
       }
 
-      const std::string &
-      text(const std::string &key) const
+      /** Every needed key is there and no key that means nothing here. */
+      void
+      check_keys() const
       {
-        return texts.at(key);
+        if (kind != rim && kinds<dim>().count(kind) == 0)
+          reject(section,
+                 "Surface",
+                 kind,
+                 std::to_string(dim) + "D surfaces " + kind_names<dim>());
+        const Kind &keys =
+          kind == rim ? Kind{{"Body"}, {"Part"}} : kinds<dim>().at(kind);
+        const auto has = [](const std::vector<std::string> &list,
+                            const std::string              &key) {
+          return std::find(list.begin(), list.end(), key) != list.end();
+        };
+        for (const auto &key : keys.needed)
+          if (!given(key))
+            refuse(key, "nothing", "a value, needed by a " + kind);
+        for (const auto &[key, text] : texts)
+          if (!has(keys.needed, key) && !has(keys.optional, key) &&
+              text != (key == "Flip"    ? "false" :
+                       key != "Surface" ? "" :
+                       kind == rim      ? default_kind(dim) :
+                                          kind))
+            reject(section,
+                   key,
+                   text,
+                   "nothing, a " + kind + " has no such entry");
+      }
+
+      std::shared_ptr<const Surface<dim>>
+      rim_of_body() const
+      {
+        const std::string &body = texts.at("Body"), &part = texts.at("Part");
+        std::vector<std::string> names;
+        for (const auto &entry : bodies)
+          names.push_back(entry.first);
+        const auto found = bodies.find(body);
+        if (found == bodies.end())
+          reject(section,
+                 "Body",
+                 body,
+                 "names of bodies" + suggest(body, names));
+        const auto parts =
+          found->second ? found->second->parts() : std::vector<std::string>();
+        if (!part.empty() &&
+            std::find(parts.begin(), parts.end(), part) == parts.end())
+          reject(section,
+                 "Part",
+                 part,
+                 parts.empty() ?
+                   "nothing, the rim of '" + body + "' is one whole" :
+                   "parts of the rim of '" + body + "'" + suggest(part, parts));
+        const auto surface = found->second ? found->second->rim(part) : nullptr;
+        if (!surface)
+          reject(section,
+                 "Body",
+                 body,
+                 "a body with a rim; points of a file and the whole mesh have "
+                 "none");
+        return surface;
+      }
+
+      std::shared_ptr<const Surface<dim>>
+      make_plane(const Tensor<1, dim> &normal) const
+      {
+        if (!(normal.norm() > 0.))
+          throw InputError("the normal of a plane must not be zero");
+        return ConvexShape<dim>::half_space(point("Point"), normal).rim();
+      }
+
+      std::shared_ptr<const Surface<dim>>
+      make_expression() const
+      {
+        using Along         = typename Extent<dim>::Along;
+        auto [lower, upper] = unlimited_box<dim>().get_boundary_points();
+        const bool below    = given("Extent lower corner"),
+                   above    = given("Extent upper corner");
+        if (below)
+          lower = point("Extent lower corner");
+        if (above)
+          upper = point("Extent upper corner");
+        Extent<dim> extent;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (!(lower[d] < upper[d]))
+              reject(section,
+                     "Extent upper corner",
+                     texts.at("Extent upper corner"),
+                     "above the lower corner in every direction");
+            for (const double side : {-1., 1.})
+              if (side < 0. ? below : above)
+                extent.limits.push_back(
+                  {std::make_shared<ConvexShape<dim>>(
+                     ConvexShape<dim>::half_space(
+                       side < 0. ? lower : upper,
+                       side * Point<dim>::unit_vector(d))),
+                   true,
+                   Along::inner});
+          }
+        const double width = below && above ? upper[0] - lower[0] : 0.;
+        return std::make_shared<LevelSetSurface<dim>>(
+          std::make_shared<ExpressionShape<dim>>(texts.at("Expression"),
+                                                 place(section, "Expression"),
+                                                 width),
+          true,
+          extent,
+          BoundingBox<dim>({lower, upper}));
+      }
+
+      std::vector<Point<dim>>
+      points() const
+      {
+        std::vector<Point<dim>> result;
+        for (const auto &part :
+             Utilities::split_string_list(texts.at("Points"), ';'))
+          if (!part.empty())
+            result.push_back(point("Points", part));
+        return result;
+      }
+
+      Point<dim>
+      point(const std::string &key) const
+      {
+        return point(key, texts.at(key));
+      }
+
+      Point<dim>
+      point(const std::string &key, const std::string &text) const
+      {
+        const auto values = numbers(key, text, dim);
+        Point<dim> x;
+        std::copy(values.begin(), values.end(), x.begin_raw());
+        return x;
       }
 
       double
@@ -143,41 +285,20 @@ namespace moraine
       }
 
       double
-      positive_number(const std::string &key) const
+      radius() const
       {
-        const double value = number(key);
+        const double value = number("Radius");
         if (!(value > 0.))
-          reject(key, "'" + texts.at(key) + "'", "a number > 0");
+          reject(section, "Radius", texts.at("Radius"), "a number > 0");
         return value;
-      }
-
-      Point<dim>
-      place(const std::string &key) const
-      {
-        return place(key, texts.at(key));
-      }
-
-      std::vector<Point<dim>>
-      places(const std::string &key) const
-      {
-        std::vector<Point<dim>> result;
-        for (const auto &part :
-             Utilities::split_string_list(texts.at(key), ';'))
-          if (!part.empty())
-            result.push_back(place(key, part));
-        return result;
       }
 
       bool
       body_inside() const
       {
-        const auto &side = texts.at("Body side");
-        if (side != "inside" && side != "outside")
-          reject("Body side", "'" + side + "'", "inside|outside");
-        return side == "inside";
+        return texts.at("Body side") == "inside";
       }
 
-    private:
       /** Exactly @p n finite numbers, separated by commas or blanks. */
       std::vector<double>
       numbers(const std::string &key,
@@ -199,173 +320,116 @@ namespace moraine
               good = false;
             }
         if (!good || result.size() != n)
-          reject(key,
-                 "'" + text + "'",
-                 n == 1 ?
-                   "one number" :
-                   Utilities::int_to_string(n) + " numbers for each point");
+          reject(section,
+                 key,
+                 text,
+                 n == 1 ? "one number" :
+                          std::to_string(n) + " numbers for each point");
         return result;
       }
 
-      Point<dim>
-      place(const std::string &key, const std::string &text) const
-      {
-        const auto values = numbers(key, text, dim);
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = values[d];
-        return x;
-      }
-
-      std::string                        section, kind;
-      std::map<std::string, std::string> texts;
+      const std::map<std::string, std::string> &texts;
+      const NamedShapes<dim>                   &bodies;
+      const std::string                         section;
+      const std::string                         kind;
     };
-
-    template <int dim>
-    BoundingBox<dim>
-    extent(const Entries<dim> &entries)
-    {
-      auto [lower, upper] = unlimited_box<dim>().get_boundary_points();
-      if (entries.given("Extent lower corner"))
-        lower = entries.place("Extent lower corner");
-      if (entries.given("Extent upper corner"))
-        upper = entries.place("Extent upper corner");
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!(lower[d] < upper[d]))
-          entries.reject("Extent upper corner",
-                         "'" + entries.text("Extent upper corner") + "'",
-                         "above the lower corner in every direction");
-      return BoundingBox<dim>({lower, upper});
-    }
-
-    template <int dim>
-    std::unique_ptr<Surface<dim>>
-    make(const SurfaceParameters<dim> &parameters,
-         const std::string            &section,
-         const Entries<dim>           &entries)
-    {
-      const std::string &kind = parameters.surface;
-      const bool         flip = parameters.flip;
-      if (kind == "plane")
-        return std::make_unique<Plane<dim>>(entries.place("Point"),
-                                            (flip ? -1. : 1.) *
-                                              entries.place("Normal"));
-      if (kind == "expression")
-        return std::make_unique<ExpressionSurface<dim>>(
-          entries.text("Expression"),
-          moraine::place(section, "Expression"),
-          extent<dim>(entries));
-      if constexpr (dim == 2)
-        {
-          if (kind == "polyline")
-            return std::make_unique<Polyline>(entries.places("Points"), flip);
-          const bool is_arc = kind == "arc";
-          return std::make_unique<Arc>(entries.place("Centre"),
-                                       entries.positive_number("Radius"),
-                                       entries.body_inside(),
-                                       is_arc ? entries.number("Start angle") :
-                                                0.,
-                                       is_arc ? entries.number("End angle") :
-                                                360.);
-        }
-      else
-        {
-          if (kind == "plane patch")
-            return std::make_unique<PlanePatch>(entries.places("Points"), flip);
-          if (kind == "sphere")
-            return std::make_unique<Sphere>(entries.place("Centre"),
-                                            entries.positive_number("Radius"),
-                                            entries.body_inside());
-          return std::make_unique<Cylinder>(entries.place("Axis start"),
-                                            entries.place("Axis end"),
-                                            entries.positive_number("Radius"),
-                                            entries.body_inside());
-        }
-    }
   } // namespace
 
   template <int dim>
   void
   SurfaceParameters<dim>::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Surface",
-                      surface,
-                      "Kind of surface.",
-                      Patterns::Selection(kind_names<dim>()));
-    prm.add_parameter("Points",
-                      points,
-                      dim == 2 ?
-                        "Points x, y; x, y; ... of a polyline (length). The "
-                        "body is on the left when walking along them; the "
-                        "first point repeated at the end closes the line." :
-                        "Vertices x, y, z; x, y, z; ... of a plane patch "
-                        "(length), counter-clockwise when seen from outside "
-                        "the body.");
-    prm.add_parameter("Flip",
-                      flip,
-                      "Put the body on the other side of a polyline, plane or "
-                      "plane patch.");
-    prm.add_parameter("Point", point, "A point of a plane (length).");
-    prm.add_parameter("Normal",
-                      normal,
-                      "Normal of a plane, pointing out of the body, of any "
-                      "length.");
-    prm.add_parameter("Radius",
-                      radius,
-                      "Radius of a circle, arc, sphere or cylinder (length).");
-    prm.add_parameter("Body side",
-                      body_side,
-                      "Whether the body is inside or outside of a circle, arc, "
-                      "sphere or cylinder.",
-                      Patterns::Selection("|inside|outside"));
-    prm.add_parameter("Centre",
-                      centre,
-                      "Centre of a circle, arc or sphere (length).");
-    prm.add_parameter("Expression",
-                      expression,
-                      "A function of x, y and z in muParser syntax, zero on "
-                      "the surface and positive on the body's side. It must be "
-                      "a number wherever there are bodies.");
-    prm.add_parameter("Extent lower corner",
-                      lower_corner,
-                      "Lower corner of the box that limits an expression "
-                      "(length). Empty: no limit.");
-    prm.add_parameter("Extent upper corner",
-                      upper_corner,
-                      "Upper corner of the box that limits an expression "
-                      "(length). Empty: no limit.");
+    const auto add = [&](const std::string           &key,
+                         const std::string           &text,
+                         const Patterns::PatternBase &pattern =
+                           Patterns::Anything()) {
+      prm.add_parameter(key, texts[key], text, pattern);
+    };
+    texts["Surface"] = default_kind(dim);
+    texts["Flip"]    = "false";
+    add("Body",
+        "Name of a body: the surface is its rim, and no other key describes it "
+        "but 'Part'.");
+    add("Part",
+        dim == 2 ?
+          "Of 'Body', the part of its rim; all if left out. A box has left, "
+          "right, bottom, top; a polygon its edges, 1 from the first vertex to "
+          "the second and so on; a ring inner, outer; a union, intersection or "
+          "difference the names of its operands." :
+          "Of 'Body', the part of its rim; all if left out. A box has left, "
+          "right, front, back, bottom, top; a polygon its edges, 1 from the "
+          "first vertex to the second and so on, bottom, top; a hollow sphere "
+          "inner, outer; a cylinder side, or inner and outer, and bottom and "
+          "top, where its axis starts and ends; a union, intersection or "
+          "difference the names of its operands.");
+    add("Surface", "Kind of surface.", Patterns::Selection(kind_names<dim>()));
+    add("Points",
+        dim == 2 ?
+          "Points x, y; x, y; ... of a polyline (length). The body is on the "
+          "left when walking along them; the first point repeated at the end "
+          "closes the line." :
+          "Vertices x, y, z; x, y, z; ... of a plane patch (length), "
+          "counter-clockwise when seen from outside the body.",
+        patterns::NumberText());
+    add("Flip",
+        "Put the body on the other side of a polyline, plane or plane patch.",
+        Patterns::Bool());
+    add("Point", "A point of a plane (length).", patterns::NumberText());
+    add("Normal",
+        "Normal of a plane, pointing out of the body, of any length.",
+        patterns::NumberText());
+    add("Radius",
+        "Radius of a circle, arc, sphere or cylinder (length).",
+        patterns::NumberText());
+    add("Body side",
+        "Whether the body is inside or outside of a circle, arc, sphere or "
+        "cylinder.",
+        Patterns::Selection("|inside|outside"));
+    add("Centre",
+        "Centre of a circle, arc or sphere (length).",
+        patterns::NumberText());
+    add("Expression",
+        "A function of x, y and z in muParser syntax, zero on the surface and "
+        "positive on the body's side. It must be a number wherever there are "
+        "bodies.");
+    add("Extent lower corner",
+        "Lower corner of the box that limits an expression (length). Empty: no "
+        "limit.",
+        patterns::NumberText());
+    add("Extent upper corner",
+        "Upper corner of the box that limits an expression (length). Empty: no "
+        "limit.",
+        patterns::NumberText());
     if (dim == 2)
       {
-        prm.add_parameter("Start angle",
-                          start_angle,
-                          "Angle from the x axis where an arc starts "
-                          "(degrees).");
-        prm.add_parameter("End angle",
-                          end_angle,
-                          "Angle where an arc ends, counter-clockwise from its "
-                          "start (degrees).");
+        add("Start angle",
+            "Angle from the x axis where an arc starts (degrees).",
+            patterns::NumberText());
+        add("End angle",
+            "Angle where an arc ends, counter-clockwise from its start "
+            "(degrees).",
+            patterns::NumberText());
       }
     else
       {
-        prm.add_parameter("Axis start",
-                          axis_start,
-                          "Start of the axis of a cylinder (length).");
-        prm.add_parameter("Axis end",
-                          axis_end,
-                          "End of the axis of a cylinder (length).");
+        add("Axis start",
+            "Start of the axis of a cylinder (length).",
+            patterns::NumberText());
+        add("Axis end",
+            "End of the axis of a cylinder (length).",
+            patterns::NumberText());
       }
   }
 
   template <int dim>
-  std::unique_ptr<Surface<dim>>
+  std::shared_ptr<const Surface<dim>>
   make_surface(const SurfaceParameters<dim> &parameters,
+               const NamedShapes<dim>       &bodies,
                const std::string            &section)
   {
-    const Entries<dim> entries(parameters, section);
-    entries.check_keys();
     try
       {
-        return make<dim>(parameters, section, entries);
+        return SurfaceMaker<dim>(parameters, bodies, section).make();
       }
     catch (const InputError &error)
       {
@@ -379,8 +443,12 @@ namespace moraine
 
   template struct SurfaceParameters<2>;
   template struct SurfaceParameters<3>;
-  template std::unique_ptr<Surface<2>>
-  make_surface<2>(const SurfaceParameters<2> &, const std::string &);
-  template std::unique_ptr<Surface<3>>
-  make_surface<3>(const SurfaceParameters<3> &, const std::string &);
+  template std::shared_ptr<const Surface<2>>
+  make_surface<2>(const SurfaceParameters<2> &,
+                  const NamedShapes<2> &,
+                  const std::string &);
+  template std::shared_ptr<const Surface<3>>
+  make_surface<3>(const SurfaceParameters<3> &,
+                  const NamedShapes<3> &,
+                  const std::string &);
 } // namespace moraine

@@ -4,6 +4,7 @@
 #include <moraine/load/load.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/object_error.h>
 #include <moraine/mesh/active_search.h>
 
 #include <deal.II/base/mpi.h>
@@ -55,10 +56,9 @@ namespace moraine
         std::ostringstream message;
         if (!placed)
           {
-            message << "section 'Loads/" << load_name << "': found the place ("
-                    << place.x
+            message << "found the place (" << place.x
                     << "), allowed: places on or in the material of a body";
-            throw InputError(message.str());
+            throw ObjectError("load", load_name, message.str());
           }
         message << "load '" << load_name << "': its place (" << place.x
                 << ") is no longer on any material";
@@ -71,8 +71,9 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedLoad<dim>::move(const GridSpace<dim>              &space,
-                         const std::vector<Tensor<1, dim>> &nodal_increments)
+  CarriedLoad<dim>::prepare_move(
+    const GridSpace<dim>              &space,
+    const std::vector<Tensor<1, dim>> &nodal_increments)
   {
     const unsigned int          n = space.nodes_per_cell();
     std::vector<double>         N(n);
@@ -90,9 +91,79 @@ namespace moraine
             moved[dim * k + d] += N[a] * nodal_increments[nodes[a]][d];
       }
     Utilities::MPI::sum(moved, space.communicator(), moved);
+    next_places = load_places;
     for (unsigned int k = 0; k < load_places.size(); ++k)
       for (unsigned int d = 0; d < dim; ++d)
-        load_places[k].x[d] += moved[dim * k + d];
+        next_places[k].x[d] += moved[dim * k + d];
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::move() noexcept
+  {
+    if (!next_places.empty())
+      std::swap(load_places, next_places);
+    next_places.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::write(Archive &archive) const
+  {
+    std::vector<double> places;
+    for (const Place &place : load_places)
+      for (unsigned int d = 0; d < dim; ++d)
+        places.push_back(place.x[d]);
+    archive.write("loads/" + load_name + "/place", places, dim);
+    archive.write("loads/" + load_name + "/is_placed", placed ? 1u : 0u);
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::read(const Archive &archive)
+  {
+    const std::string name   = "loads/" + load_name + "/place";
+    const auto       &places = archive.numbers(name, dim);
+    if (places.size() != dim * load_places.size())
+      throw InputError("'" + name + "' is not of this load");
+    for (unsigned int k = 0; k < load_places.size(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        load_places[k].x[d] = places[dim * k + d];
+    placed = archive.integer("loads/" + load_name + "/is_placed") != 0;
+    undo();
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::undo()
+  {
+    next_places.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  ForceOnPoints<dim>::write(Archive &archive) const
+  {
+    archive.write("loads/" + load_name + "/points", ids);
+  }
+
+
+
+  template <int dim>
+  void
+  ForceOnPoints<dim>::read(const Archive &archive)
+  {
+    ids = archive.integers("loads/" + load_name + "/points");
   }
 
 
@@ -101,7 +172,7 @@ namespace moraine
   ForceOnPoints<dim>::ForceOnPoints(const std::string         &name,
                                     const VectorFunction<dim> &value,
                                     const Point<dim>          &place)
-    : name(name)
+    : load_name(name)
     , function(value)
     , place(place)
   {}
@@ -121,11 +192,10 @@ namespace moraine
     if (nearest > 2 * points.mesh().cell_size())
       {
         std::ostringstream message;
-        message << "section 'Loads/" << name << "', key 'Location': found ("
-                << place << "), which is " << nearest
+        message << "found (" << place << "), which is " << nearest
                 << " from the nearest point, allowed: a place on or beside a "
                    "body, less than two cells away";
-        throw InputError(message.str());
+        throw ObjectError("force on points", load_name, message.str());
       }
     std::vector<unsigned int> near;
     for (unsigned int p = 0; p < points.n_local(); ++p)

@@ -17,7 +17,8 @@ namespace moraine
 
 
   void
-  LinearElastic::respond(const ArrayView<PrincipalState> &points) const
+  LinearElastic::respond(const StepTime &,
+                         const ArrayView<PrincipalState> &points) const
   {
     Tensor<2, 3> D;
     for (unsigned int A = 0; A < 3; ++A)

@@ -17,7 +17,8 @@ namespace moraine
 
 
   void
-  NeoHookean::respond(const ArrayView<PrincipalState> &points) const
+  NeoHookean::respond(const StepTime &,
+                      const ArrayView<PrincipalState> &points) const
   {
     const auto [lambda, mu] = stiffness;
     for (PrincipalState &point : points)

@@ -97,7 +97,8 @@ namespace moraine
 
 
   void
-  VonMises::respond(const ArrayView<PrincipalState> &points) const
+  VonMises::respond(const StepTime &,
+                    const ArrayView<PrincipalState> &points) const
   {
     const double G = stiffness.mu;
     const double K = stiffness.lambda + 2. / 3. * G;
@@ -109,18 +110,16 @@ namespace moraine
         for (unsigned int A = 0; A < 3; ++A)
           s[A] = 2 * G * (point.strain[A] - volumetric / 3);
 
+        double      &kappa        = point.internal[0];
         const double trial_radius = s.norm();
         double       theta = 1, along_flow = 1;
         Tensor<1, 3> n;
-        if (!(trial_radius <=
-              (1 + yield_tolerance) * yield_radius(point.plastic_strain)))
+        if (!(trial_radius <= (1 + yield_tolerance) * yield_radius(kappa)))
           {
-            const auto segment =
-              find_return(trial_radius, point.plastic_strain);
+            const auto segment = find_return(trial_radius, kappa);
             // nan if there is no return, and so all that follows.
             const double radius =
-              segment->radius +
-              segment->slope * (point.plastic_strain - segment->kappa);
+              segment->radius + segment->slope * (kappa - segment->kappa);
             const double H = std::sqrt(1.5) * segment->slope;
             n              = s / trial_radius;
             theta          = radius / trial_radius;

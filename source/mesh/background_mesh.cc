@@ -12,7 +12,9 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <functional>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 
 namespace moraine
@@ -43,6 +45,9 @@ namespace moraine
       }
 
     const auto n = parameters.n_cells();
+    require_memory_for_cells<dim>(
+      std::accumulate(n.begin(), n.end(), 1., std::multiplies<double>()),
+      place("Mesh", parameters.cells.empty() ? "Cell size" : "Cells"));
     GridGenerator::subdivided_hyper_rectangle(
       tria,
       std::vector<unsigned int>(n.begin(), n.end()),

@@ -4,13 +4,19 @@
 #include <moraine/mesh/make_mesh.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/memory.h>
 #include <moraine/core/nearest.h>
 #include <moraine/mesh/cell_map.h>
+#include <moraine/mesh/joined_cells.h>
 #include <moraine/mesh/msh_file.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -25,7 +31,9 @@ namespace moraine
     {
       std::string name;
       std::string arguments;
-      bool        only_3d = false;
+      /** Which arguments are numbers of cells, from 0. */
+      std::vector<unsigned int> counts  = {};
+      bool                      only_3d = false;
     };
 
 
@@ -39,46 +47,57 @@ namespace moraine
         "colorize";
       static const std::vector<Generator> generators{
         {"channel_with_cylinder",
-         "width of the shell : number of shells : skewness : colorize"},
-        {"cheese", "numbers of holes"},
+         "width of the shell : number of shells : skewness : colorize",
+         {1}},
+        {"cheese", "numbers of holes", {0}},
         {"concentric_hyper_shells",
          "centre : inner radius : outer radius : number of shells : skewness "
-         "(0: equal) : cells per shell (0: a few) : colorize"},
+         "(0: equal) : cells per shell (0: a few) : colorize",
+         {3, 5}},
         {"cylinder", "radius : half length"},
         {"cylinder_shell",
          "length : inner radius : outer radius : radial cells : axial cells",
+         {3, 4},
          true},
         {"eccentric_hyper_shell",
          "inner centre : outer centre : inner radius : outer radius : number "
-         "of cells"},
+         "of cells",
+         {4}},
         {"enclosed_hyper_cube", "left : right : thickness : colorize"},
         {"general_cell", "vertices separated by ';' : colorize"},
         {"half_hyper_ball", "centre : radius"},
-        {"half_hyper_shell", shell},
+        {"half_hyper_shell", shell, {3}},
         {"hyper_L", "left : right : colorize"},
         {"hyper_ball", "centre : radius : spherical manifold"},
         {"hyper_ball_balanced", "centre : radius"},
-        {"hyper_cross", "sizes : colorize"},
+        {"hyper_cross", "sizes : colorize", {0}},
         {"hyper_cube", "left : right : colorize"},
         {"hyper_cube_slit", "left : right : colorize"},
         {"hyper_cube_with_cylindrical_hole",
-         "inner radius : half of the edge : length : layers : colorize"},
+         "inner radius : half of the edge : length : layers : colorize",
+         {3}},
         {"hyper_rectangle", "corner : opposite corner : colorize"},
-        {"hyper_shell", shell},
+        {"hyper_shell", shell, {3}},
         {"plate_with_a_hole",
          "inner radius : outer radius : padding at the bottom : at the top : "
          "left : right : centre : manifold id : manifold id : length : slices "
-         ": colorize"},
+         ": colorize",
+         {10}},
         {"quarter_hyper_ball", "centre : radius"},
-        {"quarter_hyper_shell", shell},
+        {"quarter_hyper_shell", shell, {3}},
         {"simplex", "vertices separated by ';'"},
-        {"subdivided_cylinder", "axial cells : radius : half length", true},
-        {"subdivided_hyper_cube", "cells : left : right : colorize"},
+        {"subdivided_cylinder",
+         "axial cells : radius : half length",
+         {0},
+         true},
+        {"subdivided_hyper_cube", "cells : left : right : colorize", {0}},
         {"subdivided_hyper_rectangle",
-         "cells per direction : corner : opposite corner : colorize"},
+         "cells per direction : corner : opposite corner : colorize",
+         {0}},
         {"torus",
          "radius of the ring : radius of the tube : cells along the ring : "
          "angle",
+         {2},
          true},
         {"truncated_cone", "radius : other radius : half length"}};
       return generators;
@@ -105,6 +124,42 @@ namespace moraine
 
 
 
+    /**
+     * Numbers of cells are whole, not negative and not so many that the cells
+     * fit nowhere; generators look at none of this.
+     */
+    template <int dim>
+    void
+    check_counts(const MeshSource  &source,
+                 const Generator   &generator,
+                 const std::string &allowed)
+    {
+      const auto arguments =
+        Utilities::split_string_list(source.arguments, ':');
+      double n_cells = 1;
+      for (const unsigned int i : generator.counts)
+        if (i < arguments.size())
+          for (const std::string &count :
+               Utilities::split_string_list(arguments[i], ','))
+            {
+              if (count.empty() || count[0] == '-' || count.size() > 9)
+                reject("Mesh",
+                       "Arguments",
+                       source.arguments,
+                       allowed + "; '" + count +
+                         "' is a number of cells: whole, from 0 to 999999999");
+              const double n = std::max(1., std::atof(count.c_str()));
+              // The arms of a cross do not multiply.
+              n_cells = generator.name == "hyper_cross" ? n_cells + n :
+                        generator.name == "subdivided_hyper_cube" ?
+                                                          std::pow(n, dim) :
+                                                          n_cells * n;
+            }
+      require_memory_for_cells<dim>(n_cells, place("Mesh", "Arguments"));
+    }
+
+
+
     template <int dim>
     void
     generate(const MeshSource &source, Triangulation<dim> &cells)
@@ -125,6 +180,7 @@ namespace moraine
                          suggest(source.generator, names));
       const std::string allowed =
         "arguments of " + generator->name + ": " + generator->arguments;
+      check_counts<dim>(source, *generator, allowed);
       // A generator built with assertions would end the program.
       struct ThrowInsteadOfAbort
       {
@@ -210,6 +266,49 @@ namespace moraine
 
 
 
+    [[noreturn]] void
+    refuse_cells(const MeshSource &source, const std::string &what)
+    {
+      const bool is_file = source.type == "file";
+      throw InputError(
+        place("Mesh", is_file ? "File" : "Arguments") + ": found '" +
+        (is_file ? source.file : source.arguments) + "' with " + what);
+    }
+
+
+
+    /**
+     * Join cells of generators that touch with vertices of their own. Those of
+     * files are refused, but where a physical id says that a slit is meant.
+     */
+    template <int dim>
+    void
+    close_cracks(const MeshSource &source, Triangulation<dim> &cells)
+    {
+      const auto pairs = coincident_vertices(cells);
+      if (source.type == "generator")
+        {
+          if (!pairs.empty() && source.generator != "hyper_cube_slit")
+            join_cells(pairs, cells);
+          return;
+        }
+      const std::string allowed =
+        std::string(", allowed: cells with common vertices, or, for a slit or "
+                    "bodies apart, physical ") +
+        (dim == 2 ? "curves" : "surfaces") + " with the faces that touch";
+      std::ostringstream what;
+      if (const auto x = find_torn_face(pairs, cells))
+        what << "cells that touch at (" << *x << ") and are not joined, "
+             << pairs.size() << " vertices being there twice" << allowed;
+      else if (const auto x = find_unmatched_vertex(cells))
+        what << "a vertex at (" << *x << ") that lies on a face of another cell"
+             << allowed;
+      if (!what.str().empty())
+        refuse_cells(source, what.str());
+    }
+
+
+
     /** The cells of @p rough on one level and without manifolds. */
     template <int dim>
     void
@@ -235,15 +334,16 @@ namespace moraine
         find_inverted_cell<dim>(rough, rough.get_vertices());
       if (inverted)
         {
-          const bool         is_file = source.type == "file";
-          std::ostringstream message;
-          message << place("Mesh", is_file ? "File" : "Arguments")
-                  << ": found '" << (is_file ? source.file : source.arguments)
-                  << "' with a cell at (" << *inverted
-                  << ") that is flat or turned inside out at a corner, allowed:"
-                     " convex cells";
-          throw InputError(message.str());
+          std::ostringstream what;
+          what << "a cell at (" << *inverted
+               << ") that is flat or turned inside out at a corner, allowed: "
+                  "convex cells";
+          refuse_cells(source, what.str());
         }
+      close_cracks(source, rough);
+      require_memory_for_cells<dim>(rough.n_active_cells() *
+                                      std::pow(2., dim * source.refinements),
+                                    place("Mesh", "Refinements"));
       rough.refine_global(source.refinements);
       flatten(rough, cells);
     }
@@ -260,6 +360,25 @@ namespace moraine
           ids.insert(face->boundary_id());
       return ids;
     }
+
+
+
+    /** What gmsh calls the boundary; bottom and top are of the extrusion. */
+    template <int dim>
+    std::vector<std::pair<std::string, types::boundary_id>>
+    names_in_file(const MeshParameters<dim> &parameters)
+    {
+      std::vector<std::pair<std::string, types::boundary_id>> names;
+      const bool is_extruded = parameters.extrusion_layers > 0;
+      if (parameters.type != "file")
+        return names;
+      std::ifstream in(parameters.file);
+      for (const auto &[name, number] :
+           physical_names_of_msh(in, is_extruded ? 1 : dim - 1))
+        if (!is_extruded || (name != "bottom" && name != "top"))
+          names.emplace_back(name, number);
+      return names;
+    }
   } // namespace
 
 
@@ -273,7 +392,7 @@ namespace moraine
     const auto name_sides = [&](const std::set<types::boundary_id> &ids) {
       return read_side_names(parameters.side_names,
                              ids,
-                             parameters.type == "file");
+                             names_in_file(parameters));
     };
     if constexpr (dim == 3)
       if (parameters.extrusion_layers > 0)
@@ -289,6 +408,9 @@ namespace moraine
                      side.first,
                      "other names; bottom and top are those of the extrusion");
           Triangulation<3> extruded;
+          require_memory_for_cells<3>(1. * plane.n_active_cells() *
+                                        parameters.extrusion_layers,
+                                      place("Mesh", "Extrusion layers"));
           GridGenerator::extrude_triangulation(plane,
                                                parameters.extrusion_layers + 1,
                                                parameters.extrusion_height,
@@ -301,6 +423,21 @@ namespace moraine
         }
     make_cells<dim>(parameters, triangulation);
     return name_sides(ids_of_boundary(triangulation));
+  }
+
+
+
+  template <int dim>
+  void
+  require_memory_for_cells(const double n, const std::string &where)
+  {
+    // The triangulation and numbers of nodes alone, every rank having all.
+    const double bytes_per_cell =
+      (dim == 2 ? 500. : 1500.) *
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    std::ostringstream what;
+    what << where << ": found " << n << " cells";
+    require_memory(n * bytes_per_cell, what.str());
   }
 
 
@@ -332,10 +469,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                    \
-  template MeshSides                 make_mesh(const MeshParameters<dim> &, \
-                                               Triangulation<dim> &);       \
-  template std::optional<Point<dim>> find_inverted_cell(                    \
+#define INSTANTIATE(dim)                                                                 \
+  template MeshSides                 make_mesh(const MeshParameters<dim> &,              \
+                                               Triangulation<dim> &);                    \
+  template void                      require_memory_for_cells<dim>(const double,         \
+                                              const std::string &); \
+  template std::optional<Point<dim>> find_inverted_cell(                                 \
     const Triangulation<dim> &, const std::vector<Point<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -51,7 +51,8 @@ namespace moraine
                       arguments,
                       "Of a generator: all its arguments, separated by ':', as "
                       "0, 0 : 5 : 10 : 18 : true. Sides have different numbers "
-                      "only if the argument 'colorize' is true.");
+                      "only if the argument 'colorize' is true.",
+                      patterns::NumberText());
     prm.add_parameter("File",
                       file,
                       "Of a file: quadrilaterals or hexahedra in format 2 or 4 "
@@ -67,8 +68,9 @@ namespace moraine
                       side_names,
                       "Of a generator or a file: names for keys 'Side', as "
                       "hole: 1, outer: 2. The numbers are boundary ids of the "
-                      "generator, physical curves or surfaces of gmsh. A side "
-                      "without a name is called by its number.");
+                      "generator, physical curves or surfaces of gmsh; names "
+                      "of gmsh's own physical groups need not be repeated. A "
+                      "side without a name here is called by its number.");
     if (dim == 3)
       {
         prm.add_parameter("Extrusion layers",

@@ -64,9 +64,10 @@ namespace moraine
 
 
   MeshSides
-  read_side_names(const std::string                  &text,
-                  const std::set<types::boundary_id> &found,
-                  const bool                          all_need_names)
+  read_side_names(
+    const std::string                                             &text,
+    const std::set<types::boundary_id>                            &found,
+    const std::vector<std::pair<std::string, types::boundary_id>> &of_mesh)
   {
     MeshSides sides;
     sides.unnamed = found;
@@ -93,16 +94,14 @@ namespace moraine
         sides.names.emplace_back(parts[0], id);
         sides.unnamed.erase(id);
       }
-    std::set<types::boundary_id> missing = sides.unnamed;
-    missing.erase(0);
-    if (all_need_names && !sides.names.empty() && !missing.empty())
-      reject("Mesh",
-             key_text,
-             text,
-             "a name for every physical id on the boundary of the mesh; add '" +
-               std::string("name: ") + std::to_string(*missing.begin()) +
-               "' (ids without a name here: " + list_of_ids(missing) +
-               "), or leave the key out and use numbers in keys 'Side'");
+    for (const auto &[name, id] : of_mesh)
+      if (sides.unnamed.count(id) > 0 &&
+          std::none_of(sides.names.begin(),
+                       sides.names.end(),
+                       [&name = name](const auto &side) {
+                         return side.first == name;
+                       }))
+        sides.names.emplace_back(name, id);
     return sides;
   }
 } // namespace moraine

@@ -197,4 +197,29 @@ namespace moraine
   {
     return MshFile(in).complaint();
   }
+
+
+
+  std::vector<std::pair<std::string, unsigned int>>
+  physical_names_of_msh(std::istream &in, const unsigned int dimension)
+  {
+    std::vector<std::pair<std::string, unsigned int>> names;
+    std::string                                       word;
+    while (in >> word && word != "$PhysicalNames")
+      {}
+    std::size_t n = 0;
+    in >> n;
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        unsigned int group_dimension, number;
+        std::string  name;
+        if (!(in >> group_dimension >> number) ||
+            !std::getline(in >> std::ws, name))
+          break;
+        const auto first = name.find('"'), last = name.rfind('"');
+        if (group_dimension == dimension && first < last)
+          names.emplace_back(name.substr(first + 1, last - first - 1), number);
+      }
+    return names;
+  }
 } // namespace moraine

@@ -120,21 +120,18 @@ namespace moraine
     public:
       explicit InitialVolume(const PointSet<dim> &points)
         : points(points)
-      {
-        for (const auto &field : points.fields().fields())
-          if (field.name == "initial_volume")
-            offset = field.offset;
-      }
+        , field(points.fields().find(FieldNames<dim>::initial_volume))
+      {}
 
       double
       of(const unsigned int p) const
       {
-        return offset ? points.values(p)[*offset] : points.volume(p);
+        return field.exists() ? field(points.values(p)) : points.volume(p);
       }
 
     private:
-      const PointSet<dim>        &points;
-      std::optional<unsigned int> offset;
+      const PointSet<dim>          &points;
+      const PointField<dim, double> field;
     };
 
     template <int dim>
@@ -145,8 +142,7 @@ namespace moraine
     {
       Point<dim> start = points.position(p);
       if (points_moved)
-        for (unsigned int c = 0; c < dim; ++c)
-          start[c] -= points.values(p)[points.displacement_offset() + c];
+        start -= points.displacement_field()(points.values(p));
       return start;
     }
 
@@ -165,10 +161,8 @@ namespace moraine
         {
           const Tensor<1, dim> u_exact =
             exact.displacement(start_of(points, p, points_moved), time);
-          Tensor<1, dim> error;
-          for (unsigned int c = 0; c < dim; ++c)
-            error[c] =
-              points.values(p)[points.displacement_offset() + c] - u_exact[c];
+          const Tensor<1, dim> error =
+            points.displacement_field()(points.values(p)) - u_exact;
           sample.add(v_0.of(p), u_exact.norm(), error.norm());
         }
 

@@ -8,7 +8,9 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <iomanip>
+#include <sstream>
 
 namespace moraine
 {
@@ -50,29 +52,68 @@ namespace moraine
     AssertThrow(titles == columns,
                 dealii::ExcMessage("the columns of " + path + " changed"));
 
+    std::vector<double> row_values;
+    for (const NamedValue &value : row)
+      row_values.push_back(value.value);
+    write_rows(row_values, first);
+    values.insert(values.end(), row_values.begin(), row_values.end());
+  }
+
+
+
+  void
+  History::write_rows(const std::vector<double> &rows, const bool first)
+  {
     on_root(communicator, [&]() {
       if (first)
         {
+          file.close();
           file.open(path);
-          for (unsigned int i = 0; i < titles.size(); ++i)
-            file << (i > 0 ? "," : "") << titles[i];
+          for (unsigned int i = 0; i < columns.size(); ++i)
+            file << (i > 0 ? "," : "") << columns[i];
           file << '\n';
         }
-      write_row(row);
+      file << std::setprecision(15);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        file << (i % columns.size() > 0 ? "," : "") << rows[i]
+             << ((i + 1) % columns.size() == 0 ? "\n" : "");
+      file << std::flush;
+      if (!file)
+        throw InputError("cannot write the file " + path +
+                         ": is the folder there, is the disk full?");
     });
   }
 
 
 
   void
-  History::write_row(const std::vector<NamedValue> &row)
+  History::write(Archive &archive) const
   {
-    file << std::setprecision(15);
-    for (unsigned int i = 0; i < row.size(); ++i)
-      file << (i > 0 ? "," : "") << row[i].value;
-    file << '\n' << std::flush;
-    if (!file)
-      throw InputError("cannot write the file " + path +
-                       ": is the folder there, is the disk full?");
+    std::string titles;
+    for (const std::string &column : columns)
+      titles += column + "\n";
+    archive.write_text("output/history/columns", titles);
+    archive.write("output/history/rows",
+                  values,
+                  std::max<unsigned int>(1, columns.size()));
+  }
+
+
+
+  void
+  History::read(const Archive &archive)
+  {
+    std::istringstream       titles(archive.text("output/history/columns"));
+    std::vector<std::string> read_columns;
+    for (std::string title; std::getline(titles, title);)
+      read_columns.push_back(title);
+    const auto &read_values =
+      archive.numbers("output/history/rows",
+                      std::max<unsigned int>(1, read_columns.size()));
+    if (read_columns == columns && read_values == values)
+      return;
+    columns = read_columns;
+    values  = read_values;
+    write_rows(values, true);
   }
 } // namespace moraine

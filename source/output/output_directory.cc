@@ -7,6 +7,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/output/on_root.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -21,11 +22,13 @@ namespace moraine
 
   namespace
   {
-    constexpr const char *file_names[]   = {"history.csv",
-                                            "summary.json",
+    /** What a run has from its first step on. */
+    constexpr const char *result_names[] = {"history.csv",
                                             "points.pvd",
                                             "mesh.pvd",
-                                            "domains.pvd",
+                                            "domains.pvd"};
+    /** What a run has that fails before. */
+    constexpr const char *other_names[]  = {"summary.json",
                                             "log.txt",
                                             "parameters.prm",
                                             "original.prm"};
@@ -42,12 +45,12 @@ namespace moraine
              });
     }
 
-    /** Files in @p folder that a run has written. */
+    /** Results in @p folder that a run has written. */
     std::vector<fs::path>
     results_in(const fs::path &folder)
     {
       std::vector<fs::path> results;
-      for (const char *name : file_names)
+      for (const char *name : result_names)
         if (fs::exists(folder / name))
           results.push_back(folder / name);
       for (const char *series : series_names)
@@ -90,6 +93,8 @@ namespace moraine
       check_writable(folder);
       for (const fs::path &file : results)
         fs::remove(file);
+      for (const char *name : other_names)
+        fs::remove(folder / name);
     }
   } // namespace
 
@@ -113,6 +118,17 @@ namespace moraine
                            "; choose another one with --output");
         }
     });
+  }
+
+
+
+  bool
+  OutputDirectory::holds_results(const std::string &path,
+                                 const MPI_Comm    &communicator)
+  {
+    bool found = false;
+    on_root(communicator, [&]() { found = !results_in(path).empty(); });
+    return dealii::Utilities::MPI::broadcast(communicator, found);
   }
 
 
@@ -144,7 +160,10 @@ namespace moraine
       original.stream() << original_text;
       original.commit();
       AtomicFile parameters(file("parameters.prm"));
-      prm.print_parameters(parameters.stream(), dealii::ParameterHandler::Text);
+      // Bodies and boundaries keep their order, which their results show.
+      prm.print_parameters(parameters.stream(),
+                           dealii::ParameterHandler::Text |
+                             dealii::ParameterHandler::KeepDeclarationOrder);
       parameters.commit();
     });
   }

@@ -26,28 +26,6 @@ namespace moraine
         return {{0, 3, 4, 3, 1, 5, 4, 5, 2}};
     }
 
-    enum class Kind
-    {
-      scalars,
-      vector,
-      tensor,
-      gradient
-    };
-
-    template <int dim>
-    Kind
-    kind_of(const PointFields::Field &field)
-    {
-      if (field.n_components == dim)
-        return Kind::vector;
-      // In 2D it has as many numbers as a stress.
-      if (field.name == "deformation_gradient")
-        return Kind::gradient;
-      if (field.n_components == n_stress_components<dim>)
-        return Kind::tensor;
-      return Kind::scalars;
-    }
-
     template <int dim>
     double
     mean_stress(const double *sigma)
@@ -76,21 +54,17 @@ namespace moraine
   declare_point_rows(const PointFields &fields, VtuFile<patch_dim, dim> &file)
   {
     for (const auto &field : fields.fields())
-      switch (kind_of<dim>(field))
+      switch (field.kind)
         {
-          case Kind::vector:
+          case FieldKind::vector:
             file.add_vector(field.name, field.unit);
             break;
-          case Kind::tensor:
-          case Kind::gradient:
+          case FieldKind::symmetric_tensor:
+          case FieldKind::tensor:
             file.add_tensor(field.name, field.unit);
             break;
-          case Kind::scalars:
-            for (unsigned int c = 0; c < field.n_components; ++c)
-              file.add_scalar(field.n_components == 1 ?
-                                field.name :
-                                field.name + "_" + std::to_string(c),
-                              field.unit);
+          case FieldKind::number:
+            file.add_scalar(field.name, field.unit);
         }
     file.add_scalar("id", "-");
     file.add_scalar("von_mises_stress", "stress");
@@ -109,11 +83,10 @@ namespace moraine
     for (const auto &field : points.fields().fields())
       {
         const double *field_values = values + field.offset;
-        const Kind    kind         = kind_of<dim>(field);
-        if (kind == Kind::tensor)
+        if (field.kind == FieldKind::symmetric_tensor)
           for (const unsigned int c : tensor_components<dim>())
             rows.push_back(c < field.n_components ? field_values[c] : 0.);
-        else if (kind == Kind::gradient)
+        else if (field.kind == FieldKind::tensor)
           for (unsigned int i = 0; i < 3; ++i)
             for (unsigned int j = 0; j < 3; ++j)
               rows.push_back(i < dim && j < dim ? field_values[i * dim + j] :

@@ -32,7 +32,8 @@ namespace moraine
       kind,
       "'nearest point' follows the material point nearest to the location; "
       "'interpolated' follows the place itself, which the displacement of the "
-      "mesh carries along.",
+      "mesh carries along (out of the cells with material: the point nearest to "
+      "it there; the run says so).",
       patterns::selection({"nearest point", "interpolated"}));
     prm.add_parameter("Quantities",
                       quantities,
@@ -73,7 +74,7 @@ namespace moraine
   bool
   Probes<dim>::Probe::follows_point() const
   {
-    return parameters.kind == "nearest point";
+    return parameters.kind == "nearest point" || has_left;
   }
 
 
@@ -94,7 +95,7 @@ namespace moraine
                   one.location.end(),
                   probe.start.begin_raw());
         if (probe.follows_point())
-          choose_point(probe, points);
+          choose_point(probe.start, points, probe);
         probes.push_back(std::move(probe));
       }
   }
@@ -103,14 +104,16 @@ namespace moraine
 
   template <int dim>
   void
-  Probes<dim>::choose_point(Probe &probe, const PointSet<dim> &points) const
+  Probes<dim>::choose_point(const Point<dim>    &place,
+                            const PointSet<dim> &points,
+                            Probe               &probe) const
   {
     const auto &tria         = points.mesh().triangulation();
     const auto  communicator = tria.get_communicator();
 
     double smallest = std::numeric_limits<double>::max();
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      smallest = std::min(smallest, points.position(p).distance(probe.start));
+      smallest = std::min(smallest, points.position(p).distance(place));
     smallest = Utilities::MPI::min(smallest, communicator);
 
     probe.distance = smallest;
@@ -118,9 +121,26 @@ namespace moraine
     const double limit = smallest + 1e-10 * cell_size;
     unsigned int id    = numbers::invalid_unsigned_int;
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.position(p).distance(probe.start) <= limit)
+      if (points.position(p).distance(place) <= limit)
         id = std::min(id, points.id(p));
     probe.point_id = Utilities::MPI::min(id, communicator);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Probes<dim>::displacement_of(const unsigned int   id,
+                               const PointSet<dim> &points) const
+  {
+    Tensor<1, dim> u;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (points.id(p) == id)
+        std::copy_n(points.values(p) + points.displacement_offset(),
+                    dim,
+                    u.begin_raw());
+    return Utilities::MPI::sum(
+      u, points.mesh().triangulation().get_communicator());
   }
 
 
@@ -153,18 +173,20 @@ namespace moraine
 
   template <int dim>
   void
-  Probes<dim>::try_step(const PlaceFunction<dim> &step_increment)
+  Probes<dim>::try_step(const PlaceFunction<dim> &step_increment,
+                        const PointSet<dim>      &points)
   {
     for (Probe &probe : probes)
       if (!probe.follows_point())
         {
-          // A place that has left the mesh does not come back.
           const Point<dim> where =
             moves_through_mesh ? probe.start + probe.displacement : probe.start;
-          if (std::isnan(probe.displacement[0]) ||
-              !step_increment(where, probe.increment))
-            for (unsigned int c = 0; c < dim; ++c)
-              probe.increment[c] = std::numeric_limits<double>::quiet_NaN();
+          probe.leaves_cells = !step_increment(where, probe.increment);
+          if (!probe.leaves_cells)
+            continue;
+          choose_point(where, points, probe);
+          probe.ahead =
+            probe.displacement - displacement_of(probe.point_id, points);
         }
   }
 
@@ -174,11 +196,20 @@ namespace moraine
   void
   Probes<dim>::keep_step()
   {
+    sentences.clear();
     for (Probe &probe : probes)
-      {
+      if (probe.leaves_cells)
+        {
+          probe.leaves_cells = false;
+          probe.has_left     = true;
+          sentences.push_back(
+            "probe '" + probe.parameters.name +
+            "' has left the cells with material; from here on it follows the "
+            "point nearest to it, " +
+            std::to_string(probe.point_id));
+        }
+      else if (!probe.follows_point())
         probe.displacement += probe.increment;
-        probe.increment = 0;
-      }
   }
 
 
@@ -236,11 +267,14 @@ namespace moraine
         const Probe        &probe = probes[i];
         const std::string   at    = " at " + probe.parameters.name;
         std::vector<double> values(of_points[i]);
-        if (!probe.follows_point())
+        if (probe.parameters.kind == "interpolated")
           for (unsigned int c = 0; c < dim; ++c)
             {
-              values[c]       = probe.start[c] + probe.displacement[c];
-              values[dim + c] = probe.displacement[c];
+              const double u  = probe.has_left ?
+                                  values[dim + c] + probe.ahead[c] :
+                                  probe.displacement[c];
+              values[c]       = probe.start[c] + u;
+              values[dim + c] = u;
             }
         for (const std::string &quantity : probe.parameters.quantities)
           if (quantity == "position")
@@ -257,6 +291,44 @@ namespace moraine
                                  values[2 * dim + c]});
       }
     return columns;
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::write(Archive &archive) const
+  {
+    std::vector<unsigned int> ids;
+    std::vector<double>       displacements;
+    for (const Probe &probe : probes)
+      {
+        ids.push_back(probe.point_id);
+        displacements.insert(displacements.end(),
+                             probe.displacement.begin_raw(),
+                             probe.displacement.end_raw());
+      }
+    archive.write("probes/point", std::move(ids));
+    archive.write("probes/displacement", std::move(displacements), dim);
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::read(const Archive &archive)
+  {
+    const auto &ids           = archive.integers("probes/point");
+    const auto &displacements = archive.numbers("probes/displacement", dim);
+    AssertThrow(ids.size() == probes.size(),
+                ExcMessage("The archive is of other probes."));
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      {
+        probes[i].point_id = ids[i];
+        std::copy_n(displacements.begin() + i * dim,
+                    dim,
+                    probes[i].displacement.begin_raw());
+      }
   }
 
 

@@ -8,6 +8,9 @@
 
 #include <deal.II/base/data_out_base.h>
 
+#include <filesystem>
+#include <sstream>
+
 namespace moraine
 {
   PvdHistory::PvdHistory(const std::string &path, const MPI_Comm &communicator)
@@ -20,11 +23,60 @@ namespace moraine
   void
   PvdHistory::add(const double time, const std::string &file)
   {
-    times_and_names.emplace_back(time, file);
+    auto entries = times_and_names;
+    entries.emplace_back(time, file);
+    write_file(entries);
+    times_and_names = std::move(entries);
+  }
+
+
+
+  void
+  PvdHistory::write_file(
+    const std::vector<std::pair<double, std::string>> &entries) const
+  {
     on_root(communicator, [&]() {
       AtomicFile out(path);
-      dealii::DataOutBase::write_pvd_record(out.stream(), times_and_names);
+      dealii::DataOutBase::write_pvd_record(out.stream(), entries);
       out.commit();
     });
+  }
+
+
+
+  void
+  PvdHistory::write(Archive &archive) const
+  {
+    std::vector<double> times;
+    std::string         names;
+    for (const auto &[time, name] : times_and_names)
+      {
+        times.push_back(time);
+        names += name + "\n";
+      }
+    const std::string group =
+      "output/" + std::filesystem::path(path).filename().string();
+    archive.write(group + "/time", std::move(times));
+    archive.write_text(group + "/file", names);
+  }
+
+
+
+  void
+  PvdHistory::read(const Archive &archive)
+  {
+    const std::string group =
+      "output/" + std::filesystem::path(path).filename().string();
+    std::istringstream names(archive.text(group + "/file"));
+    std::vector<std::pair<double, std::string>> entries;
+    for (const double time : archive.numbers(group + "/time"))
+      {
+        entries.emplace_back(time, "");
+        std::getline(names, entries.back().second);
+      }
+    if (entries == times_and_names)
+      return;
+    write_file(entries);
+    times_and_names = std::move(entries);
   }
 } // namespace moraine

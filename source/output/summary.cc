@@ -33,10 +33,10 @@ namespace moraine
       json["version"]           = summary.version;
       json["dimension"]         = summary.dimension;
       json["ranks"]             = summary.ranks;
-      json["cells"]             = summary.cells;
-      json["active_cells"]      = summary.active_cells;
-      json["unknowns"]          = summary.unknowns;
-      json["points"]            = summary.points;
+      json["cells"]             = summary.sizes.cells;
+      json["active_cells"]      = summary.sizes.active_cells;
+      json["unknowns"]          = summary.sizes.unknowns;
+      json["points"]            = summary.sizes.points;
       json["steps"]             = summary.steps;
       json["rejected_steps"]    = summary.rejected_steps;
       json["jumps"]             = summary.jumps;
@@ -44,11 +44,14 @@ namespace moraine
       json["linear_iterations"] = summary.linear_iterations;
       if (summary.condition_number)
         json["condition_number"] = *summary.condition_number;
-      json["bytes_per_point"] = summary.bytes_per_point;
+      json["bytes_per_point"] = summary.sizes.bytes_per_point;
       json["peak_memory_mib"] = summary.peak_memory_mib;
       json["wall_seconds"]    = summary.wall_seconds;
       json["timings"]         = object_of(summary.timings);
       json["effects"]         = summary.effects;
+      json["linear_solvers"]  = summary.linear_solvers;
+      if (!summary.warnings.empty())
+        json["warnings"] = summary.warnings;
       if (!summary.errors.empty())
         {
           Summary::List<Json> errors;

@@ -4,11 +4,13 @@
 #include <moraine/output/vtu_file.h>
 
 #include <moraine/core/atomic_file.h>
+#include <moraine/output/component_names.h>
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <memory>
+#include <set>
 #include <sstream>
 
 namespace moraine
@@ -54,6 +56,40 @@ namespace moraine
                    MPI_STATUS_IGNORE);
           *out << received;
         }
+    }
+
+
+
+    /**
+     * Give an array that deal.II has written what VTK's readers look for: names
+     * of the components of a tensor, and the unit as VTK's own key (deal.II's
+     * attribute "units" is not read by VTK). Each rank wrote every array once.
+     */
+    void
+    annotate(std::string       &text,
+             const std::string &name,
+             const std::string &unit)
+    {
+      const std::string head  = "Name=\"" + name + "\" ";
+      const auto        begin = text.find(head);
+      if (begin == std::string::npos)
+        return;
+      const std::string tensor = "NumberOfComponents=\"9\" ";
+      const auto        after  = begin + head.size();
+      if (text.compare(after, tensor.size(), tensor) == 0)
+        {
+          std::string components;
+          for (unsigned int c = 0; c < 9; ++c)
+            components += "ComponentName" + std::to_string(c) + "=\"" +
+                          direction_name(c / 3) + direction_name(c % 3) + "\" ";
+          text.insert(after + tensor.size(), components);
+        }
+      if (!unit.empty())
+        // VTK's readers take what comes first for the values.
+        text.insert(text.find("</DataArray>", after),
+                    "<InformationKey name=\"UNITS_LABEL\" "
+                    "location=\"vtkDataArray\">" +
+                      unit + "</InformationKey>\n");
     }
   } // namespace
 
@@ -122,17 +158,24 @@ namespace moraine
     const DataOutBase::VtkFlags flags(
       time, step, false, DataOutBase::VtkFlags::best_speed, false, units);
     // For a rank without patches deal.II declares tensors of 3 components.
-    std::ostringstream text;
+    std::string text;
     if (!patches.empty())
-      DataOutBase::write_vtu_main(
-        patches, names, get_nonscalar_data_ranges(), flags, text);
+      {
+        std::ostringstream out;
+        DataOutBase::write_vtu_main(
+          patches, names, get_nonscalar_data_ranges(), flags, out);
+        text = out.str();
+        for (const std::string &name :
+             std::set<std::string>(names.begin(), names.end()))
+          annotate(text, name, units.count(name) > 0 ? units.at(name) : "");
+      }
 
     std::unique_ptr<AtomicFile> file;
     on_root(communicator, [&]() {
       file = std::make_unique<AtomicFile>(path);
       DataOutBase::write_vtu_header(file->stream(), flags);
     });
-    collect(text.str(), file ? &file->stream() : nullptr, communicator);
+    collect(text, file ? &file->stream() : nullptr, communicator);
     on_root(communicator, [&]() {
       // deal.II takes a stream that failed for a mistake of ours.
       if (file->stream())

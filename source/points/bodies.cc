@@ -4,12 +4,16 @@
 #include <moraine/points/bodies.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/memory.h>
+#include <moraine/core/object_error.h>
 #include <moraine/geometry/combined_shapes.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <set>
+#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -75,8 +79,8 @@ namespace moraine
                                    vertices) > 1e-10 * cell->measure())
               {
                 std::ostringstream message;
-                message << "section 'Bodies': '" << bodies[other].name
-                        << "' and '" << bodies[b].name << "' overlap near ("
+                message << "'" << bodies[other].name << "' and '"
+                        << bodies[b].name << "' overlap near ("
                         << cell->center()
                         << "), allowed: bodies that share no volume";
                 overlap = message.str();
@@ -118,7 +122,7 @@ namespace moraine
            Utilities::MPI::all_gather(triangulation.get_communicator(),
                                       overlap))
         if (!message.empty())
-          throw InputError(message);
+          throw ObjectError("bodies", "", message);
     }
 
 
@@ -158,6 +162,25 @@ namespace moraine
 
 
 
+    /** Values of the columns of a list, whose ids begin at @p first_id. */
+    template <int dim>
+    void
+    fill_columns(const PointList<dim> &list,
+                 const unsigned int    first_id,
+                 PointSet<dim>        &points)
+    {
+      for (unsigned int c = 0; c < list.columns.size(); ++c)
+        for (const auto &field : points.fields().fields())
+          if (field.name == list.columns[c])
+            for (unsigned int p = 0; p < points.n_local(); ++p)
+              if (points.id(p) >= first_id &&
+                  points.id(p) < first_id + list.positions.size())
+                points.values(p)[field.offset] =
+                  list.column_values[points.id(p) - first_id][c];
+    }
+
+
+
     /** That a body has points, and lies in the mesh as a whole. */
     template <int dim>
     void
@@ -166,11 +189,11 @@ namespace moraine
                const BoundingBox<dim> &mesh_box,
                const bool              mesh_is_box)
     {
-      const std::string where = "section 'Bodies/" + body.name + "': ";
       if (volume == 0)
-        throw InputError(where +
-                         "found no part of the body inside the mesh, allowed: "
-                         "a body that is not empty and lies in the mesh");
+        throw ObjectError("body",
+                          body.name,
+                          "found no part of the body inside the mesh, allowed: "
+                          "a body that is not empty and lies in the mesh");
       if (!body.shape)
         return;
       const BoundingBox<dim> box = body.shape->bounding_box();
@@ -183,7 +206,7 @@ namespace moraine
       if (volume > (1 - (body.shape->is_straight() ? 1e-9 : 1e-3)) * whole)
         return;
       std::ostringstream message;
-      message << where << "found " << 100 * (1 - volume / whole)
+      message << "found " << 100 * (1 - volume / whole)
               << " % of its volume outside the mesh, which is ("
               << mesh_box.get_boundary_points().first << ") to ("
               << mesh_box.get_boundary_points().second
@@ -193,9 +216,78 @@ namespace moraine
                     ") with straight edges, allowed: a body in the mesh; only "
                     "half-spaces and expressions are cut by it, and 'Shape = "
                     "mesh' fills it");
-      throw InputError(message.str());
+      throw ObjectError("body", body.name, message.str());
+    }
+
+
+
+    /**
+     * Refuse points that do not fit into the memory, or have more ids than
+     * there are.
+     */
+    template <int dim>
+    void
+    check_number_of_points(const std::vector<Body<dim>> &bodies,
+                           const CellSeeder<dim>        &seeder,
+                           const Triangulation<dim>     &cells)
+    {
+      const auto  box     = GridTools::compute_bounding_box(cells);
+      const auto &corners = box.get_boundary_points();
+      double      filled  = 0;
+      for (const Body<dim> &body : bodies)
+        if (body.shape)
+          filled +=
+            body.shape->clip(ConvexPolytope<dim>(corners.first, corners.second))
+              .volume /
+            box.volume();
+      const double n_points =
+        filled * cells.n_active_cells() * seeder.n_sub_cells();
+      std::ostringstream what;
+      what << "found about " << n_points << " points";
+      const std::string lack =
+        lack_of_memory(n_points * (dim == 2 ? 250. : 350.));
+      if (!lack.empty())
+        throw ObjectError("points", "", what.str() + lack);
+
+      const double n_ids =
+        1. * cells.n_active_cells() * bodies.size() * seeder.max_points();
+      if (n_ids > std::numeric_limits<unsigned int>::max())
+        {
+          what << " and room for " << n_ids
+               << " in all cells, allowed: 4e9; fewer points or cells";
+          throw ObjectError("points", "", what.str());
+        }
     }
   } // namespace
+
+
+
+  template <int dim>
+  void
+  request_columns(const std::vector<Body<dim>> &bodies, PointFields &fields)
+  {
+    // Those that every set of points has, and that output adds itself.
+    std::set<std::string> taken{"body",
+                                "id",
+                                "volume",
+                                "displacement",
+                                "stress",
+                                "von_mises_stress",
+                                "mean_stress",
+                                "position"};
+    for (const auto &field : fields.fields())
+      taken.insert(field.name);
+    for (const Body<dim> &body : bodies)
+      for (const std::string &column : body.listed.columns)
+        if (taken.count(column) > 0)
+          throw ObjectError("point file",
+                            body.name,
+                            "found the column '" + column +
+                              "', which every point has already, allowed: "
+                              "other names");
+        else
+          fields.request(FieldName<dim, double>{column, "-"});
+  }
 
 
 
@@ -206,16 +298,26 @@ namespace moraine
               PointSet<dim>                &points)
   {
     const Triangulation<dim> &triangulation = points.mesh().triangulation();
+    check_number_of_points(bodies, seeder, triangulation);
     seed_cells(bodies, seeder, points);
-    unsigned int first_id =
+    const unsigned int first_of_lists =
       triangulation.n_active_cells() * bodies.size() * seeder.max_points();
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!bodies[b].shape)
-        {
-          insert_list(bodies[b].listed, b, first_id, points);
-          first_id += bodies[b].listed.positions.size();
-        }
+    const auto for_each_list = [&](const auto &action) {
+      unsigned int first_id = first_of_lists;
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (!bodies[b].shape)
+          {
+            action(b, first_id);
+            first_id += bodies[b].listed.positions.size();
+          }
+    };
+    for_each_list([&](const unsigned int b, const unsigned int first_id) {
+      insert_list(bodies[b].listed, b, first_id, points);
+    });
     points.finish_insertion();
+    for_each_list([&](const unsigned int b, const unsigned int first_id) {
+      fill_columns(bodies[b].listed, first_id, points);
+    });
 
     std::vector<double> volumes(bodies.size(), 0.);
     for (unsigned int p = 0; p < points.n_local(); ++p)
@@ -233,6 +335,10 @@ namespace moraine
 
 
 
+  template void
+  request_columns(const std::vector<Body<2>> &, PointFields &);
+  template void
+  request_columns(const std::vector<Body<3>> &, PointFields &);
   template std::vector<double>
   seed_bodies(const std::vector<Body<2>> &,
               const CellSeeder<2> &,

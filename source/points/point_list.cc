@@ -4,6 +4,7 @@
 #include <moraine/points/point_list.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/memory.h>
 #include <moraine/geometry/shape_library.h>
 
 #include <deal.II/base/utilities.h>
@@ -11,6 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
+#include <functional>
+#include <numeric>
+#include <sstream>
 
 namespace moraine
 {
@@ -29,11 +34,22 @@ namespace moraine
     std::vector<std::string>
     cells_of(const std::string &line)
     {
-      auto cells = Utilities::split_string_list(line, ',');
-      // a comma at the end leaves an empty value, which the list does not keep
+      std::vector<std::string> cells;
+      std::istringstream       in(line);
+      for (std::string cell; std::getline(in, cell, ',');)
+        cells.push_back(Utilities::trim(cell));
+      // a comma at the end is followed by an empty value
       if (line.back() == ',')
         cells.emplace_back();
       return cells;
+    }
+
+    /** The text, or its beginning. */
+    std::string
+    shortened(const std::string &text)
+    {
+      constexpr std::size_t longest = 80;
+      return text.size() <= longest ? text : text.substr(0, longest) + "...";
     }
 
     double
@@ -52,7 +68,7 @@ namespace moraine
       if (!std::isfinite(number))
         refuse(file_name,
                line,
-               "column '" + column + "': found '" + cell +
+               "column '" + shortened(column) + "': found '" + shortened(cell) +
                  "'. Allowed: a finite number");
       return number;
     }
@@ -70,15 +86,21 @@ namespace moraine
           !std::equal(fixed.begin(), fixed.end(), names.begin()))
         refuse(file_name,
                line,
-               "found the header '" + text + "'. Allowed in " +
+               "found the header '" + shortened(text) + "'. Allowed in " +
                  std::to_string(dim) + "D: " + allowed +
                  " and, if wanted, names of more columns");
-      for (auto name = names.begin(); name != names.end(); ++name)
-        if (name->empty() || std::find(names.begin(), name, *name) != name)
+      std::set<std::string> earlier;
+      for (const std::string &name : names)
+        if (name.find_first_of("\"<>&") != std::string::npos)
           refuse(file_name,
                  line,
-                 "the column name '" + *name + "' is " +
-                   (name->empty() ? "empty" : "given twice"));
+                 "found the column name '" + shortened(name) +
+                   "', allowed: a name without '\"', '<', '>' and '&'");
+        else if (name.empty() || !earlier.insert(name).second)
+          refuse(file_name,
+                 line,
+                 "the column name '" + shortened(name) + "' is " +
+                   (name.empty() ? "empty" : "given twice"));
       return names;
     }
   } // namespace
@@ -126,9 +148,11 @@ namespace moraine
         lines.push_back(line);
         points.positions.push_back(position);
         points.volumes.push_back(row[dim]);
+        points.column_values.emplace_back(row.begin() + dim + 1, row.end());
       }
     if (points.positions.empty())
       throw InputError("The point file '" + file_name + "' has no points.");
+    points.columns.assign(names.begin() + dim + 1, names.end());
     points.origin = [file_name, lines](const unsigned int i) {
       return file_name + ':' + std::to_string(lines[i]);
     };
@@ -147,6 +171,12 @@ namespace moraine
     const auto lower = to_point<dim>(box.lower_corner, section, "Lower corner");
     Tensor<1, dim> length =
       to_point<dim>(box.upper_corner, section, "Upper corner") - lower;
+    const double n_in_grid =
+      std::accumulate(n.begin(), n.end(), 1., std::multiplies<double>());
+    std::ostringstream what;
+    what << place(section, "Point grid") << ": found " << n_in_grid
+         << " points";
+    require_memory(300. * n_in_grid, what.str());
     double       volume   = 1;
     unsigned int n_points = 1;
     for (unsigned int d = 0; d < dim; ++d)
@@ -162,15 +192,14 @@ namespace moraine
         unsigned int rest = i;
         for (unsigned int d = 0; d < dim; rest /= n[d], ++d)
           x[d] += (rest % n[d] + 0.5) * length[d];
-        points.positions.push_back(placement.apply(x));
+        points.positions.push_back(placement.map(x));
       }
     points.volumes.assign(n_points, volume);
     for (unsigned int d = 0; d < dim; ++d)
       {
         Point<dim> end = lower;
         end[d] += length[d];
-        const Tensor<1, dim> edge =
-          placement.apply(end) - placement.apply(lower);
+        const Tensor<1, dim> edge = placement.map(end) - placement.map(lower);
         for (unsigned int i = 0; i < dim; ++i)
           points.half_edges[i][d] = 0.5 * edge[i];
       }

@@ -25,10 +25,10 @@ namespace moraine
     PointFields
     with_basic_fields(PointFields fields)
     {
-      fields.request("volume", 1, dim == 2 ? "length^2" : "length^3");
-      fields.request("body", 1, "-");
-      fields.request("displacement", dim, "length");
-      fields.request("stress", n_stress_components<dim>, "stress");
+      fields.request(FieldNames<dim>::volume);
+      fields.request(FieldNames<dim>::body);
+      fields.request(FieldNames<dim>::displacement);
+      fields.request(FieldNames<dim>::stress);
       return fields;
     }
 
@@ -77,10 +77,10 @@ namespace moraine
   PointSet<dim>::PointSet(const BackgroundMesh<dim> &mesh, PointFields fields)
     : background(mesh)
     , layout(with_basic_fields<dim>(std::move(fields)))
-    , volume_offset(layout.request("volume", 1, ""))
-    , body_offset(layout.request("body", 1, ""))
-    , u_offset(layout.request("displacement", dim, ""))
-    , sigma_offset(layout.request("stress", n_stress_components<dim>, ""))
+    , volume_field(layout.find(FieldNames<dim>::volume))
+    , body_field(layout.find(FieldNames<dim>::body))
+    , u_field(layout.find(FieldNames<dim>::displacement))
+    , sigma_field(layout.find(FieldNames<dim>::stress))
     , handler(mesh.triangulation(), mesh.mapping(), layout.n_values())
     , pool(&handler.get_property_pool())
   {
@@ -106,8 +106,8 @@ namespace moraine
                         const double        volume)
   {
     std::vector<double> values(layout.n_values(), 0.);
-    values[volume_offset] = volume;
-    values[body_offset]   = body;
+    volume_field.store(volume, values.data());
+    body_field.store(body, values.data());
     const auto [place, reference] =
       found_place(cell, background.mapping(), position, reference_position);
     handler.insert_particle(place, reference, id, cell, values);

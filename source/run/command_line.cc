@@ -8,14 +8,18 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/nearest.h>
 #include <moraine/core/version.h>
+#include <moraine/run/located.h>
 #include <moraine/run/parameter_reference.h>
+#include <moraine/run/scene.h>
 #include <moraine/run/simulation.h>
 #include <moraine/run/study.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <thread>
 
@@ -51,18 +55,110 @@ namespace moraine
 
 
 
-    const char *const usage =
-      "moraine run FILE.prm [--set \"Section/Key = value\"] [--output DIR] "
-      "[--overwrite]\n"
-      "moraine check FILE.prm       read, cross-check, say what will be "
-      "simulated; compute nothing\n"
-      "moraine study FILE.prm [--set ...] [--output DIR] [--overwrite]\n"
-      "                             every combination of the {{a|b|c}} entries: "
-      "error against time\n"
-      "moraine parameters [--dimension 2|3]\n"
-      "                             every parameter with default, allowed "
-      "values and text\n"
-      "moraine --version | --help\n";
+    struct Command
+    {
+      std::string              name;
+      std::string              argument;
+      std::string              text;
+      std::vector<std::string> options;
+    };
+
+    const std::vector<Command> &
+    commands()
+    {
+      static const std::vector<Command> all{
+        {"run",
+         "FILE.prm",
+         "simulate a scene",
+         {"--set", "--output", "--overwrite", "--quiet", "--verbose"}},
+        {"check",
+         "FILE.prm",
+         "read, cross-check, say what will be simulated; compute nothing",
+         {"--set"}},
+        {"study",
+         "FILE.prm",
+         "every combination of the {{a|b|c}} entries: error against time",
+         {"--set", "--output", "--overwrite"}},
+        {"parameters",
+         "",
+         "every parameter with default, allowed values and text",
+         {"--dimension"}},
+        {"plot",
+         "OUTPUT",
+         "pictures of a finished run: fields, and curves of its history",
+         {}}};
+      return all;
+    }
+
+
+
+    struct Option
+    {
+      std::string name;
+      std::string value;
+      std::string text;
+    };
+
+    const std::vector<Option> &
+    options()
+    {
+      static const std::vector<Option> all{
+        {"--set",
+         "\"Section/Key = value\"",
+         "change the scene; may be repeated"},
+        {"--output", "DIR", "folder for the results"},
+        {"--overwrite", "", "replace the results of an earlier run in it"},
+        {"--quiet", "", "show only how the run ends, and errors"},
+        {"--verbose", "", "show every Newton iteration"},
+        {"--dimension", "2|3", "of the scenes; 2 if left out"}};
+      return all;
+    }
+
+
+
+    std::string
+    padded(const std::string &text, const unsigned int width)
+    {
+      return text.size() + 2 > width ?
+               text + "\n" + std::string(width + 2, ' ') :
+               text + std::string(width - text.size(), ' ');
+    }
+
+
+
+    /** What `moraine --help` shows. */
+    std::string
+    usage()
+    {
+      std::string text = "moraine COMMAND ...\n";
+      for (const Command &command : commands())
+        text += "  " + padded(command.name + " " + command.argument, 22) +
+                command.text + '\n';
+      return text +
+             "  COMMAND --help        the options of a command\n"
+             "  --version, --help\n"
+             "With the script of the source folder also\n"
+             "  ./moraine --ranks N COMMAND ...   the same on N processes (else "
+             "mpirun -n N moraine COMMAND ...)\n"
+             "  ./moraine test                    build and run the tests\n";
+    }
+
+
+
+    /** What `moraine COMMAND --help` shows. */
+    std::string
+    usage_of(const Command &command)
+    {
+      std::string text = "moraine " + command.name + ' ' + command.argument +
+                         " [OPTIONS]\n" + command.text + '\n';
+      for (const Option &option : options())
+        if (std::count(command.options.begin(),
+                       command.options.end(),
+                       option.name) > 0)
+          text += "  " + padded(option.name + ' ' + option.value, 30) +
+                  option.text + '\n';
+      return text;
+    }
 
 
 
@@ -73,7 +169,68 @@ namespace moraine
       std::vector<std::string> settings;
       RunOptions               options;
       unsigned int             dimension = 2;
+      bool                     help      = false;
     };
+
+
+
+    const Command &
+    find_command(const std::string &name)
+    {
+      std::vector<std::string> names;
+      for (const Command &command : commands())
+        {
+          if (command.name == name)
+            return command;
+          names.push_back(command.name);
+        }
+      throw InputError("unknown command '" + name + "'" + suggest(name, names));
+    }
+
+
+
+    /** @throw InputError unless the command has this option. */
+    void
+    check_option(const std::string &option, const std::string &command)
+    {
+      const std::vector<std::string> &known = find_command(command).options;
+      if (std::count(known.begin(), known.end(), option) == 0)
+        throw InputError("unknown option '" + option + "' of 'moraine " +
+                         command + "'" + suggest(option, known));
+    }
+
+
+
+    unsigned int
+    read_dimension(const std::string &text)
+    {
+      if (text != "2" && text != "3")
+        throw InputError("option '--dimension': found '" + text +
+                         "', allowed: 2, 3");
+      return text == "3" ? 3 : 2;
+    }
+
+
+
+    void
+    read_option(const std::string                  &option,
+                const std::function<std::string()> &value,
+                Arguments                          &arguments)
+    {
+      check_option(option, arguments.command);
+      if (option == "--set")
+        arguments.settings.push_back(value());
+      else if (option == "--output")
+        arguments.options.output_directory = value();
+      else if (option == "--overwrite")
+        arguments.options.overwrite = true;
+      else if (option == "--quiet")
+        arguments.options.verbosity = Verbosity::quiet;
+      else if (option == "--verbose")
+        arguments.options.verbosity = Verbosity::verbose;
+      else
+        arguments.dimension = read_dimension(value());
+    }
 
 
 
@@ -83,38 +240,23 @@ namespace moraine
       Arguments arguments;
       for (unsigned int i = 0; i < words.size(); ++i)
         {
-          const auto value = [&]() {
+          const std::string &word  = words[i];
+          const auto         value = [&]() {
             if (i + 1 == words.size())
-              throw InputError("option '" + words[i] + "' needs a value\n" +
-                               usage);
+              throw InputError("option '" + word + "' needs a value\n" +
+                               usage_of(find_command(arguments.command)));
             return words[++i];
           };
-          if (words[i] == "--set")
-            arguments.settings.push_back(value());
-          else if (words[i] == "--output")
-            arguments.options.output_directory = value();
-          else if (words[i] == "--overwrite")
-            arguments.options.overwrite = true;
-          else if (words[i] == "--dimension")
-            {
-              const std::string text = value();
-              if (text != "2" && text != "3")
-                throw InputError("option '--dimension': found '" + text +
-                                 "', allowed: 2, 3");
-              arguments.dimension = text == "3" ? 3 : 2;
-            }
-          else if (words[i].rfind("-", 0) == 0 && !arguments.command.empty())
-            throw InputError(
-              "unknown option '" + words[i] + "'" +
-              suggest(words[i],
-                      {"--set", "--output", "--overwrite", "--dimension"}));
-          else if (arguments.command.empty())
-            arguments.command = words[i];
+          if (arguments.command.empty())
+            arguments.command = word;
+          else if (word == "--help")
+            arguments.help = true;
+          else if (word.rfind("-", 0) == 0)
+            read_option(word, value, arguments);
           else if (arguments.file.empty())
-            arguments.file = words[i];
+            arguments.file = word;
           else
-            throw InputError("superfluous argument '" + words[i] + "'\n" +
-                             usage);
+            throw InputError("superfluous argument '" + word + "'\n" + usage());
         }
       return arguments;
     }
@@ -126,7 +268,8 @@ namespace moraine
     {
       if (arguments.file.empty())
         throw InputError("'moraine " + arguments.command +
-                         "' needs the name of a .prm file\n" + usage);
+                         "' needs the name of a .prm file\n" +
+                         usage_of(find_command(arguments.command)));
       InputFile input = InputFile::read(arguments.file);
       for (const std::string &setting : arguments.settings)
         input.apply_override(setting);
@@ -159,7 +302,7 @@ namespace moraine
         }
       catch (const InputError &error)
         {
-          throw InputError(input.located(error.what()));
+          throw InputError(located(input, error));
         }
     }
 
@@ -186,22 +329,40 @@ namespace moraine
     int
     run_scene(const Arguments &arguments, const InputFile &input)
     {
-      Console    console(MPI_COMM_WORLD);
-      Scene<dim> scene(input);
-      RunOptions options = arguments.options;
-      options.output_directory =
-        output_directory(arguments, scene.output.directory);
+      Console console(MPI_COMM_WORLD);
       if (arguments.command == "check")
         {
-          describe(scene, MPI_COMM_WORLD, console);
+          describe<dim>(input, MPI_COMM_WORLD, console);
           console << "  nothing wrong was found" << std::endl;
           return done;
         }
+      RunOptions options = arguments.options;
+      options.output_directory =
+        output_directory(arguments, input.get("Output", "Directory", ""));
+      console.set_quiet(options.verbosity == Verbosity::quiet);
       install_interrupt_handler(
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
       const Summary summary =
-        simulate(scene, input, options, MPI_COMM_WORLD, console);
+        simulate<dim>(input, options, MPI_COMM_WORLD, console);
       return summary.status == "ok" ? done : not_converged;
+    }
+
+
+
+    /** @return whether only a text was asked for, which is shown then. */
+    bool
+    show_text(const Arguments &arguments)
+    {
+      std::string text;
+      if (arguments.command == "--version")
+        text = "moraine " + std::string(version) + '\n';
+      else if (arguments.command.empty() || arguments.command == "--help")
+        text = usage();
+      else if (arguments.help)
+        text = usage_of(find_command(arguments.command));
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::cout << text << std::flush;
+      return !text.empty();
     }
 
 
@@ -210,19 +371,9 @@ namespace moraine
     dispatch(const std::vector<std::string> &words)
     {
       const Arguments arguments = read_arguments(words);
-      const bool root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      if (arguments.command == "--version")
-        {
-          if (root)
-            std::cout << "moraine " << version << std::endl;
-          return done;
-        }
-      if (arguments.command.empty() || arguments.command == "--help")
-        {
-          if (root)
-            std::cout << usage << std::flush;
-          return arguments.command.empty() ? wrong_input : done;
-        }
+      if (show_text(arguments))
+        return arguments.command.empty() ? wrong_input : done;
+      find_command(arguments.command);
       if (arguments.command == "run" || arguments.command == "check")
         return with_input(arguments, [&](const InputFile &input) {
           return dimension_of(input) == 2 ? run_scene<2>(arguments, input) :
@@ -232,15 +383,9 @@ namespace moraine
         return with_input(arguments, [&](const InputFile &input) {
           return run_study(arguments, input);
         });
-      if (arguments.command == "parameters")
-        {
-          if (root)
-            print_parameter_reference(arguments.dimension, std::cout);
-          return done;
-        }
-      throw InputError(
-        "unknown command '" + arguments.command + "'" +
-        suggest(arguments.command, {"run", "check", "study", "parameters"}));
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        print_parameter_reference(arguments.dimension, std::cout);
+      return done;
     }
   } // namespace
 

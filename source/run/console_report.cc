@@ -52,6 +52,8 @@ namespace moraine
       if (step.newton.observed_order > 0)
         line << "  order " << std::fixed << std::setprecision(2)
              << step.newton.observed_order;
+      if (!step.newton.message.empty())
+        line << "\n      " << step.newton.message;
       if (residuals)
         {
           line << std::scientific << std::setprecision(2)
@@ -66,13 +68,13 @@ namespace moraine
 
 
   template <int dim>
-  ConsoleReport<dim>::ConsoleReport(const Scene<dim>  &scene,
-                                    const Model<dim>  &model,
-                                    const std::string &results,
-                                    Console           &console)
+  ConsoleReport<dim>::ConsoleReport(const Scene<dim> &scene,
+                                    const Model<dim> &model,
+                                    const RunOptions &options,
+                                    Console          &console)
     : scene(scene)
     , model(model)
-    , results(results)
+    , options(options)
     , console(console)
   {}
 
@@ -93,8 +95,6 @@ namespace moraine
     describe_conditions();
     for (const std::string &note : notes)
       console << "  note        " << note << '\n';
-    for (const auto &[name, load] : scene.loads)
-      console << "  load        " << name << ", " << load.type << '\n';
     console << "  steps       " << scene.time.n_steps
             << " from t = " << scene.time.start_time << " to "
             << scene.time.end_time << std::endl;
@@ -143,19 +143,10 @@ namespace moraine
   void
   ConsoleReport<dim>::describe_conditions()
   {
-    if (scene.method.empty_stiffness > 0)
-      console << "  empty parts of cells have " << scene.method.empty_stiffness
-              << " of the material's stiffness\n";
-    const auto n_points = model.system->n_boundary_points();
-    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
-      console << "  boundary    " << model.boundaries[b].name() << ", "
-              << scene.boundaries[b].second.constraint << ", "
-              << scene.boundaries[b].second.enforcement.enforcement << ", "
-              << n_points[b] << " quadrature points\n";
-    const auto n_nodes = model.system->n_prescribed_nodes();
-    for (unsigned int c = 0; c < model.grid_conditions.size(); ++c)
-      console << "  grid        " << model.grid_conditions[c].name << ", holds "
-              << n_nodes[c] << " nodes\n";
+    for (const Effect &effect : model.system->effects())
+      if (!effect.kind.empty())
+        console << "  " << std::setw(12) << std::left << effect.kind
+                << std::right << effect.text << '\n';
   }
 
 
@@ -164,8 +155,10 @@ namespace moraine
   void
   ConsoleReport<dim>::run_begins()
   {
-    if (!results.empty())
-      console << "  results in  " << results << '\n' << std::endl;
+    if (options.write_output)
+      console << "  results in  " << options.output_directory << '\n'
+              << std::endl;
+    since_start.restart();
   }
 
 
@@ -183,6 +176,58 @@ namespace moraine
       }
     print_step(step, scene.output.residuals, console.stream());
     note_domains();
+    for (const std::string &text : model.probes->news())
+      note(text);
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::newton_iteration(const NewtonIteration &iteration,
+                                       const TimeControl     &time)
+  {
+    std::ostringstream line;
+    line << std::scientific << std::setprecision(1);
+    if (options.verbosity == Verbosity::verbose)
+      {
+        line << "      iteration " << iteration.number << "  residual "
+             << iteration.residual;
+        if (iteration.linear_iterations > 0)
+          line << "  linear " << iteration.linear_iterations;
+        if (iteration.length < 1)
+          line << "  length " << std::defaultfloat << iteration.length;
+        console << line.str() << std::endl;
+        return;
+      }
+    line << "  step " << time.n_accepted() + 1 << "  t = " << std::defaultfloat
+         << std::setprecision(6) << time.trial_time() << "  iteration "
+         << iteration.number << "  residual " << std::scientific
+         << std::setprecision(1) << iteration.residual
+         << time_left(time.time());
+    console.progress(line.str());
+  }
+
+
+
+  template <int dim>
+  std::string
+  ConsoleReport<dim>::time_left(const double t) const
+  {
+    const double done = (t - scene.time.start_time) /
+                        (scene.time.end_time - scene.time.start_time);
+    if (!(done > 0))
+      return "";
+    const double       seconds = since_start.wall_time() * (1 - done) / done;
+    std::ostringstream text;
+    text << "  about " << std::fixed << std::setprecision(0);
+    if (seconds < 100)
+      text << seconds << " s";
+    else if (seconds < 6000)
+      text << seconds / 60 << " min";
+    else
+      text << seconds / 3600 << " h";
+    return text.str() + " left";
   }
 
 
@@ -237,6 +282,7 @@ namespace moraine
     print_timings(summary);
     if (!summary.errors.empty())
       print_errors(summary);
+    console.set_quiet(false);
     console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
             << " rejected, "
             << (summary.jumps > 0 ? std::to_string(summary.jumps) + " jumps, " :

@@ -3,6 +3,7 @@
 
 // What shows only when a model is about to take its first step.
 
+#include <moraine/boundary/condition_agreement.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
@@ -21,7 +22,8 @@ namespace moraine
   {
     /**
      * A motion without a value at the end of a step is found here, before
-     * anything is computed or written; and a surface without a level at a body.
+     * anything is computed or written; so are conditions that contradict each
+     * other, and a surface without a level at a body.
      */
     template <int dim>
     void
@@ -30,12 +32,12 @@ namespace moraine
       const double size =
         (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
       for (unsigned int step = 0; step <= scene.time.n_steps; ++step)
-        {
-          const double t = scene.time.start_time + step * size;
-          for (auto &boundary : model.boundaries)
-            boundary.set_target(t);
-          model.system->check_prescribed_values(t);
-        }
+        model.system->check_values(scene.time.start_time + step * size);
+      check_agreement(model.grid_conditions,
+                      *model.space,
+                      scene.time.start_time,
+                      scene.time.end_time,
+                      scene.time.n_steps);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
@@ -124,8 +126,10 @@ namespace moraine
               boundary.name() + ": " +
               std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
               " % of its surface in the body's cells has no body on its inner "
-              "side; end it with the body, or choose 'Enforcement = "
-              "augmented Lagrangian'");
+              "side; end it with the body" +
+              (boundary.enforcement().w_free > 0 ?
+                 ", or choose 'Enforcement = augmented Lagrangian'" :
+                 ""));
         }
     }
 
@@ -155,10 +159,10 @@ namespace moraine
   {
     MechanicsSystem<dim> &system = *model.system;
     system.begin_step(scene.time.start_time);
-    const auto n_points = system.n_boundary_points();
-    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
-      if (n_points[b] == 0)
-        throw InputError("section 'Boundaries/" + model.boundaries[b].name() +
+    const MPI_Comm communicator = model.space->communicator();
+    for (const auto &boundary : model.boundaries)
+      if (boundary.n_points(communicator) == 0)
+        throw InputError("section 'Boundaries/" + boundary.name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
     std::vector<std::string> notes;

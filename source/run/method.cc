@@ -5,9 +5,11 @@
 
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/memory.h>
 #include <moraine/core/patterns.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
@@ -33,6 +35,12 @@ namespace moraine
     CellSeeder<dim>
     material_points(const MethodParameters<dim> &parameters)
     {
+      constexpr double bytes_per_sub_cell = (1 + 3 * dim) * sizeof(double);
+      require_memory(bytes_per_sub_cell *
+                       std::pow(1. * parameters.points_per_direction, dim),
+                     place("Method", "Points per direction") + ": found " +
+                       std::to_string(parameters.points_per_direction) +
+                       " points");
       return CellSeeder<dim>(parameters.points_per_direction,
                              parameters.point_layout == "Gauss" ?
                                PointLayout::gauss :
@@ -65,6 +73,7 @@ namespace moraine
                                   "elements, whose points stay in their cells";
       method.largest_degree     = 2;
       method.can_split_domains  = false;
+      method.must_split_domains = false;
       method.make_seeder        = gauss_points<dim>;
       method.request_fields     = [](const auto &, PointFields &) {};
       method.make_basis         = cell_basis<dim>;
@@ -78,14 +87,15 @@ namespace moraine
     material_point()
     {
       Method<dim> method;
-      method.name              = "material point";
-      method.text              = "points that move through the mesh.";
-      method.mesh_after_step   = MeshAfterStep::reset;
-      method.largest_degree    = 1;
-      method.can_split_domains = false;
-      method.make_seeder       = material_points<dim>;
-      method.request_fields    = [](const auto &, PointFields &) {};
-      method.make_basis        = cell_basis<dim>;
+      method.name               = "material point";
+      method.text               = "points that move through the mesh.";
+      method.mesh_after_step    = MeshAfterStep::reset;
+      method.largest_degree     = 1;
+      method.can_split_domains  = false;
+      method.must_split_domains = false;
+      method.make_seeder        = material_points<dim>;
+      method.request_fields     = [](const auto &, PointFields &) {};
+      method.make_basis         = cell_basis<dim>;
       return method;
     }
 
@@ -114,7 +124,8 @@ namespace moraine
         with_domains<dim>("GIMP",
                           "the same, averaged over the box of each point; "
                           "needs a box of equal cells.");
-      method.can_split_domains = true;
+      method.can_split_domains  = true;
+      method.must_split_domains = true;
       method.request_fields = [](const auto &parameters, PointFields &fields) {
         GimpBasis<dim>::request_fields(fields, parameters.update_of_domains());
       };
@@ -128,7 +139,7 @@ namespace moraine
           of.parameters.points_per_direction,
           is_seeded,
           of.parameters.update_of_domains(),
-          of.parameters.split_domains);
+          of.parameters.splits_domains());
       };
       return method;
     }
@@ -149,12 +160,12 @@ namespace moraine
         Cpdi1Basis<dim>::request_fields(fields);
       };
       method.make_basis = [](const auto &of) {
-        return std::make_unique<Cpdi1Basis<dim>>(of.space,
-                                                 of.points,
-                                                 material_points<dim>(
-                                                   of.parameters),
-                                                 of.bodies,
-                                                 of.parameters.split_domains);
+        return std::make_unique<Cpdi1Basis<dim>>(
+          of.space,
+          of.points,
+          material_points<dim>(of.parameters),
+          of.bodies,
+          of.parameters.splits_domains());
       };
       return method;
     }
@@ -261,7 +272,17 @@ namespace moraine
       "Split domains",
       split_domains,
       "Of GIMP and CPDI1: halve points whose domain grows beyond the cells "
-      "that touch the point's, instead of ending the run.");
+      "that touch the point's, instead of ending the run. auto: those of "
+      "GIMP, unless the scene has a force on points.",
+      patterns::selection({"auto", "true", "false"}));
+    prm.add_parameter(
+      "Separation",
+      separation,
+      "When a body falls into more parts than it had because its points "
+      "drifted so far apart that they share no node, and carry no force across "
+      "(numerical fracture). stop: end the run with the place. note: say so "
+      "once and go on, for bodies that are meant to come apart.",
+      patterns::selection({"stop", "note"}));
     prm.add_parameter(
       "Put back",
       put_back,
@@ -274,8 +295,9 @@ namespace moraine
       empty_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
       "of the material's. It acts on the increment of a step and holds nodes "
-      "that too few points touch. 0: none, until the direct solver meets a "
-      "singular matrix; then 1e-6 from that step on, and the run says so.",
+      "that too few points touch. 0: none, until a matrix is singular or a "
+      "step is rejected twice in a row; then the first that is enough of "
+      "1e-10, 1e-8, 1e-6 and 1e-4 from that step on, and the run says so.",
       patterns::non_negative());
   }
 
@@ -344,7 +366,7 @@ namespace moraine
              "Mesh after step",
              mesh_after_step,
              "reset or follow material with finite strain");
-    if (split_domains && !kind.can_split_domains)
+    if (split_domains == "true" && !kind.can_split_domains)
       reject("Method",
              "Split domains",
              "true",

@@ -109,14 +109,12 @@ namespace moraine
     boundaries      = make_boundaries(scene);
     grid_conditions = make_grid_conditions(scene, *mesh);
     loads           = make_loads(scene, *mesh, body_names);
-    system =
-      std::make_unique<MechanicsSystem<dim>>(*state,
-                                             boundaries,
-                                             grid_conditions,
-                                             loads,
-                                             body_names,
-                                             scene.method.empty_stiffness,
-                                             &timer);
+    system          = std::make_unique<MechanicsSystem<dim>>(
+      *state,
+      make_terms(
+        boundaries, grid_conditions, loads, scene.method.empty_stiffness),
+      body_names,
+      &timer);
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
       {
@@ -134,18 +132,17 @@ namespace moraine
   void
   Model<dim>::make_points(const Scene<dim> &scene)
   {
-    const MethodParameters<dim> &parameters = scene.method;
-    const Method<dim>           &method     = parameters.chosen();
+    MethodParameters<dim> parameters = scene.method;
+    const Method<dim>    &method     = parameters.chosen();
+    // Halves of a point would not share its force.
+    for (const auto &[name, load] : scene.loads)
+      if (load.type == "force on points")
+        parameters.split_domains = "false";
 
     PointFields fields;
     method.request_fields(parameters, fields);
-    StateFields<dim>(fields,
-                     parameters.strain_measure(),
-                     std::any_of(materials.begin(),
-                                 materials.end(),
-                                 [](const auto &m) {
-                                   return m->is_plastic();
-                                 }));
+    StateFields<dim>(fields, parameters.strain_measure(), materials);
+    request_columns(bodies, fields);
     points       = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes = seed_bodies(bodies, method.make_seeder(parameters), *points);
     points->allow_put_back(parameters.put_back * mesh->cell_size());

@@ -25,7 +25,8 @@ namespace moraine
        "Carry reaction",
        "",
        "'Enforcement = augmented Lagrangian' carries it, 'weighted' and "
-       "'penalty' do not"}};
+       "'penalty' do not"},
+      {"Solver", "Limit points", "jump", "'pseudo-transient'"}};
   } // namespace
 
 

@@ -320,17 +320,38 @@ namespace moraine
     take_names(input, "Study/Series", series);
     declare();
     refuse_old_names(input);
-    input.parse(prm);
-    // Files are named as seen from the folder of the scene.
-    const auto folder = std::filesystem::path(input.name()).parent_path();
-    for (auto &[name, body] : bodies)
-      if (body.shape.is_point_file())
-        body.shape.point_file = (folder / body.shape.point_file).string();
-    if (!mesh.file.empty())
-      mesh.file = (folder / mesh.file).string();
+    const auto given = input.parse(prm);
+    locate_files(input);
     if (method.strain_measure() == StrainMeasure::finite)
       choose_enforcement(input);
-    check(input);
+    check(input, given);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::locate_files(const InputFile &input)
+  {
+    const auto folder  = std::filesystem::path(input.name()).parent_path();
+    const auto located = [&](const std::string &key, std::string &file) {
+      const std::string path = (folder / file).string();
+      prm.set(key, std::filesystem::absolute(path).string());
+      file = path;
+    };
+    prm.enter_subsection("Bodies");
+    for (auto &[name, body] : bodies)
+      if (body.shape.is_point_file())
+        {
+          prm.enter_subsection(name);
+          located("Point file", body.shape.point_file);
+          prm.leave_subsection();
+        }
+    prm.leave_subsection();
+    prm.enter_subsection("Mesh");
+    if (!mesh.file.empty())
+      located("File", mesh.file);
+    prm.leave_subsection();
   }
 
 

@@ -4,7 +4,6 @@
 #include <moraine/run/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/geometry/shape_library.h>
 
 #include <algorithm>
 #include <fstream>
@@ -16,17 +15,25 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
+  NamedShapes<dim>
+  body_shapes(const Scene<dim> &scene)
+  {
+    std::map<std::string, ShapeParameters<dim>> parameters;
+    for (const auto &[name, body] : scene.bodies)
+      parameters[name] = body.shape;
+    return make_shapes(parameters, "Bodies");
+  }
+
+
+
+  template <int dim>
   std::vector<Body<dim>>
   make_bodies(const Scene<dim> &scene)
   {
-    std::map<std::string, ShapeParameters<dim>> shape_parameters;
-    std::set<std::string>                       operands;
+    std::set<std::string> operands;
     for (const auto &[name, body] : scene.bodies)
-      {
-        shape_parameters[name] = body.shape;
-        operands.insert(body.shape.operands.begin(), body.shape.operands.end());
-      }
-    const NamedShapes<dim> shapes = make_shapes(shape_parameters, "Bodies");
+      operands.insert(body.shape.operands.begin(), body.shape.operands.end());
+    const NamedShapes<dim> shapes = body_shapes(scene);
 
     std::vector<Body<dim>> bodies;
     for (const auto &[name, body] : scene.bodies)
@@ -74,6 +81,7 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)                                                \
+  template NamedShapes<dim>       body_shapes(const Scene<dim> &);      \
   template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
   template std::vector<std::shared_ptr<const Material>> make_materials( \
     const Scene<dim> &, const std::vector<Body<dim>> &);

@@ -46,11 +46,11 @@ namespace moraine
 
   template <int dim>
   void
-  Scene<dim>::check(const InputFile &input) const
+  Scene<dim>::check(const InputFile                     &input,
+                    const std::vector<InputFile::Entry> &given) const
   {
-    for (const auto &entry : input.entries())
-      if (entry.section == "Mesh" && !entry.value.empty() &&
-          !mesh.uses(entry.key))
+    for (const auto &entry : given)
+      if (entry.section == "Mesh" && !mesh.uses(entry.key))
         reject("Mesh",
                entry.key,
                entry.value,
@@ -58,11 +58,6 @@ namespace moraine
     if (mesh.is_box())
       for (const char *key : {"Lower corner", "Upper corner"})
         input.require("Mesh", key);
-    if (mesh.is_box() && input.has("Mesh", "Cell size") && mesh.cell_size == 0)
-      reject("Mesh",
-             "Cell size",
-             input.get("Mesh", "Cell size", ""),
-             "a number > 0");
     mesh.check();
     time.check();
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
@@ -86,14 +81,14 @@ namespace moraine
     method.check();
     for (const auto &[name, load] : loads)
       {
-        if (load.type == "force on points" && method.split_domains)
+        if (load.type == "force on points" && method.split_domains == "true")
           reject("Loads/" + name,
                  "Type",
                  load.type,
                  "point force, or 'Split domains = false' in section 'Method': "
                  "halves of a point would not share the force");
-        for (const auto &entry : input.entries())
-          if (entry.section == "Loads/" + name && !entry.value.empty() &&
+        for (const auto &entry : given)
+          if (entry.section == "Loads/" + name &&
               !load_uses(load.type, entry.key))
             reject(entry.section,
                    entry.key,
@@ -159,7 +154,9 @@ namespace moraine
 
 
   template void
-  Scene<2>::check(const InputFile &) const;
+  Scene<2>::check(const InputFile &,
+                  const std::vector<InputFile::Entry> &) const;
   template void
-  Scene<3>::check(const InputFile &) const;
+  Scene<3>::check(const InputFile &,
+                  const std::vector<InputFile::Entry> &) const;
 } // namespace moraine

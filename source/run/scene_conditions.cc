@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/nearest.h>
+#include <moraine/run/scene_bodies.h>
 
 #include <algorithm>
 #include <sstream>
@@ -127,19 +128,20 @@ namespace moraine
   std::vector<ImplicitBoundary<dim>>
   make_boundaries(const Scene<dim> &scene)
   {
+    const NamedShapes<dim>             shapes = body_shapes(scene);
     std::vector<ImplicitBoundary<dim>> boundaries;
     for (const auto &[name, parameters] : scene.boundaries)
       {
         const std::string section = "Boundaries/" + name;
-        boundaries.emplace_back(name,
-                                make_surface<dim>(parameters.surface, section),
-                                parameters.motion.make_motion(section),
-                                vector_function<dim>(parameters.displacement,
-                                                     place(section,
-                                                           "Displacement")),
-                                make_constraint<dim>(parameters, section),
-                                parameters.enforcement.enforcement_of(),
-                                parameters.penetration_limit);
+        boundaries.emplace_back(
+          name,
+          make_surface<dim>(parameters.surface, shapes, section),
+          parameters.motion.make_motion(section),
+          vector_function<dim>(parameters.displacement,
+                               place(section, "Displacement")),
+          make_constraint<dim>(parameters, section),
+          parameters.enforcement.enforcement_of(),
+          parameters.penetration_limit);
       }
     return boundaries;
   }
@@ -190,8 +192,9 @@ namespace moraine
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names)
   {
-    using Place = typename CarriedLoad<dim>::Place;
-    Loads<dim> loads;
+    using Place                   = typename CarriedLoad<dim>::Place;
+    const NamedShapes<dim> shapes = body_shapes(scene);
+    Loads<dim>             loads;
     for (const auto &[name, parameters] : scene.loads)
       {
         const std::string section = "Loads/" + name;
@@ -211,7 +214,8 @@ namespace moraine
           loads.carried.emplace_back(
             name,
             value,
-            places_on(*make_surface<dim>(parameters.surface, section), mesh));
+            places_on(*make_surface<dim>(parameters.surface, shapes, section),
+                      mesh));
         else
           {
             const Point<dim> at =

@@ -9,12 +9,15 @@
 #include <moraine/output/on_root.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/console_report.h>
+#include <moraine/run/located.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/step_driver.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+#include <memory>
+#include <optional>
 #include <sstream>
 
 namespace moraine
@@ -30,26 +33,6 @@ namespace moraine
       std::ostringstream unused;
       TimerOutput parts{unused, TimerOutput::never, TimerOutput::wall_times};
     };
-
-
-
-    /** Names of what acts in a scene. */
-    template <int dim>
-    std::vector<std::string>
-    effects_of(const Scene<dim> &scene, const Model<dim> &model)
-    {
-      std::vector<std::string> effects{"internal force"};
-      if (scene.method.empty_stiffness > 0)
-        effects.push_back("stiffness of empty parts");
-      for (const auto &[name, boundary] : scene.boundaries)
-        effects.push_back("implicit boundary " + name + " (" +
-                          boundary.enforcement.enforcement + ")");
-      for (const auto &condition : model.grid_conditions)
-        effects.push_back("grid condition " + condition.name);
-      for (const auto &[name, load] : scene.loads)
-        effects.push_back(load.type + " " + name);
-      return effects;
-    }
 
 
 
@@ -112,28 +95,95 @@ namespace moraine
       const MPI_Comm   communicator = model.space->communicator();
       const RunCounts &counts       = driver.counts();
       Summary          summary;
-      summary.version   = version;
-      summary.dimension = dim;
-      summary.ranks     = Utilities::MPI::n_mpi_processes(communicator);
-      summary.cells     = model.mesh->triangulation().n_global_active_cells();
-      summary.active_cells      = model.space->n_active_cells();
-      summary.unknowns          = model.space->n_dofs();
-      summary.points            = model.points->n_global();
-      summary.steps             = driver.time().n_accepted();
-      summary.rejected_steps    = driver.time().n_rejected();
-      summary.jumps             = counts.jumps;
-      summary.newton_iterations = counts.newton_iterations;
-      summary.linear_iterations = counts.linear_iterations;
-      summary.condition_number  = counts.condition_number;
-      summary.bytes_per_point   = model.points->bytes_per_point();
-      summary.peak_memory_mib   = memory_in_use(communicator).peak_mib;
-      summary.effects           = effects_of(scene, model);
-      if (counts.holds_empty_parts)
-        summary.effects.push_back("stiffness of empty parts");
+      summary.version     = version;
+      summary.dimension   = dim;
+      summary.ranks       = Utilities::MPI::n_mpi_processes(communicator);
+      summary.sizes.cells = model.mesh->triangulation().n_global_active_cells();
+      summary.sizes.active_cells    = model.space->n_active_cells();
+      summary.sizes.unknowns        = model.space->n_dofs();
+      summary.sizes.points          = model.points->n_global();
+      summary.steps                 = driver.time().n_accepted();
+      summary.rejected_steps        = driver.time().n_rejected();
+      summary.jumps                 = counts.jumps;
+      summary.newton_iterations     = counts.newton_iterations;
+      summary.linear_iterations     = counts.linear_iterations;
+      summary.condition_number      = counts.condition_number;
+      summary.sizes.bytes_per_point = model.points->bytes_per_point();
+      summary.peak_memory_mib       = memory_in_use(communicator).peak_mib;
+      summary.linear_solvers        = model.linear_solver->choices();
+      for (const Effect &effect : model.system->effects())
+        summary.effects.push_back(effect.name);
+      summary.warnings = counts.warnings;
       add_timings(model, times, counts, summary);
       add_results(scene, model, driver, summary);
       return summary;
     }
+
+
+
+    /** Where a run writes, and what it leaves there if it fails early. */
+    struct RunFolder
+    {
+      RunFolder(const RunOptions &options, const MPI_Comm &communicator)
+        : options(options)
+        , communicator(communicator)
+      {}
+
+      /** Remove what an earlier run left. */
+      void
+      prepare()
+      {
+        if (options.write_output)
+          directory.emplace(options.output_directory,
+                            options.overwrite,
+                            communicator);
+      }
+
+      void
+      keep_input(const InputFile        &input,
+                 const ParameterHandler &parameters,
+                 Console                &console) const
+      {
+        if (!directory)
+          return;
+        directory->write_parameter_files(input.text(), parameters);
+        on_root(communicator,
+                [&]() { console.open_log(directory->file("log.txt")); });
+      }
+
+      /** Before the first step; ends the program if not all ranks fail. */
+      void
+      leave_failure(const ExitCode     code,
+                    const std::string &what,
+                    const unsigned int dim)
+      {
+        end_if_alone(code, what);
+        try
+          {
+            if (!directory && options.write_output && options.overwrite &&
+                OutputDirectory::holds_results(options.output_directory,
+                                               communicator))
+              prepare();
+            if (!directory)
+              return;
+            Summary summary;
+            summary.status    = "failed";
+            summary.message   = what;
+            summary.version   = version;
+            summary.dimension = dim;
+            summary.ranks     = Utilities::MPI::n_mpi_processes(communicator);
+            summary.write(directory->file("summary.json"), communicator);
+          }
+        catch (const InputError &)
+          {
+            // The first error is the one to report.
+          }
+      }
+
+      const RunOptions               options;
+      const MPI_Comm                 communicator;
+      std::optional<OutputDirectory> directory;
+    };
 
 
 
@@ -152,6 +202,7 @@ namespace moraine
     {
       const auto fail = [&](const ExitCode code, const std::string &what) {
         end_if_alone(code, what);
+        driver.undo();
         Summary summary = make_summary(scene, model, driver, times);
         summary.status  = "failed";
         summary.message = what;
@@ -169,13 +220,14 @@ namespace moraine
         }
       catch (const InputError &error)
         {
-          const InputError located(input.located(error.what()));
-          fail(wrong_input, located.what());
-          throw located;
+          const InputError with_place(located(input, error));
+          fail(wrong_input, with_place.what());
+          throw with_place;
         }
       catch (const ComputationError &error)
         {
           end_if_alone(not_converged, error.what());
+          driver.undo();
           status  = "not converged";
           message = error.what();
         }
@@ -197,39 +249,54 @@ namespace moraine
 
   template <int dim>
   Summary
-  simulate(Scene<dim>       &scene,
-           const InputFile  &input,
+  simulate(const InputFile  &input,
            const RunOptions &options,
            const MPI_Comm   &communicator,
            Console          &console)
   {
-    RunTimes           times;
-    Model<dim>         model(scene, communicator, times.parts);
-    ConsoleReport<dim> report(scene,
-                              model,
-                              options.write_output ? options.output_directory :
-                                                     "",
-                              console);
-    report.describe(begin_first_step(scene, model));
+    RunTimes                            times;
+    RunFolder                           folder(options, communicator);
+    std::unique_ptr<Scene<dim>>         scene;
+    std::unique_ptr<Model<dim>>         model;
+    std::unique_ptr<ConsoleReport<dim>> report;
+    try
+      {
+        scene = std::make_unique<Scene<dim>>(input);
+        folder.prepare();
+        folder.keep_input(input, scene->parameters(), console);
+        model = std::make_unique<Model<dim>>(*scene, communicator, times.parts);
+        report = std::make_unique<ConsoleReport<dim>>(*scene,
+                                                      *model,
+                                                      options,
+                                                      console);
+        report->describe(begin_first_step(*scene, *model));
+      }
+    catch (const InputError &error)
+      {
+        const InputError with_place(located(input, error));
+        folder.leave_failure(wrong_input, with_place.what(), dim);
+        throw with_place;
+      }
+    catch (const ComputationError &error)
+      {
+        folder.leave_failure(not_converged, error.what(), dim);
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        folder.leave_failure(internal_error, error.what(), dim);
+        throw;
+      }
 
-    std::optional<OutputDirectory>  directory;
     std::optional<ResultFiles<dim>> files;
     std::vector<RunObserver<dim> *> observers;
-    if (options.write_output)
-      {
-        directory.emplace(options.output_directory,
-                          options.overwrite,
-                          communicator);
-        directory->write_parameter_files(input.text(), scene.parameters());
-        on_root(communicator,
-                [&]() { console.open_log(directory->file("log.txt")); });
-        files.emplace(scene, model, *directory, times.parts);
-        observers.push_back(&*files);
-      }
-    observers.push_back(&report);
-    StepDriver<dim> driver(scene, model, observers);
+    if (folder.directory)
+      observers.push_back(
+        &files.emplace(*scene, *model, *folder.directory, times.parts));
+    observers.push_back(report.get());
+    StepDriver<dim> driver(*scene, *model, observers);
     const Summary   summary =
-      run_steps(scene, input, model, driver, observers, times);
+      run_steps(*scene, input, *model, driver, observers, times);
     on_root(communicator, [&]() { console.close_log(); });
     return summary;
   }
@@ -238,25 +305,26 @@ namespace moraine
 
   template <int dim>
   void
-  describe(const Scene<dim> &scene,
-           const MPI_Comm   &communicator,
-           Console          &console)
+  describe(const InputFile &input,
+           const MPI_Comm  &communicator,
+           Console         &console)
   {
-    RunTimes   times;
-    Model<dim> model(scene, communicator, times.parts);
-    ConsoleReport<dim>(scene, model, "", console)
+    RunTimes         times;
+    const Scene<dim> scene(input);
+    Model<dim>       model(scene, communicator, times.parts);
+    RunOptions       options;
+    ConsoleReport<dim>(scene, model, options, console)
       .describe(begin_first_step(scene, model));
   }
 
 
 
-#define INSTANTIATE(dim)                        \
-  template Summary simulate(Scene<dim> &,       \
-                            const InputFile &,  \
-                            const RunOptions &, \
-                            const MPI_Comm &,   \
-                            Console &);         \
-  template void    describe(const Scene<dim> &, const MPI_Comm &, Console &);
+#define INSTANTIATE(dim)                             \
+  template Summary simulate<dim>(const InputFile &,  \
+                                 const RunOptions &, \
+                                 const MPI_Comm &,   \
+                                 Console &);         \
+  template void describe<dim>(const InputFile &, const MPI_Comm &, Console &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

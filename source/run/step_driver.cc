@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/step_failure.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,8 +22,11 @@ namespace moraine
 
   namespace
   {
-    /** Holds nodes that too few points touch. */
-    constexpr double automatic_empty_stiffness = 1e-6;
+    /** Tried in turn to hold nodes that too few points touch. */
+    constexpr double automatic_empty_stiffness[] = {1e-10, 1e-8, 1e-6, 1e-4};
+
+    /** After that many rejections in a row, shorter steps are no cure. */
+    constexpr unsigned int rejections_before_support = 2;
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
@@ -35,13 +39,22 @@ namespace moraine
                               Model<dim>                            &model,
                               const std::vector<RunObserver<dim> *> &observers)
     : newton_parameters(scene.newton)
-    , empty_stiffness(scene.method.empty_stiffness)
+    , method(scene.method)
     , model(model)
     , observers(observers)
     , communicator(model.space->communicator())
     , newton(scene.newton)
     , time_control(scene.time)
-  {}
+  {
+    if (model.mesh_motion.moves())
+      lasting.add(*model.mesh);
+    lasting.add(*model.points);
+    if (model.mesh_motion.moves() ||
+        model.state->mesh_after_step() == MeshAfterStep::follow_material)
+      lasting.add(*model.space);
+    lasting.add(*model.probes);
+    lasting.add(time_control);
+  }
 
 
 
@@ -49,6 +62,10 @@ namespace moraine
   bool
   StepDriver<dim>::run()
   {
+    newton.watch([this](const NewtonIteration &iteration) {
+      for (RunObserver<dim> *observer : observers)
+        observer->newton_iteration(iteration, time_control);
+    });
     for (RunObserver<dim> *observer : observers)
       observer->run_begins();
     while (!time_control.finished())
@@ -69,7 +86,8 @@ namespace moraine
     if (!first_step)
       model.system->begin_step(time_control.time(),
                                [this]() { model.linear_solver->clear(); });
-    for (;;)
+    check_separation();
+    for (unsigned int n_rejections = 0;;)
       {
         time_control.next();
         LA::Vector   x;
@@ -79,10 +97,13 @@ namespace moraine
           report = jump(report, x);
         sums.condition_number =
           std::max(sums.condition_number, report.condition_number);
-        const std::string reason = reason_to_reject(report, x);
+        std::string reason = reason_to_reject(report, x);
+        if (reason.empty() && may_support_more())
+          reason = point_that_leaves(x);
         if (reason.empty())
           return accept(report, x, jumps);
-        reject(report, reason);
+        ++n_rejections;
+        reject(report, reason, n_rejections);
       }
   }
 
@@ -107,7 +128,8 @@ namespace moraine
           newton.solve(system, *model.linear_solver, x);
         count(report);
         if (report.status != NewtonStatus::linear_solver_failed ||
-            !hold_empty_parts(report))
+            !model.linear_solver->solves_directly() ||
+            !hold_empty_parts(report.message))
           return report;
       }
   }
@@ -120,7 +142,7 @@ namespace moraine
   {
     return !report.converged() && !time_control.can_cut() &&
            report.status != NewtonStatus::linear_solver_failed &&
-           newton_parameters.limit_points == "jump";
+           newton_parameters.limit_points == "pseudo-transient";
   }
 
 
@@ -161,14 +183,19 @@ namespace moraine
                                      time_control.time(),
                                      time_control.trial_time());
       });
-    check_that_points_stay(x);
+    const std::string leaves = point_that_leaves(x);
+    if (!leaves.empty())
+      throw ComputationError(leaves);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
-    model.probes->try_step(grid_evaluation<dim>(*model.space, increments));
-    last_reports = model.system->accept(x);
-    model.probes->keep_step();
+    model.probes->try_step(grid_evaluation<dim>(*model.space, increments),
+                           *model.points);
     const double t_start = time_control.time();
-    time_control.accept(report.iterations);
+    lasting.keep([&]() {
+      last_reports = model.system->accept(x);
+      model.probes->keep_step();
+      time_control.accept(report.iterations);
+    });
     first_step = false;
 
     std::optional<double> distance;
@@ -190,11 +217,24 @@ namespace moraine
 
   template <int dim>
   void
-  StepDriver<dim>::reject(const NewtonReport &report, const std::string &reason)
+  StepDriver<dim>::reject(const NewtonReport &report,
+                          const std::string  &reason,
+                          unsigned int       &n_rejections)
   {
     for (RunObserver<dim> *observer : observers)
       observer->step_rejected(time_control.trial_time(), reason);
-    if (time_control.reject(reason))
+    // At finite strain the stress of a point makes a matrix regular where it
+    // should be singular, and nodes run away however short the step.
+    const bool supported =
+      model.state->mesh_after_step() == MeshAfterStep::reset &&
+      n_rejections == rejections_before_support && hold_empty_parts(reason);
+    const bool repeats = time_control.reject(reason);
+    if (supported)
+      {
+        time_control.take_back_cuts();
+        n_rejections = 0;
+      }
+    if (supported || repeats)
       return;
     const bool path_may_end =
       report.status == NewtonStatus::diverged ||
@@ -202,8 +242,8 @@ namespace moraine
     throw ComputationError(
       time_control.message() +
       (newton_parameters.limit_points == "stop" && path_may_end ?
-         " If a path of equilibria ends here, 'Limit points = jump' in "
-         "section 'Solver' looks for one beyond." :
+         " If a path of equilibria ends here, 'Limit points = "
+         "pseudo-transient' in section 'Solver' looks for one beyond." :
          ""));
   }
 
@@ -215,53 +255,67 @@ namespace moraine
                                     const LA::Vector   &x)
   {
     if (report.status == NewtonStatus::linear_solver_failed &&
-        empty_stiffness == 0 && !sums.holds_empty_parts)
+        method.empty_stiffness == 0 && !support)
       return report.message +
              " (nodes that too few points touch can be the cause; "
              "'Empty stiffness = 1e-6' in section 'Method' holds them)";
+    if (report.status == NewtonStatus::diverged ||
+        report.status == NewtonStatus::too_many_iterations)
+      return report.message + place_of_imbalance(*model.space,
+                                                 *model.points,
+                                                 model.system->residual());
     if (!report.converged())
       return report.message.empty() ? to_string(report.status) : report.message;
-    if (sums.holds_empty_parts &&
-        model.system->share_of_empty_parts() > largest_empty_share)
+    if (support && model.system->share_of_stabilisation() > largest_empty_share)
       return "what points leave empty would carry the load: too few points in "
              "the cells, or a body that is not held";
-    model.state->set_trial(x);
-    const std::string fault = model.system->fault_of_domains();
-    if (!fault.empty())
-      return fault;
-    return model.system->worst_penetration_over_limit(x) > 1 ?
-             "a point would end behind a boundary" :
-             "";
+    return model.system->reason_to_reject(x);
   }
 
 
 
   template <int dim>
   bool
-  StepDriver<dim>::hold_empty_parts(const NewtonReport &report)
+  StepDriver<dim>::may_support_more() const
   {
-    if (sums.holds_empty_parts || empty_stiffness > 0 ||
-        !model.linear_solver->solves_directly())
+    return support &&
+           sums.n_empty_stiffness < std::size(automatic_empty_stiffness);
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::hold_empty_parts(const std::string &reason)
+  {
+    if (method.empty_stiffness > 0 ||
+        sums.n_empty_stiffness == std::size(automatic_empty_stiffness))
       return false;
     MechanicsSystem<dim> &system = *model.system;
-    LA::Vector            x;
-    system.initial_guess(x);
-    system.assemble(x, true);
-    system.check_that_it_is_held(false);
-    if (!system.stiffen_empty_parts(automatic_empty_stiffness))
+    const double fraction = automatic_empty_stiffness[sums.n_empty_stiffness];
+    if (support)
+      support->set_fraction(fraction);
+    else
       {
-        system.stiffen_empty_parts(0.);
-        return false;
+        LA::Vector x;
+        system.initial_guess(x);
+        system.assemble(x, true);
+        system.check_that_it_is_held(false);
+        auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
+        term->begin_step(system.step_context());
+        if (!term->any_empty_part(system.step_context()))
+          return false;
+        support = term.get();
+        system.add(std::move(term));
       }
-    sums.holds_empty_parts = true;
+    ++sums.n_empty_stiffness;
     std::ostringstream text;
-    text << report.message
+    text << reason
          << ": probably too few points touch some nodes; from here on empty "
             "parts of cells have "
-         << automatic_empty_stiffness
+         << fraction
          << " of the material's stiffness (Method / Empty stiffness)";
-    for (RunObserver<dim> *observer : observers)
-      observer->note(text.str());
+    tell(text.str());
     return true;
   }
 
@@ -269,14 +323,58 @@ namespace moraine
 
   template <int dim>
   void
-  StepDriver<dim>::check_that_points_stay(const LA::Vector &x)
+  StepDriver<dim>::check_separation()
+  {
+    if (!first_step && !model.system->coupling_changed())
+      return;
+    const auto parts = parts_of_bodies(*model.space,
+                                       *model.points,
+                                       *model.basis,
+                                       model.body_names.size());
+    if (first_step)
+      {
+        for (const auto &of_body : parts)
+          n_parts.push_back(of_body.size());
+        return;
+      }
+    const std::string found = name_separation(parts, n_parts, model.body_names);
+    if (found.empty())
+      return;
+    if (method.separation == "stop")
+      throw ComputationError(
+        found + ". Points that drift apart leave a cell empty between them: "
+                "more points per direction, domains that follow the material "
+                "('Method = CPDI2', or GIMP with 'Domain update = corners') or "
+                "larger cells keep them together; 'Separation = note' in "
+                "section 'Method' goes on");
+    for (unsigned int b = 0; b < parts.size(); ++b)
+      n_parts[b] = std::max<unsigned int>(n_parts[b], parts[b].size());
+    sums.warnings.push_back(found);
+    tell(found);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::tell(const std::string &text) const
+  {
+    for (RunObserver<dim> *observer : observers)
+      observer->note(text);
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepDriver<dim>::point_that_leaves(const LA::Vector &x)
   {
     State<dim>                &state  = *model.state;
     const BackgroundMesh<dim> &mesh   = *model.mesh;
     const PointSet<dim>       &points = *model.points;
     const TimeControl         &time   = time_control;
     if (state.mesh_after_step() != MeshAfterStep::reset)
-      return;
+      return "";
     state.set_trial(x);
     const auto  increments = state.point_increments();
     const auto  box = GridTools::compute_bounding_box(mesh.triangulation());
@@ -309,7 +407,8 @@ namespace moraine
     for (const std::string &text :
          Utilities::MPI::all_gather(communicator, message))
       if (!text.empty())
-        throw ComputationError(text);
+        return text;
+    return "";
   }
 
 

@@ -15,6 +15,11 @@ namespace moraine
 
   namespace
   {
+    /** More than anybody waits for; their inputs fill the memory. */
+    constexpr std::size_t most_cases = 10000;
+
+
+
     /** The choices of one text, split at '|' outside brackets. */
     std::vector<std::string>
     alternatives(const std::string &text, const std::string &where)
@@ -63,7 +68,14 @@ namespace moraine
       for (const std::string &word :
            alternatives(text.substr(begin + 2, end - begin - 2), where))
         for (const std::string &tail : tails)
-          values.push_back(text.substr(0, begin) + word + tail);
+          {
+            if (values.size() == most_cases)
+              throw InputError(where + ": found more than " +
+                               std::to_string(most_cases) +
+                               " choices in a value, allowed: a study of at "
+                               "most that many cases");
+            values.push_back(text.substr(0, begin) + word + tail);
+          }
       return values;
     }
 
@@ -125,6 +137,14 @@ namespace moraine
         if (values.size() == 1 && values[0] == entry.value)
           continue;
 
+        if (values.size() > most_cases / cases.size())
+          throw InputError(entry.origin + ": " +
+                           place(entry.section, entry.key) + ": found " +
+                           std::to_string(values.size()) + " choices for " +
+                           std::to_string(cases.size()) +
+                           " combinations of those before, allowed: a study "
+                           "of at most " +
+                           std::to_string(most_cases) + " cases");
         keys.push_back(entry);
         std::vector<StudyCase> finer;
         for (const StudyCase &coarse : cases)
@@ -174,5 +194,20 @@ namespace moraine
         if (std::find(paths.begin(), paths.end(), choice.first) == paths.end())
           paths.push_back(choice.first);
     return paths;
+  }
+
+
+
+  std::string
+  refined_choice(const std::vector<StudyCase> &cases)
+  {
+    const auto paths = choice_paths(cases);
+    const auto found =
+      std::find_if(paths.rbegin(), paths.rend(), [](const auto &path) {
+        return path.rfind("Mesh/", 0) == 0;
+      });
+    return found != paths.rend() ? *found :
+           paths.empty()         ? std::string() :
+                                   paths.back();
   }
 } // namespace moraine

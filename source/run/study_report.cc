@@ -3,6 +3,7 @@
 
 #include <moraine/run/study_report.h>
 
+#include <moraine/core/arithmetic.h>
 #include <moraine/core/atomic_file.h>
 
 #include <deal.II/base/table_handler.h>
@@ -81,17 +82,17 @@ namespace moraine
       number("wall_seconds", summary.wall_seconds);
       for (const auto &[name, seconds] : summary.timings)
         number("seconds in " + name, seconds);
-      number("cells", summary.cells);
-      number("active_cells", summary.active_cells);
-      number("unknowns", summary.unknowns);
-      number("points", summary.points);
+      number("cells", summary.sizes.cells);
+      number("active_cells", summary.sizes.active_cells);
+      number("unknowns", summary.sizes.unknowns);
+      number("points", summary.sizes.points);
       number("steps", summary.steps);
       number("rejected_steps", summary.rejected_steps);
       number("newton_iterations", summary.newton_iterations);
       number("linear_iterations", summary.linear_iterations);
       if (summary.condition_number)
         number("condition_number", *summary.condition_number);
-      number("bytes_per_point", summary.bytes_per_point);
+      number("bytes_per_point", summary.sizes.bytes_per_point);
       number("peak_memory_mib", summary.peak_memory_mib);
       number("ranks", summary.ranks);
       cells.emplace_back("version", summary.version);
@@ -100,22 +101,97 @@ namespace moraine
 
 
 
-    /** ln(e/e0) / ln(v/v0) if the last choice alone changed, and is a number.
+    /** Key of the choice in which two cases differ, if it is one alone. */
+    std::string
+    only_difference(const StudyCase &a, const StudyCase &b)
+    {
+      std::string path;
+      if (a.choices.size() != b.choices.size())
+        return "";
+      for (std::size_t c = 0; c < a.choices.size(); ++c)
+        if (a.choices[c] != b.choices[c])
+          {
+            if (!path.empty() || a.choices[c].first != b.choices[c].first)
+              return "";
+            path = a.choices[c].first;
+          }
+      return path;
+    }
+
+
+
+    /**
+     * The first numbers in which two texts differ: 10 and 20 of "2: 10: 72" and
+     * "2: 20: 144"; zeros if there are none.
+     */
+    std::pair<double, double>
+    differing_numbers(const std::string &a, const std::string &b)
+    {
+      const auto numbers_of = [](std::string text) {
+        for (char &c : text)
+          if (std::string(",;:").find(c) != std::string::npos)
+            c = ' ';
+        std::vector<double> numbers;
+        std::istringstream  in(text);
+        for (std::string word; in >> word;)
+          numbers.push_back(number_from(word).value_or(0.));
+        return numbers;
+      };
+      const auto x = numbers_of(a), y = numbers_of(b);
+      for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+        if (x[i] != y[i])
+          return {x[i], y[i]};
+      return {0., 0.};
+    }
+
+
+
+    /**
+     * ln(e0/e) / |ln(v/v0)|, where e0 belongs to the last result before with
+     * another value v0 of key @p path and all other choices equal.
      */
     std::string
-    observed_order(const StudyResult &before, const StudyResult &now)
+    observed_order(const std::vector<StudyResult> &results,
+                   const std::size_t               now,
+                   const std::string              &path)
     {
-      const auto &a = before.study_case.choices, &b = now.study_case.choices;
-      if (a.size() != b.size() || a.empty() || !before.error || !now.error ||
-          !std::equal(a.begin(), a.end() - 1, b.begin()))
-        return "";
-      const double v0 = std::atof(a.back().second.c_str());
-      const double v1 = std::atof(b.back().second.c_str());
-      if (!(v0 > 0) || !(v1 > 0) || v0 == v1 || !(*before.error > 0) ||
-          !(*now.error > 0))
-        return "";
-      return text_of(std::log(*now.error / *before.error) / std::log(v1 / v0),
-                     3);
+      const StudyResult &result = results[now];
+      for (std::size_t i = now; i-- > 0;)
+        {
+          const StudyResult &before = results[i];
+          if (only_difference(before.study_case, result.study_case) != path)
+            continue;
+          const auto [v0, v1] =
+            differing_numbers(value_of(before.study_case, path),
+                              value_of(result.study_case, path));
+          if (!(v0 > 0) || !(v1 > 0) || !before.error || !result.error ||
+              !(*before.error > 0) || !(*result.error > 0))
+            return "";
+          const double refinement =
+            (result.summary.sizes.unknowns < before.summary.sizes.unknowns ? -1 : 1) *
+            std::abs(std::log(v1 / v0));
+          return text_of(std::log(*before.error / *result.error) / refinement,
+                         3);
+        }
+      return "";
+    }
+
+
+
+    bool
+    is_less_fine(const StudyResult *a, const StudyResult *b)
+    {
+      return std::make_pair(a->summary.sizes.unknowns, a->summary.steps) <
+             std::make_pair(b->summary.sizes.unknowns, b->summary.steps);
+    }
+
+
+
+    std::string
+    single_quoted(std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\'', ' ');
+      return "'" + text + "'";
     }
   } // namespace
 
@@ -185,12 +261,13 @@ namespace moraine
                                 text_of(result.error.value_or(0.), 4)));
         table.add_value(
           "order",
-          or_dash(i > 0, observed_order(results[i > 0 ? i - 1 : 0], result)));
+          or_dash(true, observed_order(results, i, refined_choice(cases))));
         table.add_value("seconds",
                         or_dash(ok, text_of(summary.wall_seconds, 3)));
         table.add_value("unknowns",
-                        or_dash(ok, std::to_string(summary.unknowns)));
-        table.add_value("points", or_dash(ok, std::to_string(summary.points)));
+                        or_dash(ok, std::to_string(summary.sizes.unknowns)));
+        table.add_value("points",
+                        or_dash(ok, std::to_string(summary.sizes.points)));
         table.add_value("MiB",
                         or_dash(ok, text_of(summary.peak_memory_mib, 4)));
         table.add_value("Newton",
@@ -214,17 +291,15 @@ namespace moraine
 
 
 
-  std::vector<std::pair<std::string, std::vector<const StudyResult *>>>
+  std::vector<StudyReport::Curve>
   StudyReport::curves() const
   {
     auto keys = Utilities::split_string_list(group_by, ',');
     if (keys.empty())
-      {
-        keys = choice_paths(cases);
-        if (!keys.empty())
-          keys.pop_back();
-      }
-    std::vector<std::pair<std::string, std::vector<const StudyResult *>>> all;
+      for (const std::string &path : choice_paths(cases))
+        if (path != refined_choice(cases))
+          keys.push_back(path);
+    std::vector<Curve> all;
     for (const StudyResult &result : results)
       {
         if (!result.error || !(*result.error > 0))
@@ -240,13 +315,120 @@ namespace moraine
                          key.substr(key.rfind('/') + 1) + " = " + value);
           }
         auto curve = std::find_if(all.begin(), all.end(), [&](const auto &c) {
-          return c.first == name;
+          return c.name == name;
         });
         if (curve == all.end())
           curve = all.insert(all.end(), {name, {}});
-        curve->second.push_back(&result);
+        curve->results.push_back(&result);
       }
+    for (Curve &curve : all)
+      std::stable_sort(curve.results.begin(),
+                       curve.results.end(),
+                       is_less_fine);
     return all;
+  }
+
+
+
+  std::vector<std::vector<unsigned int>>
+  StudyReport::panels_of(const std::vector<Curve> &all) const
+  {
+    std::vector<std::vector<unsigned int>> chosen;
+    for (const std::string &panel : Utilities::split_string_list(panels, ';'))
+      {
+        chosen.emplace_back();
+        const auto beginnings = Utilities::split_string_list(panel, '|');
+        for (unsigned int c = 0; c < all.size(); ++c)
+          if (std::any_of(beginnings.begin(),
+                          beginnings.end(),
+                          [&](const std::string &begin) {
+                            return all[c].name.rfind(begin, 0) == 0;
+                          }))
+            chosen.back().push_back(c);
+      }
+    if (std::all_of(chosen.begin(), chosen.end(), [](const auto &panel) {
+          return panel.empty();
+        }))
+      for (unsigned int c = 0; c < all.size(); ++c)
+        {
+          if (chosen.empty() || chosen.back().size() == most_curves)
+            chosen.emplace_back();
+          chosen.back().push_back(c);
+        }
+    // Nobody tells more curves apart.
+    std::vector<std::vector<unsigned int>> readable;
+    for (const auto &panel : chosen)
+      for (std::size_t c = 0; c < panel.size(); c += most_curves)
+        readable.emplace_back(panel.begin() + c,
+                              panel.begin() +
+                                std::min<std::size_t>(c + most_curves,
+                                                      panel.size()));
+    return readable;
+  }
+
+
+
+  std::string
+  StudyReport::error_label() const
+  {
+    std::string shown = error;
+    if (shown.empty())
+      shown = results.front().summary.errors.front().first;
+    if (shown.rfind("probe ", 0) == 0)
+      return "relative error of " + shown.substr(6) + " [-]";
+    if (!reference.empty())
+      return shown + " / " + reference + " [-]";
+    return shown + (shown == "max_u" ? " [length]" :
+                    shown == "max_sigma" || shown == "mean_sigma" ?
+                                       " [stress]" :
+                                       " [-]");
+  }
+
+
+
+  void
+  StudyReport::write_script(const std::vector<Curve> &all) const
+  {
+    AtomicFile    file((fs::path(folder) / "study.gp").string());
+    std::ostream &out = file.stream();
+    for (std::size_t c = 0; c < all.size(); ++c)
+      {
+        out << "$curve" << c << " << EOD\n";
+        for (const StudyResult *result : all[c].results)
+          out << result->summary.sizes.unknowns << ' '
+              << text_of(result->summary.wall_seconds, 6) << ' '
+              << text_of(*result->error, 10) << '\n';
+        out << "EOD\n";
+      }
+    const auto panel_list = panels_of(all);
+    out << "set terminal pngcairo noenhanced size 1300,"
+        << 40 + 460 * panel_list.size() << " font ',12'\n"
+        << "set output 'study.png'\n"
+        << "set multiplot layout " << panel_list.size() << ",2 title "
+        << single_quoted(title) << '\n'
+        << "set ylabel " << single_quoted(error_label()) << '\n'
+        << "set logscale xy\nset format xy '10^{%T}' enhanced\nset grid\n"
+        << "set colorsequence podo\n";
+    for (const auto &panel : panel_list)
+      for (const bool over_time : {false, true})
+        {
+          out << "set xlabel " << (over_time ? "'wall time [s]'" : "'unknowns'")
+              << '\n'
+              << (over_time ? "set key outside right top\n" : "unset key\n")
+              << "plot ";
+          for (std::size_t k = 0; k < panel.size(); ++k)
+            {
+              const std::string &name = all[panel[k]].name;
+              out << (k > 0 ? ", \\\n     " : "") << "$curve" << panel[k]
+                  << " using " << (over_time ? 2 : 1)
+                  << ":3 with linespoints lw 1.5 lt " << k + 1 << " pt "
+                  << k + 4 << " title "
+                  << single_quoted(name.empty() ? "all" : name);
+            }
+          out << '\n';
+        }
+    out << "unset multiplot\n";
+    file.commit();
   }
 
 
@@ -262,44 +444,7 @@ namespace moraine
                 << std::endl;
         return;
       }
-    const auto single_quoted = [](std::string text) {
-      std::replace(text.begin(), text.end(), '\'', ' ');
-      return "'" + text + "'";
-    };
-    AtomicFile    file((fs::path(folder) / "study.gp").string());
-    std::ostream &out = file.stream();
-    for (std::size_t c = 0; c < all.size(); ++c)
-      {
-        out << "$curve" << c << " << EOD\n";
-        for (const StudyResult *result : all[c].second)
-          out << text_of(result->summary.wall_seconds, 6) << ' '
-              << text_of(*result->error, 10) << '\n';
-        out << "EOD\n";
-      }
-    std::string shown = error;
-    if (shown.empty())
-      shown = results.front().summary.errors.front().first;
-    const std::string unit = shown == "max_u" ? " [length]" :
-                             shown == "max_sigma" || shown == "mean_sigma" ?
-                                                " [stress]" :
-                                                " [-]";
-    if (shown.rfind("probe ", 0) == 0)
-      shown = "relative error of " + shown.substr(6);
-    out << "set terminal pngcairo noenhanced size 1100,700 font ',12'\n"
-        << "set output 'study.png'\n"
-        << "set title " << single_quoted(title) << '\n'
-        << "set xlabel 'wall time [s]'\n"
-        << "set ylabel " << single_quoted(shown + unit) << '\n'
-        << "set logscale xy\nset format xy '%.0e'\nset grid\n"
-        << "set key outside right top\n"
-        << "plot ";
-    for (std::size_t c = 0; c < all.size(); ++c)
-      out << (c > 0 ? ", \\\n     " : "") << "$curve" << c
-          << " with linespoints lw 1.5 pt " << c % 13 + 1 << " title "
-          << single_quoted(all[c].first.empty() ? "all" : all[c].first);
-    out << '\n';
-    file.commit();
-
+    write_script(all);
     const std::string command =
       "cd " + single_quoted(folder) + " && gnuplot study.gp";
     if (std::system(("command -v gnuplot >/dev/null 2>&1")) != 0)

@@ -12,11 +12,14 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <moraine/solver/direct_solver.h>
+#include <moraine/solver/solver_choice.h>
 
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace moraine
 {
@@ -24,14 +27,9 @@ namespace moraine
 
   namespace
   {
-    /**
-     * Building a multigrid hierarchy takes about as long as this many
-     * iterations.
-     */
-    constexpr double worth_a_hierarchy = 25;
-
-    /** Set-ups that auto does directly once an iterative solver failed. */
-    constexpr unsigned int direct_after_failure = 10;
+    /** A residual above this share of the right hand side is no solution,
+     * whatever round-off there may be. */
+    constexpr double lost = 1e-6;
 
 
 
@@ -111,6 +109,36 @@ namespace moraine
 
   namespace
   {
+    /** W A W with a diagonal W, or with its inverse. */
+    template <typename Operator>
+    class Scaled
+    {
+    public:
+      Scaled(const Operator &A, const LA::Vector &weights, const bool inverse)
+        : A(A)
+        , w(weights)
+      {
+        if (inverse)
+          for (unsigned int k = 0; k < w.locally_owned_size(); ++k)
+            w.trilinos_vector()[0][k] = 1. / w.trilinos_vector()[0][k];
+      }
+
+      void
+      vmult(LA::Vector &y, const LA::Vector &x) const
+      {
+        LA::Vector scaled(x);
+        scaled.scale(w);
+        A.vmult(y, scaled);
+        y.scale(w);
+      }
+
+    private:
+      const Operator &A;
+      LA::Vector      w;
+    };
+
+
+
     /** Adds the wall time of its life to a sum. */
     class AddTime
     {
@@ -141,19 +169,21 @@ namespace moraine
       gmres
     };
 
-    const LinearSolverParameters                       parameters;
-    const unsigned int                                 dim;
-    unsigned int                                       n_set_ups         = 0;
-    double                                             set_up_seconds    = 0;
-    double                                             solve_seconds     = 0;
-    double                                             condition_seconds = 0;
-    std::shared_ptr<const LA::SparseMatrix>            matrix;
-    Method                                             method = Method::direct;
-    bool                                               is_symmetric = true;
-    bool                                               is_finite    = true;
-    unsigned int                                       stay_direct  = 0;
-    std::vector<LA::Vector>                            near_null_space;
-    std::string                                        fall_back_reason;
+    const LinearSolverParameters            parameters;
+    const unsigned int                      dim;
+    unsigned int                            n_set_ups         = 0;
+    double                                  set_up_seconds    = 0;
+    double                                  solve_seconds     = 0;
+    double                                  condition_seconds = 0;
+    std::shared_ptr<const LA::SparseMatrix> matrix;
+    Method                                  method       = Method::direct;
+    bool                                    is_symmetric = true;
+    bool                                    is_finite    = true;
+    std::vector<LA::Vector>                 near_null_space;
+    SolverChoice                            choice;
+    std::vector<std::string>                choices;
+    std::string                             fall_back_reason;
+    std::string unsaid; ///< change of choice for the next report
     std::optional<DirectSolver>                        direct;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
     bool hierarchy_is_new = false; ///< made of the values of the matrix
@@ -166,10 +196,26 @@ namespace moraine
                    const unsigned int            dim)
       : parameters(parameters)
       , dim(dim)
+      , choice(dim == 2 ? parameters.direct_limit_2d :
+                          parameters.direct_limit_3d,
+               dim)
     {}
 
     Method
-    choose(const bool symmetric) const;
+    choose(const bool symmetric);
+
+    /** Write down what solves from now on, unless it is what did. */
+    void
+    note_choice();
+
+    /** What solves, as a word of the input. */
+    std::string
+    method_name() const
+    {
+      return method == Method::direct ? "direct" :
+             method == Method::amg_cg ? "amg-cg" :
+                                        "gmres";
+    }
 
     void
     make_multigrid();
@@ -183,7 +229,23 @@ namespace moraine
     allowed_iterations(const double reduction) const;
 
     LinearReport
-    solve_iteratively(LA::Vector &x, const LA::Vector &b, const double enough);
+    solve_iteratively(LA::Vector       &x,
+                      const LA::Vector &b,
+                      const double      enough,
+                      const LA::Vector *weights);
+
+    /** CG or GMRES. @throws SolverControl::NoConvergence */
+    template <typename Matrix, typename Preconditioner>
+    void
+    iterate(SolverControl        &control,
+            const Matrix         &A,
+            const Preconditioner &P,
+            LA::Vector           &x,
+            const LA::Vector     &b) const;
+
+    /** What rounding in A x leaves of a residual. */
+    LA::Vector
+    round_off(const LA::Vector &x) const;
   };
 
 
@@ -197,6 +259,7 @@ namespace moraine
     multigrid->initialize(*matrix, options.list);
     hierarchy_is_new     = true;
     iterations_per_digit = extra_iterations = 0;
+    choice.spend(SolverChoice::hierarchy_cost);
   }
 
 
@@ -217,14 +280,12 @@ namespace moraine
 
 
   LinearSolver::Implementation::Method
-  LinearSolver::Implementation::choose(const bool symmetric) const
+  LinearSolver::Implementation::choose(const bool symmetric)
   {
-    const unsigned int limit =
-      dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     if (parameters.solver == "direct" ||
-        (parameters.solver == "auto" &&
-         (matrix->m() <= limit || stay_direct > 0)))
+        (parameters.solver == "auto" && choice.directly(matrix->m())))
       return Method::direct;
+    fall_back_reason.clear();
     if (parameters.solver == "amg-cg" ||
         (parameters.solver == "auto" && symmetric))
       return Method::amg_cg;
@@ -236,12 +297,68 @@ namespace moraine
   unsigned int
   LinearSolver::Implementation::allowed_iterations(const double reduction) const
   {
+    const unsigned int most =
+      parameters.solver == "auto" ?
+        std::min(parameters.maximum_iterations, choice.allowed_iterations()) :
+        parameters.maximum_iterations;
     if (hierarchy_is_new)
-      return parameters.maximum_iterations;
+      return most;
     const double as_new =
       iterations_per_digit * std::max(1., -std::log10(reduction));
-    return std::min(parameters.maximum_iterations,
-                    static_cast<unsigned int>(as_new + worth_a_hierarchy));
+    return std::min(most,
+                    static_cast<unsigned int>(as_new +
+                                              SolverChoice::hierarchy_cost));
+  }
+
+
+
+  template <typename Matrix, typename Preconditioner>
+  void
+  LinearSolver::Implementation::iterate(SolverControl        &control,
+                                        const Matrix         &A,
+                                        const Preconditioner &P,
+                                        LA::Vector           &x,
+                                        const LA::Vector     &b) const
+  {
+    using Gmres = SolverGMRES<LA::Vector>;
+    if (method == Method::amg_cg)
+      SolverCG<LA::Vector>(control).solve(A, x, b, P);
+    else
+      Gmres(control, Gmres::AdditionalData(102, true)).solve(A, x, b, P);
+  }
+
+
+
+  LA::Vector
+  LinearSolver::Implementation::round_off(const LA::Vector &x) const
+  {
+    LA::Vector products(x), diagonal(x);
+    matrix->trilinos_matrix().ExtractDiagonalCopy(
+      *diagonal.trilinos_vector()(0));
+    products.scale(diagonal);
+    products *= 4. * std::numeric_limits<double>::epsilon();
+    return products;
+  }
+
+
+
+  void
+  LinearSolver::Implementation::note_choice()
+  {
+    std::ostringstream text;
+    text << method_name();
+    if (!choices.empty() &&
+        choices.back().substr(0, text.str().size()) == text.str())
+      return;
+    text << " from linear system " << n_set_ups << " on, " << matrix->m()
+         << " unknowns";
+    if (method == Method::direct && !choices.empty())
+      text << ": "
+           << (fall_back_reason.empty() ? "cheaper than the iterations so far" :
+                                          fall_back_reason);
+    if (!choices.empty())
+      unsaid = text.str();
+    choices.push_back(text.str());
   }
 
 
@@ -249,11 +366,17 @@ namespace moraine
   LinearReport
   LinearSolver::Implementation::solve_iteratively(LA::Vector       &x,
                                                   const LA::Vector &b,
-                                                  const double      enough)
+                                                  const double      enough,
+                                                  const LA::Vector *weights)
   {
     LinearReport report;
-    report.solver       = method == Method::amg_cg ? "amg-cg" : "gmres";
-    const double norm_b = b.l2_norm();
+    report.solver   = method_name();
+    const auto norm = [weights](LA::Vector r) {
+      if (weights)
+        r.scale(*weights);
+      return r.l2_norm();
+    };
+    const double norm_b = norm(b);
     const double goal =
       std::max(parameters.relative_tolerance * norm_b, enough);
     SolverControl control(allowed_iterations(goal / norm_b),
@@ -263,13 +386,20 @@ namespace moraine
     x = 0.;
     try
       {
-        if (method == Method::amg_cg)
-          SolverCG<LA::Vector>(control).solve(*matrix, x, b, *multigrid);
+        if (weights)
+          {
+            // W A W y = W b, x = W y, has the residual W r.
+            const Scaled<LA::SparseMatrix> A(*matrix, *weights, false);
+            const Scaled<TrilinosWrappers::PreconditionAMG> P(*multigrid,
+                                                              *weights,
+                                                              true);
+            LA::Vector                                      scaled_b(b);
+            scaled_b.scale(*weights);
+            iterate(control, A, P, x, scaled_b);
+            x.scale(*weights);
+          }
         else
-          SolverGMRES<LA::Vector>(control,
-                                  SolverGMRES<LA::Vector>::AdditionalData(102,
-                                                                          true))
-            .solve(*matrix, x, b, *multigrid);
+          iterate(control, *matrix, *multigrid, x, b);
       }
     catch (const SolverControl::NoConvergence &)
       {
@@ -277,11 +407,16 @@ namespace moraine
                          std::to_string(control.last_step()) + " iterations";
       }
     report.iterations = control.last_step();
-    LA::Vector   residual(b);
-    const double norm        = matrix->residual(residual, x, b);
-    report.relative_residual = relative_to(norm, norm_b);
+    choice.spend(report.iterations);
+    LA::Vector residual(b);
+    matrix->residual(residual, x, b);
+    const double left        = norm(residual);
+    report.relative_residual = relative_to(left, norm_b);
     // The residual that the iteration carries along drifts from the true one.
-    report.converged = report.message.empty() && norm <= 10. * goal;
+    report.converged =
+      report.message.empty() &&
+      (left <= 10. * goal ||
+       left <= std::min(10. * norm(round_off(x)), lost * norm_b));
     if (!report.converged && report.message.empty())
       report.message = report.solver + " lost its residual to round-off";
     return report;
@@ -313,10 +448,7 @@ namespace moraine
     s.matrix       = matrix;
     s.is_symmetric = symmetric;
     s.method       = s.choose(symmetric);
-    if (s.stay_direct > 0)
-      --s.stay_direct;
-    else
-      s.fall_back_reason.clear();
+    s.note_choice();
     s.is_finite = std::isfinite(matrix->frobenius_norm());
     if (!s.is_finite)
       return;
@@ -331,7 +463,7 @@ namespace moraine
     s.direct.reset();
     s.near_null_space = near_null_space;
     if (!s.multigrid || s.iterations_per_digit == 0 ||
-        s.extra_iterations > worth_a_hierarchy)
+        s.extra_iterations > SolverChoice::hierarchy_cost)
       s.make_multigrid();
     else
       s.hierarchy_is_new = false;
@@ -340,7 +472,10 @@ namespace moraine
 
 
   LinearReport
-  LinearSolver::solve(LA::Vector &x, const LA::Vector &b, const double enough)
+  LinearSolver::solve(LA::Vector       &x,
+                      const LA::Vector &b,
+                      const double      enough,
+                      const LA::Vector *weights)
   {
     auto         &s = *implementation;
     const AddTime timing(s.solve_seconds);
@@ -356,22 +491,26 @@ namespace moraine
       }
     if (!s.direct)
       {
-        LinearReport report  = s.solve_iteratively(x, b, enough);
+        LinearReport report  = s.solve_iteratively(x, b, enough, weights);
         unsigned int in_vain = 0;
         if (!report.converged && !s.hierarchy_is_new)
           {
             in_vain = report.iterations;
             s.make_multigrid();
-            report = s.solve_iteratively(x, b, enough);
+            report = s.solve_iteratively(x, b, enough, weights);
           }
         s.watch_multigrid(report);
         report.iterations += in_vain;
         if (!report.converged)
           x = 0.;
+        if (report.converged)
+          report.message.swap(s.unsaid);
         if (report.converged || s.parameters.solver != "auto")
           return report;
-        s.fall_back_reason = report.message + "; solved directly";
-        s.stay_direct      = direct_after_failure;
+        s.fall_back_reason = report.message;
+        s.choice.give_up();
+        s.method = Implementation::Method::direct;
+        s.note_choice();
         s.multigrid.reset();
         s.direct.emplace(*s.matrix);
       }
@@ -379,7 +518,7 @@ namespace moraine
     if (!report.converged)
       x = 0.;
     if (report.message.empty())
-      report.message = s.fall_back_reason;
+      report.message.swap(s.unsaid);
     return report;
   }
 
@@ -415,6 +554,14 @@ namespace moraine
     implementation->matrix.reset();
     // Of another layout, a Trilinos vector cannot be assigned to.
     implementation->near_null_space.clear();
+  }
+
+
+
+  const std::vector<std::string> &
+  LinearSolver::choices() const
+  {
+    return implementation->choices;
   }
 
 

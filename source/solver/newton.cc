@@ -3,6 +3,7 @@
 
 #include <moraine/solver/newton.h>
 #include <moraine/solver/pseudo_transient.h>
+#include <moraine/solver/residual_measure.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -31,15 +32,26 @@ namespace moraine
     constexpr double slow_pass = 0.1;
 
     /**
-     * Residuals below this say more about round-off than about order.
+     * An iterative solver solves the linear equations to this part of the
+     * square of what the last correction left of the residual, which keeps the
+     * order 2 (Eisenstat and Walker 1996, choice 2), and at least to the other.
      */
-    constexpr double round_off = 1e-13;
+    constexpr double forcing_factor  = 0.9;
+    constexpr double largest_forcing = 0.1;
+
+    /** ... but no further than to this part of what Newton's method needs. */
+    constexpr double goal_of_linear_solver = 0.1;
 
     /**
-     * What round-off leaves of the forces at the start of a step, which cancel
-     * altogether where a step ends without stress.
+     * Residuals below this say more about round-off than about order.
      */
-    constexpr double cancelled = 1e-14;
+    constexpr double round_off = 1e-11;
+
+    /**
+     * Where this part of the first residual is left, Newton's method shows the
+     * order with which it ends.
+     */
+    constexpr double already_near = 0.1;
 
 
 
@@ -49,7 +61,7 @@ namespace moraine
       std::size_t n = residuals.size();
       while (n > 0 && residuals[n - 1] < round_off)
         --n;
-      if (n < 3)
+      if (n < 4 || residuals[n - 3] > already_near * residuals[0])
         return 0.;
       const double last   = std::log(residuals[n - 1] / residuals[n - 2]);
       const double before = std::log(residuals[n - 2] / residuals[n - 3]);
@@ -67,11 +79,14 @@ namespace moraine
       Iteration(const NewtonParameters &parameters,
                 NonlinearSystem        &system,
                 LinearSolver           &linear_solver,
-                LA::Vector             &x)
+                LA::Vector             &x,
+                const Newton::Watcher  &watcher = {})
         : parameters(parameters)
         , system(system)
         , linear_solver(linear_solver)
         , x(x)
+        , measure(system, parameters.tolerance, parameters.absolute_tolerance)
+        , watcher(watcher)
       {}
 
       NewtonReport
@@ -89,9 +104,10 @@ namespace moraine
       NonlinearSystem        &system;
       LinearSolver           &linear_solver;
       LA::Vector             &x;
+      ResidualMeasure         measure;
+      const Newton::Watcher   watcher;
       NewtonReport            report;
-      double                  norm                  = 0.;
-      double                  scale_at_start        = 0.;
+      double                  length                = 1.;
       unsigned int            iterations_since_pass = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
@@ -102,9 +118,7 @@ namespace moraine
       void
       factorise();
 
-      /** The residual norm to reach. */
-      double
-      goal() const;
+
 
       bool
       small() const;
@@ -121,7 +135,8 @@ namespace moraine
       cause(const std::string &otherwise) const;
 
       bool
-      correct(const bool line_search);
+      correct(const bool   line_search,
+              const double enough = goal_of_linear_solver);
 
       bool
       take_step(const LA::Vector &dx, const bool line_search);
@@ -142,7 +157,7 @@ namespace moraine
     Iteration::evaluate(const bool tangent)
     {
       system.assemble(x, tangent);
-      norm            = system.residual().l2_norm();
+      measure.update(x, tangent);
       tangent_is_at_x = tangent;
     }
 
@@ -161,20 +176,10 @@ namespace moraine
 
 
 
-    double
-    Iteration::goal() const
-    {
-      return std::max({parameters.tolerance * system.force_scale(),
-                       parameters.absolute_tolerance,
-                       cancelled * scale_at_start});
-    }
-
-
-
     bool
     Iteration::small() const
     {
-      return norm <= goal();
+      return measure.distance() <= 1.;
     }
 
 
@@ -182,8 +187,7 @@ namespace moraine
     void
     Iteration::record()
     {
-      const double scale = system.force_scale();
-      report.residuals.push_back(scale > 0. ? norm / scale : norm);
+      report.residuals.push_back(measure.relative());
     }
 
 
@@ -209,9 +213,10 @@ namespace moraine
 
     /**
      * Solve for a correction with the factorisation at hand and take it.
+     * @p enough: the distance that the linear equations may leave.
      */
     bool
-    Iteration::correct(const bool line_search)
+    Iteration::correct(const bool line_search, const double enough)
     {
       if (iterations_since_pass == parameters.maximum_iterations)
         return stop(NewtonStatus::too_many_iterations,
@@ -219,18 +224,27 @@ namespace moraine
                       std::to_string(iterations_since_pass) + " iterations");
       LA::Vector         dx(system.residual());
       const LinearReport linear =
-        linear_solver.solve(dx, system.residual(), small() ? 0. : 0.1 * goal());
+        linear_solver.solve(dx,
+                            system.residual(),
+                            small() ? 0. : measure.weighted_norm(enough),
+                            measure.weights());
       report.linear_solver = linear.solver;
       report.linear_iterations += linear.iterations;
       if (!linear.converged)
         return stop(NewtonStatus::linear_solver_failed,
                     linear.solver + ": " + linear.message);
-      report.message = linear.message;
+      if (!linear.message.empty())
+        report.message = linear.message;
       system.apply_constraints(dx);
       ++report.iterations;
       ++iterations_since_pass;
       const bool taken = take_step(dx, line_search);
       record();
+      if (watcher)
+        watcher({report.iterations,
+                 report.residuals.back(),
+                 linear.iterations,
+                 length});
       return taken;
     }
 
@@ -244,22 +258,23 @@ namespace moraine
     Iteration::take_step(const LA::Vector &dx, const bool line_search)
     {
       // A linearised residual is no measure for the true one.
-      const double start =
-        system.linearised() ? std::numeric_limits<double>::max() : norm;
-      const LA::Vector   x_start(x);
-      const unsigned int n_trials = line_search ? 1 + maximum_halvings : 1;
-      double             factor   = 1.;
+      const bool          any_will_do = system.linearised() || !line_search;
+      const ResidualParts start       = measure.parts();
+      const LA::Vector    x_start(x);
+      const unsigned int  n_trials = line_search ? 1 + maximum_halvings : 1;
+      double              factor   = 1.;
       for (unsigned int i = 0; i < n_trials; ++i, factor *= 0.5)
         {
-          x = x_start;
+          length = factor;
+          x      = x_start;
           x.add(factor, dx);
           evaluate(false);
-          const bool falls =
-            norm <= (1. - sufficient_decrease * factor) * start;
-          if (std::isfinite(norm) && (falls || small() || !line_search))
+          if (measure.finite() &&
+              (any_will_do || small() ||
+               measure.ratio_to(start) <= 1. - sufficient_decrease * factor))
             return true;
         }
-      if (!std::isfinite(norm))
+      if (!measure.finite())
         return stop(NewtonStatus::not_a_number,
                     cause("the residual is not a number after a correction"));
       return stop(NewtonStatus::diverged,
@@ -271,11 +286,18 @@ namespace moraine
     bool
     Iteration::iterate()
     {
+      // The first as well as needed in the end: the problem may be linear.
+      double forcing = 0.;
       while (!small())
         {
           factorise();
-          if (!correct(parameters.line_search))
+          const ResidualParts before = measure.parts();
+          if (!correct(parameters.line_search,
+                       std::max(goal_of_linear_solver,
+                                forcing * measure.distance())))
             return false;
+          const double ratio = measure.ratio_to(before);
+          forcing = std::min(largest_forcing, forcing_factor * ratio * ratio);
         }
       return true;
     }
@@ -291,14 +313,14 @@ namespace moraine
     {
       if (!tangent_is_factorised)
         factorise();
-      double before;
+      ResidualParts before;
       do
         {
-          before = norm;
+          before = measure.parts();
           if (!correct(false))
             return false;
         }
-      while (!small() && norm < slow_pass * before);
+      while (!small() && measure.ratio_to(before) < slow_pass);
       return iterate();
     }
 
@@ -339,9 +361,9 @@ namespace moraine
     {
       system.initial_guess(x);
       evaluate(true);
-      scale_at_start = system.force_scale();
+      measure.start();
       record();
-      if (!std::isfinite(norm))
+      if (!measure.finite())
         {
           stop(NewtonStatus::not_a_number,
                cause("the residual is not a number at the start of the step"));
@@ -364,7 +386,7 @@ namespace moraine
     {
       report = found;
       evaluate(true);
-      scale_at_start = system.force_scale();
+      measure.start();
       if (iterate())
         settle_multipliers();
       return end();
@@ -406,7 +428,15 @@ namespace moraine
                 LinearSolver    &linear_solver,
                 LA::Vector      &x)
   {
-    return Iteration(parameters, system, linear_solver, x).run();
+    return Iteration(parameters, system, linear_solver, x, watcher).run();
+  }
+
+
+
+  void
+  Newton::watch(const Watcher &new_watcher)
+  {
+    watcher = new_watcher;
   }
 
 
@@ -430,7 +460,8 @@ namespace moraine
   {
     prm.add_parameter("Tolerance",
                       tolerance,
-                      "residual over the norm of the forces that balance",
+                      "residual over the norm of the forces that balance, of "
+                      "each body",
                       Patterns::Double(1e-15, 1e-2));
     prm.add_parameter("Absolute tolerance",
                       absolute_tolerance,
@@ -446,9 +477,10 @@ namespace moraine
     prm.add_parameter("Limit points",
                       limit_points,
                       "where even the smallest step finds no equilibrium "
-                      "nearby: stop, or jump to the one at which the body "
-                      "would come to rest in a viscous medium",
-                      Patterns::Selection("stop|jump"));
+                      "nearby: stop, or go on at the one at which the body "
+                      "would come to rest in a viscous medium "
+                      "(pseudo-transient continuation)",
+                      Patterns::Selection("stop|pseudo-transient"));
     prm.add_parameter("Maximum augmentations",
                       maximum_augmentations,
                       "updates of the boundaries' reactions in one step",

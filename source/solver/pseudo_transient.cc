@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/solver/pseudo_transient.h>
+#include <moraine/solver/residual_measure.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,19 +85,19 @@ namespace moraine
       report.status  = status;
       report.message = why;
     };
-    const auto assemble = [&]() {
+    ResidualMeasure measure(system,
+                            parameters.tolerance,
+                            parameters.absolute_tolerance);
+    const auto      assemble = [&]() {
       system.assemble(x, true);
-      return std::isfinite(system.residual().l2_norm());
+      measure.update(x, true);
+      return measure.finite();
     };
     const auto at_rest = [&]() {
-      const double norm = system.residual().l2_norm();
-      return !system.linearised() &&
-             norm <= std::max(parameters.tolerance * system.force_scale(),
-                              parameters.absolute_tolerance);
+      return !system.linearised() && measure.distance() <= 1.;
     };
     const auto record = [&]() {
-      report.residuals.push_back(
-        relative_to(system.residual().l2_norm(), system.force_scale()));
+      report.residuals.push_back(measure.relative());
     };
 
     system.initial_guess(x);

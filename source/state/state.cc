@@ -11,25 +11,15 @@ namespace moraine
 
   namespace
   {
-    bool
-    any_plastic(const std::vector<std::shared_ptr<const Material>> &materials)
-    {
-      return std::any_of(materials.begin(), materials.end(), [](const auto &m) {
-        return m->is_plastic();
-      });
-    }
-
-
-
     /** The fields, all of which points must have. */
     template <int dim>
     StateFields<dim>
-    find_fields(const PointSet<dim> &points,
-                const StrainMeasure  measure,
-                const bool           plastic)
+    find_fields(const PointSet<dim>                                &points,
+                const StrainMeasure                                 measure,
+                const std::vector<std::shared_ptr<const Material>> &materials)
     {
       PointFields            layout = points.fields();
-      const StateFields<dim> fields(layout, measure, plastic);
+      const StateFields<dim> fields(layout, measure, materials);
       AssertThrow(layout.n_values() == points.fields().n_values(),
                   ExcMessage("The points lack fields of the state."));
       return fields;
@@ -51,17 +41,21 @@ namespace moraine
     , materials(std::move(materials_))
     , after_step(mesh_after_step)
     , measure(measure)
-    , offsets(find_fields(points, measure, any_plastic(materials)))
+    , state_fields(find_fields(points, measure, materials))
   {
-    if (measure == StrainMeasure::finite)
-      for (unsigned int p = 0; p < points.n_local(); ++p)
-        {
-          double *values = points.values(p);
-          for (unsigned int d = 0; d < dim; ++d)
-            values[offsets.F + d * dim + d] = 1;
-          store_symmetric<dim>(unit_symmetric_tensor<3>(), values + offsets.b);
-          values[offsets.v_0] = points.volume(p);
-        }
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        double            *values    = points.values(p);
+        const unsigned int body      = points.body(p);
+        const auto         variables = materials[body]->internal_variables();
+        for (unsigned int v = 0; v < variables.size(); ++v)
+          state_fields.internal[body][v].store(variables[v].initial, values);
+        if (measure == StrainMeasure::small)
+          continue;
+        state_fields.F.store(unit_symmetric_tensor<dim>(), values);
+        state_fields.b.store(unit_symmetric_tensor<3>(), values);
+        state_fields.v_0.store(points.volume(p), values);
+      }
   }
 
 
@@ -72,7 +66,7 @@ namespace moraine
   {
     if (measure == StrainMeasure::small)
       return 1.;
-    const double *F = points.values(p) + offsets.F;
+    const double *F = points.values(p) + state_fields.F.offset();
     if constexpr (dim == 2)
       return F[0] * F[3] - F[1] * F[2];
     else
@@ -143,20 +137,19 @@ namespace moraine
     SymmetricTensor<2, 3> stress = trial_points.stress(i);
     if (measure == StrainMeasure::finite)
       {
-        Tensor<2, dim> F_n, dF = trial_points.increment_gradient(i);
+        Tensor<2, dim> dF = trial_points.increment_gradient(i);
         for (unsigned int d = 0; d < dim; ++d)
           dF[d][d] += 1;
-        std::copy_n(values + offsets.F, dim * dim, F_n.begin_raw());
-        const Tensor<2, dim> F = dF * F_n;
-        std::copy_n(F.begin_raw(), dim * dim, values + offsets.F);
-        store_symmetric<dim>(trial_points.elastic_left_cauchy_green(i),
-                             values + offsets.b);
+        const Tensor<2, dim> F = dF * state_fields.F(values);
+        state_fields.F.store(F, values);
+        state_fields.b.store(trial_points.elastic_left_cauchy_green(i), values);
         stress /= determinant(F);
         points.set_volume(p, determinant(dF) * points.volume(p));
       }
-    if (offsets.kappa != StateFields<dim>::none)
-      values[offsets.kappa] = trial_points.plastic_strain(i);
-    store_symmetric<dim>(stress, values + points.stress_offset());
+    const auto &internal = state_fields.internal[points.body(p)];
+    for (unsigned int v = 0; v < internal.size(); ++v)
+      internal[v].store(trial_points.internal_variables(i)[v], values);
+    points.stress_field().store(stress, values);
   }
 
 
@@ -194,9 +187,8 @@ namespace moraine
             Tensor<1, dim>    &du    = moves[point];
             for (unsigned int a = 0; a < block.n_nodes; ++a)
               du += block.N(p)[a] * nodal[a];
-            double *u = points.values(point) + points.displacement_offset();
-            for (unsigned int d = 0; d < dim; ++d)
-              u[d] += du[d];
+            const auto &u = points.displacement_field();
+            u.store(u(points.values(point)) + du, points.values(point));
           }
       }
     if (after_step == MeshAfterStep::keep)

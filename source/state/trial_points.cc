@@ -27,6 +27,21 @@ namespace moraine
 
 
 
+    /** Of plane strain, in three dimensions. */
+    template <int dim>
+    Tensor<2, 3>
+    with_third_direction(const Tensor<2, dim> &F)
+    {
+      Tensor<2, 3> result;
+      result[2][2] = 1;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          result[i][j] = F[i][j];
+      return result;
+    }
+
+
+
     /** @f$\Delta F\, b\, \Delta F^T@f$; in plane strain zz stays. */
     template <int dim>
     SymmetricTensor<2, 3>
@@ -54,22 +69,24 @@ namespace moraine
 
 
   template <int dim>
-  StateFields<dim>::StateFields(PointFields        &fields,
-                                const StrainMeasure measure,
-                                const bool          plastic)
+  StateFields<dim>::StateFields(
+    PointFields                                        &fields,
+    const StrainMeasure                                 measure,
+    const std::vector<std::shared_ptr<const Material>> &materials)
   {
     if (measure == StrainMeasure::finite)
       {
-        F   = fields.request("deformation_gradient", dim * dim, "-");
-        b   = fields.request("elastic_left_cauchy_green",
-                           n_stress_components<dim>,
-                           "-");
-        v_0 = fields.request("initial_volume",
-                             1,
-                             dim == 2 ? "length^2" : "length^3");
+        F   = fields.request(FieldNames<dim>::deformation_gradient);
+        b   = fields.request(FieldNames<dim>::elastic_left_cauchy_green);
+        v_0 = fields.request(FieldNames<dim>::initial_volume);
       }
-    if (plastic)
-      kappa = fields.request("plastic_strain", 1, "-");
+    for (const auto &material : materials)
+      {
+        internal.emplace_back();
+        for (const InternalVariable &variable : material->internal_variables())
+          internal.back().push_back(fields.request(
+            typename FieldNames<dim>::Number{variable.name, variable.unit}));
+      }
   }
 
 
@@ -100,16 +117,24 @@ namespace moraine
       }
     const Material &material =
       state.material(state.material_points().body(block.points[begin]));
-    if (measure == StrainMeasure::finite)
-      ask_finite(state, block, begin);
-    else if (material.is_linear())
+    isotropic = material.is_isotropic();
+    if (isotropic && measure == StrainMeasure::small && material.is_linear())
       {
+        n_internal = 0;
         ask_linear(state, block, begin);
         return;
       }
+    load_internal(state, block, begin);
+    if (!isotropic)
+      {
+        answer_in_tensors(state, block, begin, material);
+        return;
+      }
+    if (measure == StrainMeasure::finite)
+      ask_finite(state, block, begin);
     else
       ask_small(state, block, begin);
-    answer(state, block, begin);
+    answer(state, material);
   }
 
 
@@ -128,9 +153,8 @@ namespace moraine
         const unsigned int p  = block.points[begin + i];
         points[i].J_increment = 1;
         points[i].weight      = set.volume(p);
-        points[i].stress =
-          load_symmetric<dim>(set.values(p) + set.stress_offset()) +
-          C * symmetric_part(points[i].gradient);
+        points[i].stress      = set.stress_field()(set.values(p)) +
+                           C * symmetric_part(points[i].gradient);
       }
     fault = points.size();
   }
@@ -152,11 +176,35 @@ namespace moraine
         TrialPoint        &at = points[i];
         at.J_increment        = 1;
         at.weight             = set.volume(p);
-        at.principal          = spectrum<dim>(C.strain_of(load_symmetric<dim>(
-                                       set.values(p) + set.stress_offset())) +
-                                     symmetric_part(at.gradient));
-        at.trial_strain       = at.principal.values;
+        at.principal =
+          spectrum<dim>(C.strain_of(set.stress_field()(set.values(p))) +
+                        symmetric_part(at.gradient));
+        at.trial_strain = at.principal.values;
       }
+  }
+
+
+
+  template <int dim>
+  Tensor<2, dim>
+  TrialPoints<dim>::deform(const State<dim>        &state,
+                           const StencilBlock<dim> &block,
+                           const unsigned int       begin,
+                           const unsigned int       i)
+  {
+    const unsigned int p  = block.points[begin + i];
+    TrialPoint        &at = points[i];
+
+    Tensor<2, dim> dF = at.gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      dF[d][d] += 1;
+    at.J_increment                  = determinant(dF);
+    const Tensor<2, dim>  inverse   = invert(dF);
+    const Tensor<1, dim> *gradients = block.grad_N(begin + i);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      moved[i * n_nodes + a] = gradients[a] * inverse;
+    at.weight = state.material_points().volume(p) / state.volume_ratio(p);
+    return dF;
   }
 
 
@@ -167,29 +215,17 @@ namespace moraine
                                const StencilBlock<dim> &block,
                                const unsigned int       begin)
   {
-    const auto             &set    = state.material_points();
-    const StateFields<dim> &fields = state.fields();
     if (moved.size() < points.size() * n_nodes)
       moved.resize(points.size() * n_nodes);
     moved_gradients = moved.data();
     for (unsigned int i = 0; i < points.size(); ++i)
       {
-        const unsigned int p      = block.points[begin + i];
-        const double      *values = set.values(p);
-        TrialPoint        &at     = points[i];
-
-        Tensor<2, dim> dF = at.gradient;
-        for (unsigned int d = 0; d < dim; ++d)
-          dF[d][d] += 1;
-        at.J_increment                  = determinant(dF);
-        const Tensor<2, dim>  inverse   = invert(dF);
-        const Tensor<1, dim> *gradients = block.grad_N(begin + i);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          moved[i * n_nodes + a] = gradients[a] * inverse;
-
-        at.weight    = set.volume(p) / state.volume_ratio(p);
-        at.principal = spectrum<dim>(
-          push_forward(dF, load_symmetric<dim>(values + fields.b)));
+        const double *values =
+          state.material_points().values(block.points[begin + i]);
+        const Tensor<2, dim> dF = deform(state, block, begin, i);
+        TrialPoint          &at = points[i];
+        at.principal =
+          spectrum<dim>(push_forward(dF, state.fields().b(values)));
         for (unsigned int A = 0; A < 3; ++A)
           at.trial_strain[A] = 0.5 * std::log(at.principal.values[A]);
         if (!(at.J_increment > 0))
@@ -201,22 +237,32 @@ namespace moraine
 
   template <int dim>
   void
-  TrialPoints<dim>::answer(const State<dim>        &state,
-                           const StencilBlock<dim> &block,
-                           const unsigned int       begin)
+  TrialPoints<dim>::load_internal(const State<dim>        &state,
+                                  const StencilBlock<dim> &block,
+                                  const unsigned int       begin)
   {
-    const auto        &set      = state.material_points();
-    const Material    &material = state.material(set.body(block.points[begin]));
-    const unsigned int kappa    = state.fields().kappa;
+    const auto &set    = state.material_points();
+    const auto &fields = state.fields().internal[set.body(block.points[begin])];
+    n_internal         = fields.size();
+    internal.resize(points.size() * n_internal);
+    for (unsigned int i = 0; i < points.size() && n_internal > 0; ++i)
+      for (unsigned int v = 0; v < n_internal; ++v)
+        internal[i * n_internal + v] =
+          fields[v](set.values(block.points[begin + i]));
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::answer(const State<dim> &state, const Material &material)
+  {
     for (unsigned int i = 0; i < points.size(); ++i)
       {
-        answers[i].strain = points[i].trial_strain;
-        answers[i].plastic_strain =
-          kappa == StateFields<dim>::none ?
-            0. :
-            set.values(block.points[begin + i])[kappa];
+        answers[i].strain   = points[i].trial_strain;
+        answers[i].internal = internal.data() + i * n_internal;
       }
-    material.respond(make_array_view(answers));
+    material.respond(state.step_time(), make_array_view(answers));
     fault = points.size();
     for (unsigned int i = points.size(); i-- > 0;)
       {
@@ -229,9 +275,63 @@ namespace moraine
 
 
   template <int dim>
+  void
+  TrialPoints<dim>::answer_in_tensors(const State<dim>        &state,
+                                      const StencilBlock<dim> &block,
+                                      const unsigned int       begin,
+                                      const Material          &material)
+  {
+    const auto &set    = state.material_points();
+    const bool  finite = measure == StrainMeasure::finite;
+    if (finite)
+      {
+        if (moved.size() < points.size() * n_nodes)
+          moved.resize(points.size() * n_nodes);
+        moved_gradients = moved.data();
+      }
+    tensor_answers.resize(points.size());
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const unsigned int p  = block.points[begin + i];
+        TrialPoint        &at = points[i];
+        TensorState       &to = tensor_answers[i];
+        if (finite)
+          {
+            const Tensor<2, dim> dF  = deform(state, block, begin, i);
+            const Tensor<2, dim> F_n = state.fields().F(set.values(p));
+            to.F_n                   = with_third_direction(F_n);
+            to.F                     = with_third_direction(dF * F_n);
+          }
+        else
+          {
+            at.J_increment      = 1;
+            at.weight           = set.volume(p);
+            to.strain_increment = symmetric_part(at.gradient);
+          }
+        to.stress   = set.stress_field()(set.values(p));
+        to.internal = internal.data() + i * n_internal;
+      }
+    material.respond(state.step_time(),
+                     measure,
+                     make_array_view(tensor_answers));
+    fault = points.size();
+    for (unsigned int i = points.size(); i-- > 0;)
+      {
+        points[i].stress = tensor_answers[i].stress;
+        if (!(points[i].J_increment > 0) ||
+            !std::isfinite(points[i].stress[0][0]))
+          fault = i;
+      }
+  }
+
+
+
+  template <int dim>
   SymmetricTensor<2, 3>
   TrialPoints<dim>::elastic_left_cauchy_green(const unsigned int i) const
   {
+    if (!isotropic)
+      return symmetrize(tensor_answers[i].F * transpose(tensor_answers[i].F));
     Tensor<1, 3> values;
     for (unsigned int A = 0; A < 3; ++A)
       values[A] = std::exp(2 * answers[i].strain[A]);

@@ -6,6 +6,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,7 @@ namespace moraine
     , current(parameters.start_time)
     , trial(parameters.start_time)
     , size(one_step * parameters.largest_step)
+    , accepted_size(size)
   {
     parameters.check();
     for (unsigned int k = 1; k < parameters.n_steps; ++k)
@@ -98,6 +100,47 @@ namespace moraine
     if (iterations <= parameters.easy_iterations)
       size =
         std::min(size * parameters.growth, one_step * parameters.largest_step);
+    accepted_size   = size;
+    rejected_before = rejected;
+  }
+
+
+
+  void
+  TimeControl::write(Archive &archive) const
+  {
+    archive.write("time/time", current);
+    archive.write("time/step_size", accepted_size);
+    archive.write("time/next_stop", next_stop);
+    archive.write("time/at_step_end", on_step_end ? 1u : 0u);
+    archive.write("time/completed_steps", completed_steps);
+    archive.write("time/accepted", accepted);
+    archive.write("time/rejected", rejected_before);
+  }
+
+
+
+  void
+  TimeControl::read(const Archive &archive)
+  {
+    current         = archive.number("time/time");
+    accepted_size   = archive.number("time/step_size");
+    next_stop       = archive.integer("time/next_stop");
+    on_step_end     = archive.integer("time/at_step_end") != 0;
+    completed_steps = archive.integer("time/completed_steps");
+    accepted        = archive.integer("time/accepted");
+    rejected        = archive.integer("time/rejected");
+    rejected_before = rejected;
+    undo();
+  }
+
+
+
+  void
+  TimeControl::undo()
+  {
+    trial = current;
+    size  = accepted_size;
   }
 
 
@@ -128,6 +171,14 @@ namespace moraine
             " (Smallest step = " + in_words(parameters.smallest_step) +
             " of a step).";
     return false;
+  }
+
+
+
+  void
+  TimeControl::take_back_cuts()
+  {
+    size = accepted_size;
   }
 
 
@@ -204,7 +255,7 @@ namespace moraine
     prm.add_parameter("Steps",
                       n_steps,
                       "equal steps from start to end; always hit exactly",
-                      Patterns::Integer(1));
+                      patterns::integer_in_range(1, 10000000));
     prm.add_parameter("Smallest step",
                       smallest_step,
                       "as a fraction of one step; the run stops below it",

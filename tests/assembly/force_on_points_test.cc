@@ -3,6 +3,8 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/load/load.h>
+#include <moraine/material/linear_elastic.h>
+#include <moraine/state/state.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -82,6 +84,59 @@ namespace
     EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
                 0.,
                 1e-12);
+  }
+
+
+
+  TEST(ForceOnPoints, PointsGoThroughAnArchive)
+  {
+    SmallScene<2> scene;
+    auto          force = force_at({2., 2.});
+    force.find_points(scene.points);
+    Archive archive;
+    force.write(archive);
+    auto copy = force_at({0., 0.});
+    copy.read(archive);
+    copy.find_points(scene.points);
+    const auto places = places_of(force, scene.points);
+    const auto copied = places_of(copy, scene.points);
+    ASSERT_EQ(copied.size(), 4u);
+    for (unsigned int k = 0; k < 4; ++k)
+      EXPECT_EQ(copied[k], places[k]);
+  }
+
+
+
+  TEST(CarriedLoad, PlacesMoveWhenTheStepIsKeptAndGoThroughAnArchive)
+  {
+    SmallScene<2> scene;
+    State<2>      state(scene.space,
+                   scene.points,
+                   *scene.basis,
+                   {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                   MeshAfterStep::reset);
+    state.begin_step();
+    const auto push = [](const Point<2> &, const double t) {
+      return Tensor<1, 2>({t, 0.});
+    };
+    CarriedLoad<2> load("push", push, {{Point<2>(1.5, 2.2), 1.}});
+    load.find_cells(scene.space, 0.5);
+    const Tensor<1, 2>              shift({0.3, -0.1});
+    const std::vector<Tensor<1, 2>> shifts(scene.space.n_nodes(), shift);
+    load.prepare_move(scene.space, shifts);
+    load.undo();
+    load.move();
+    EXPECT_EQ(load.places()[0].x, Point<2>(1.5, 2.2));
+    load.prepare_move(scene.space, shifts);
+    load.move();
+    EXPECT_LT((load.places()[0].x - (Point<2>(1.5, 2.2) + shift)).norm(),
+              1e-14);
+
+    Archive archive;
+    load.write(archive);
+    CarriedLoad<2> copy("push", push, {{Point<2>(), 1.}});
+    copy.read(archive);
+    EXPECT_EQ(copy.places()[0].x, load.places()[0].x);
   }
 
 

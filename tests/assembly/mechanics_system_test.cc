@@ -55,12 +55,10 @@ namespace
                                    },
                                    false,
                                    {true}});
-      system =
-        std::make_unique<MechanicsSystem<2>>(state,
-                                             boundaries,
-                                             conditions,
-                                             loads,
-                                             std::vector<std::string>{"block"});
+      system = std::make_unique<MechanicsSystem<2>>(
+        state,
+        make_terms(boundaries, conditions, loads),
+        std::vector<std::string>{"block"});
       system->begin_step(0);
       system->set_target(1);
     }

@@ -34,19 +34,21 @@ def show(name, result):
     text("  points.pvd", "names all" if all(p in pvd for p in points) else "NO")
 
 
-def nothing_written(name, result):
+def no_results(name, result):
     text(name, message(result.output))
-    text("  nothing is written", not result.folder.exists())
+    text("  status", result.summary.get("status"))
+    text("  results", "SOME" if any(p.suffix in (".csv", ".vtu", ".pvd")
+         for p in result.folder.rglob("*")) else "none")
 
 
-nothing_written("motion that is no number at t = 0.5", run(
+no_results("motion that is no number at t = 0.5", run(
     scene, {"Boundaries/left/Translation": "0.001/(t-0.5); 0"}, expect=2))
-nothing_written("grid condition that is no number later", run(
+no_results("grid condition that is no number later", run(
     scene, {"Grid conditions/foot/Lower corner": "0, 0",
             "Grid conditions/foot/Upper corner": "2, 2",
             "Grid conditions/foot/Displacement": "0; sqrt(0.6-t)-sqrt(0.6)"},
     expect=2))
-nothing_written("displacement that is no number at a place", run(
+no_results("displacement that is no number at a place", run(
     scene, {"Boundaries/left/Displacement": "0; 0.001*t*log(t>0.6 ? y-100 : 1)"}, expect=2))
 show("load that is no number", run(
     scene, {"Loads/weight/Value": "0; sqrt(0.6-t)"}, expect=2))

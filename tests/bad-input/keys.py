@@ -8,14 +8,14 @@ base = (root / "tests/bad-input/base.prm").read_text()
 
 
 def refused(name, scene=base, settings=None):
-    """Exit code 2, one message on stderr, no folder made."""
+    """Exit code 2, one message on stderr, no results made."""
     file = folder / "scene.prm"
     file.write_text(scene)
     result = run(file, settings, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)))
-    if result.folder.exists():
-        text(name, "NO, a folder was made")
+    if (result.folder / "history.csv").exists():
+        text(name, "NO, results were made")
 
 
 def with_line(line, section="Mesh"):
@@ -97,3 +97,22 @@ refused("GIMP on a mesh that moves",
         settings={"Method/Method": "GIMP",
                   "Method/Mesh after step": "follow material"})
 refused("a choice in a run", settings={"Mesh/Cell size": "{{1|2}}"})
+
+# Text that would take for ever, or that is no text.
+refused("two thousand million steps", settings={"Time/Steps": 2000000000})
+refused("constants that double", "subsection Constants\n  set a0 = x\n" + "".join(
+    f"  set a{i} = $a{i - 1}$a{i - 1}\n" for i in range(1, 60)) + "end\n" + base)
+refused("random body", settings={
+    "Bodies/block/Shape": "expression", "Bodies/block/Lower corner": "",
+    "Bodies/block/Upper corner": "", "Bodies/block/Expression": "rand()-0.5"})
+refused("random load", settings={"Loads/weight/Curve": "rand_seed(1)"})
+for name in ("x", "t", "2a"):
+    refused(f"a constant called {name}", settings={
+        "Exact solution/Displacement": "0; x", "Exact solution/Constants": f"{name}: 3"})
+refused("arithmetic that is no whole number", settings={"Time/Steps": "100/7"})
+refused("arithmetic without a value", settings={"Materials/soil/Young modulus": "1/0"})
+(folder / "latin.prm").write_bytes(
+    base.replace("subsection soil", "subsection Gerölle").encode("latin-1"))
+result = run(folder / "latin.prm", expect=2)
+text("a name in Latin-1", plain(result.output.strip()))
+refused("a long line", with_line("set Type = " + "x" * 100001))

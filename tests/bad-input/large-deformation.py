@@ -23,7 +23,8 @@ def show(name, result):
 def refused(name, scene, settings):
     result = run(scene, settings, expect=2)
     text(name, message(result.output))
-    text("  nothing is written", not result.folder.exists())
+    text("  no results are written",
+         not (result.folder / "history.csv").exists())
 
 
 stretch = "prm/wang-2018/stretch-mpm.prm"

@@ -18,7 +18,7 @@ def refused(name, content):
         "Bodies/block/Point file": file}, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)))
-    if result.folder.exists():
+    if (result.folder / "history.csv").exists():
         text(name, "NO, a folder was made")
 
 
@@ -32,3 +32,9 @@ refused("negative volume", good + "2.25,1.25,-0.25\n")
 refused("zero volume", good + "2.25,1.25,0\n")
 refused("outside the mesh", good + "20,1.25,0.25\n")
 refused("outside the mesh, after an empty line", good + "\n20,1.25,0.25\n")
+refused("one long line", ",".join(["1"] * 2000000))
+refused("one long row", good + ",".join(["1"] * 2000000))
+refused("a column that every point has", good.replace("volume", "volume,stress")
+        .replace("0.25\n", "0.25,1\n"))
+refused("a column that XML would not take", good.replace("volume", 'volume,"a"')
+        .replace("0.25\n", "0.25,1\n"))

@@ -7,6 +7,7 @@
 #include <moraine/basis/basis.h>
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/basis/gimp_basis.h>
+#include <moraine/geometry/combined_shapes.h>
 #include <moraine/geometry/straight_shapes.h>
 
 #include <cmath>
@@ -33,6 +34,7 @@ namespace moraine
     bool        split         = false;
     double      lower         = 0; ///< of the body
     double      upper         = 4;
+    double      turn          = 0; ///< degrees, about its middle
     PointLayout layout        = PointLayout::equal;
   };
 
@@ -67,8 +69,8 @@ namespace moraine
         Cpdi2Basis<dim>::request_fields(layout);
       if (options.finite_strain)
         {
-          layout.request("deformation_gradient", dim * dim, "-");
-          layout.request("initial_volume", 1, "length^dim");
+          layout.request(FieldNames<dim>::deformation_gradient);
+          layout.request(FieldNames<dim>::initial_volume);
         }
       return layout;
     }
@@ -107,9 +109,21 @@ namespace moraine
           lower[d] = options.lower;
           upper[d] = options.upper;
         }
-      return {{"box",
-               std::make_shared<ConvexShape<dim>>(
-                 ConvexShape<dim>::box(lower, upper))}};
+      std::shared_ptr<const Shape<dim>> box =
+        std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::box(lower, upper));
+      if (options.turn != 0)
+        {
+          dealii::Tensor<1, dim> axis;
+          for (unsigned int d = 0; d < dim; ++d)
+            axis[d] = d + 1;
+          box = std::make_shared<MovedShape<dim>>(
+            box,
+            Placement<dim>(options.turn,
+                           lower + 0.5 * (upper - lower),
+                           axis,
+                           dealii::Tensor<1, dim>()));
+        }
+      return {{"box", box}};
     }
 
     std::unique_ptr<Basis<dim>>
@@ -207,9 +221,12 @@ namespace moraine
     }
 
     unsigned int
-    offset(const std::string &field, const unsigned int n) const
+    offset(const std::string &name) const
     {
-      return PointFields(points.fields()).request(field, n, "");
+      for (const auto &field : points.fields().fields())
+        if (field.name == name)
+          return field.offset;
+      throw std::invalid_argument("no field " + name);
     }
 
     const Options               options;
@@ -229,7 +246,7 @@ namespace moraine
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
           double *values =
-            points.values(p) + offset("deformation_gradient", dim * dim);
+            points.values(p) + offset("deformation_gradient");
           dealii::Tensor<2, dim> F, increment = gradients[p];
           for (unsigned int i = 0; i < dim; ++i)
             {
@@ -244,7 +261,7 @@ namespace moraine
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               values[i * dim + j] = F[i][j];
-          points.values(p)[offset("volume", 1)] *= determinant(increment);
+          points.values(p)[offset("volume")] *= determinant(increment);
         }
     }
   };

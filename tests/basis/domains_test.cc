@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/basis/body_parts.h>
 #include <moraine/basis/cell_patch.h>
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/basis/domain_tools.h>
@@ -90,7 +91,7 @@ namespace
     for (unsigned int v = 0; v < n; ++v)
       {
         const unsigned int offset = scene.offset(
-          (cpdi1 ? "half_edge_" : "corner_") + std::to_string(v + 1), dim);
+          (cpdi1 ? "half_edge_" : "corner_") + std::to_string(v + 1));
         for (unsigned int p = 0; p < scene.points.n_local(); ++p)
           for (unsigned int d = 0; d < dim; ++d)
             scene.points.values(p)[offset + d] +=
@@ -257,7 +258,7 @@ namespace
           std::copy_n(corners[c].begin_raw(),
                       dim,
                       cpdi2.points.values(p) +
-                        cpdi2.offset("corner_" + std::to_string(c + 1), dim));
+                        cpdi2.offset("corner_" + std::to_string(c + 1)));
       }
     cpdi2.prepare();
     expect_same_stencils(cpdi1, cpdi2);
@@ -496,7 +497,7 @@ namespace
       {
         difference += std::abs(gauss.points.volume(p) - scene.points.volume(p));
         sum += scene.points.volume(p);
-        EXPECT_EQ(scene.points.values(p)[scene.offset("initial_volume", 1)],
+        EXPECT_EQ(scene.points.values(p)[scene.offset("initial_volume")],
                   scene.points.volume(p));
       }
     EXPECT_GT(Utilities::MPI::sum(difference, MPI_COMM_WORLD), 0.01);
@@ -507,7 +508,7 @@ namespace
 
   template <int dim>
   void
-  check_volumes_of_cut_points()
+  check_domains_of_cut_points(const bool distorted)
   {
     for (const Method method : {Method::cpdi1, Method::cpdi2})
       {
@@ -515,30 +516,100 @@ namespace
         options.method    = method;
         options.lower     = 0.3;
         options.upper     = 3.4;
-        options.distorted = true;
+        options.distorted = distorted;
         const DomainScene<dim> scene(options);
-        double                 sum = 0;
+        double                 sum = 0, of_domains = 0;
         for (unsigned int p = 0; p < scene.points.n_local(); ++p)
           {
             double         w[1 << dim];
             Tensor<1, dim> g[1 << dim];
-            EXPECT_NEAR(DomainTools::average_weights<dim>(
-                          scene.basis->domain_corners(p), w, g),
-                        scene.points.volume(p),
-                        1e-13);
+            const double   of_domain =
+              DomainTools::average_weights<dim>(scene.basis->domain_corners(p),
+                                                w,
+                                                g);
+            EXPECT_LT(of_domain,
+                      scene.points.volume(p) *
+                        (distorted && dim == 3 ? 1.05 : 1 + 1e-12));
             sum += scene.points.volume(p);
+            of_domains += of_domain;
           }
         const double whole = Utilities::MPI::sum(sum, MPI_COMM_WORLD);
         EXPECT_NEAR(whole, std::pow(3.1, dim), 1e-11);
+        EXPECT_GT(Utilities::MPI::sum(of_domains, MPI_COMM_WORLD), 0.9 * whole);
       }
   }
 
 
 
-  TEST(Domains, DomainsHaveTheVolumesOfTheirPoints)
+  TEST(Domains, CutDomainsAreNotLargerThanTheirPoints)
   {
-    check_volumes_of_cut_points<2>();
-    check_volumes_of_cut_points<3>();
+    for (const bool distorted : {false, true})
+      {
+        check_domains_of_cut_points<2>(distorted);
+        check_domains_of_cut_points<3>(distorted);
+      }
+  }
+
+
+
+  /** sum_p v_p grad S_ap of the nodes, over all ranks. */
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  gradient_sums(const DomainSceneOptions &options)
+  {
+    const DomainScene<dim>      scene(options);
+    std::vector<Tensor<1, dim>> sums(scene.space.n_nodes());
+    StencilBlock<dim>           block;
+    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+      {
+        scene.basis->evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          for (unsigned int a = 0; a < block.n_nodes; ++a)
+            sums[block.nodes[a]] +=
+              scene.points.volume(block.points[p]) * block.grad_N(p)[a];
+      }
+    auto vector = scene.space.vector();
+    scene.space.sum_node_values(sums, vector);
+    scene.space.node_values(vector, sums);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  void
+  check_gradients_of_turned_body()
+  {
+    for (const double turn : {0., 17., 40., 71.})
+      for (const Method method : {Method::cpdi1, Method::cpdi2})
+        for (const bool distorted : {false, true})
+          {
+            // Parallelograms do not fill cells that are none.
+            if (distorted && (dim == 3 || method == Method::cpdi1))
+              continue;
+            DomainSceneOptions options;
+            options.lower     = 1.12;
+            options.upper     = 2.97;
+            options.turn      = turn;
+            options.distorted = distorted;
+            options.method    = Method::mpm;
+            const auto exact  = gradient_sums<dim>(options);
+            options.method    = method;
+            const auto sums   = gradient_sums<dim>(options);
+            ASSERT_EQ(sums.size(), exact.size());
+            for (unsigned int a = 0; a < sums.size(); ++a)
+              EXPECT_LT((sums[a] - exact[a]).norm(), 1e-9);
+          }
+  }
+
+
+
+  // Points at centroids integrate gradients over a straight-sided body; domains
+  // within the cells do so too.
+  TEST(Domains, DomainsOfCutCellsIntegrateGradients)
+  {
+    check_gradients_of_turned_body<2>();
+    check_gradients_of_turned_body<3>();
   }
 
 
@@ -701,6 +772,91 @@ namespace
 
 
 
+  template <int dim>
+  void
+  overlap_by_round_off()
+  {
+    // Boxes of length 1/2 that end at 3 get longer by 3e-9: more than the
+    // relative 1e-8 by which places on faces keep to the point's side, less
+    // than what makes the next cell active.
+    DomainSceneOptions options;
+    options.method = Method::gimp_corners;
+    options.lower  = 1;
+    options.upper  = 3;
+    DomainScene<dim>   scene(options);
+    const unsigned int active = scene.space.n_active_cells();
+    scene.accept(scene.nodal([](const Point<dim> &x) { return 1e-9 * x; }));
+    EXPECT_EQ(scene.space.n_active_cells(), active);
+    EXPECT_EQ(scene.basis->fault_of(scene.nodal(
+                [](const Point<dim> &) { return Tensor<1, dim>(); })),
+              "");
+    scene.accept(scene.nodal([](const Point<dim> &x) { return 0.25 * x; }));
+    const unsigned int offset = scene.offset("half_length");
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        EXPECT_NEAR(scene.points.values(p)[offset + d], 0.3125, 1e-8);
+  }
+
+  TEST(Domains, CornersThatOverlapACellByRoundOff)
+  {
+    overlap_by_round_off<2>();
+    overlap_by_round_off<3>();
+  }
+
+
+
+  template <int dim>
+  void
+  torn_body(const Method method)
+  {
+    DomainSceneOptions options;
+    options.method = method;
+    options.lower  = 0;
+    options.upper  = 2;
+    DomainScene<dim> scene(options);
+    const auto       parts = [&scene]() {
+      return parts_of_bodies(scene.space, scene.points, *scene.basis, 1)[0];
+    };
+    ASSERT_EQ(parts().size(), 1u);
+    EXPECT_NEAR(parts()[0].volume, std::pow(2., dim), 1e-12);
+    // What lies behind x = 1 goes away by 0.6, and cell 1 holds the body
+    // together, then by 1.3, and cell 1 is empty.
+    for (const double way : {0.6, 0.7})
+      {
+        for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+          {
+            Point<dim> x = scene.points.position(p);
+            if (x[0] > 1)
+              x[0] += way;
+            scene.points.set_position(p, x);
+          }
+        scene.points.find_cells();
+        scene.prepare();
+        if (way == 0.6)
+          {
+            EXPECT_EQ(parts().size(), 1u);
+          }
+      }
+    const auto torn = parts();
+    ASSERT_EQ(torn.size(), 2u);
+    for (const auto &part : torn)
+      {
+        EXPECT_NEAR(part.volume, std::pow(2., dim - 1), 1e-12);
+        EXPECT_NEAR(part.centre[1], 1., 1e-12);
+        EXPECT_NEAR(std::abs(part.centre[0] - 1.65), 1.15, 1e-12);
+      }
+  }
+
+  TEST(Domains, PartsOfABodyThatIsTorn)
+  {
+    torn_body<2>(Method::mpm);
+    torn_body<2>(Method::gimp);
+    torn_body<3>(Method::mpm);
+    torn_body<3>(Method::gimp);
+  }
+
+
+
   TEST(Domains, Cpdi1EdgesFollowTheDeformation)
   {
     const Tensor<2, 2> F     = tensor<2>(1.2, 0.7, -0.4, 0.9);
@@ -758,7 +914,7 @@ namespace
   {
     const bool         gimp = scene.options.method == Method::gimp;
     const unsigned int offset =
-      scene.offset(gimp ? "half_length" : "half_edge_1", dim);
+      scene.offset(gimp ? "half_length" : "half_edge_1");
     for (unsigned int p = 0; p < scene.points.n_local(); ++p)
       {
         double *values = scene.points.values(p);
@@ -783,7 +939,7 @@ namespace
         const double *u =
           scene.points.values(p) + scene.points.displacement_offset();
         result[0] += v;
-        result[1] += scene.points.values(p)[scene.offset("initial_volume", 1)];
+        result[1] += scene.points.values(p)[scene.offset("initial_volume")];
         for (unsigned int d = 0; d < dim; ++d)
           {
             result[2 + d] += v * scene.points.position(p)[d];
@@ -928,7 +1084,7 @@ namespace
       EXPECT_EQ(message.rfind("point ", 0), 0u);
       EXPECT_NE(message.find(" at ("), std::string::npos);
       EXPECT_NE(message.find(" the limit of "), std::string::npos);
-      EXPECT_NE(message.find("key 'Split domains'"), std::string::npos)
+      EXPECT_NE(message.find("'Split domains = true'"), std::string::npos)
         << message;
     }
   }
@@ -949,7 +1105,7 @@ namespace
         unsigned int n_long = 0;
         if (method == Method::cpdi2)
           {
-            const unsigned int corner = scene.offset("corner_2", 2);
+            const unsigned int corner = scene.offset("corner_2");
             for (unsigned int p = 0; p < scene.points.n_local(); ++p)
               if (scene.points.id(p) % 2 == 1)
                 {

@@ -242,12 +242,10 @@ namespace
          },
          true,
          {true}});
-      system = std::make_unique<MechanicsSystem<dim>>(*state,
-                                                      boundaries,
-                                                      conditions,
-                                                      loads,
-                                                      std::vector<std::string>{
-                                                        "block"});
+      system = std::make_unique<MechanicsSystem<dim>>(
+        *state,
+        make_terms(boundaries, conditions, loads),
+        std::vector<std::string>{"block"});
     }
 
     /**
@@ -353,7 +351,7 @@ namespace
         Cpdi1Basis<dim>::request_fields(layout);
       else if (options.method == "cpdi2")
         Cpdi2Basis<dim>::request_fields(layout);
-      StateFields<dim>(layout, measure(options), options.material == "plastic");
+      StateFields<dim>(layout, measure(options), {material(options)});
       return layout;
     }
 
@@ -586,7 +584,7 @@ namespace
     FiniteElementStep<dim> elements(points.mesh);
     Clock                  of_points, of_elements, unused;
     points.step(nullptr);
-    elements.step(unused, points.system->force_scale());
+    elements.step(unused, points.system->force_scales()[0]);
     if (std::abs(points.largest_increment / elements.solution.linfty_norm() -
                  1) > 0.02)
       throw std::runtime_error("points and elements do not agree");
@@ -594,7 +592,7 @@ namespace
       {
         points.assemble(of_points);
         points.step(&of_points);
-        elements.step(of_elements, points.system->force_scale());
+        elements.step(of_elements, points.system->force_scales()[0]);
       }
     of_points.print("points ");
     of_elements.print("elements ");

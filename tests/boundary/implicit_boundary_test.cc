@@ -44,24 +44,31 @@ namespace
               MeshAfterStep::reset,
               measure)
       , motion({}, angle, Point<2>(2., 2.))
-      , line(
-          "line",
-          std::make_shared<Polyline>(
-            std::vector<Point<2>>{{1.9, 1.1}, {2.1, 2.8}}),
-          motion,
-          [](const Point<2> &, const double) { return Tensor<1, 2>(); },
-          {kind, {}},
-          EnforcementParameters().enforcement_of(),
-          0.)
+      , line(make_line(motion, kind))
     {
       state.begin_step();
       line.begin_step(scene.space, 0, 0.5, true, measure, true);
       line.set_target(1);
       const unsigned int n = line.points().size();
-      line.accept(std::vector<Tensor<1, 2>>(n, traction),
-                  std::vector<Tensor<1, 2>>(n));
+      line.prepare(std::vector<Tensor<1, 2>>(n, traction),
+                   std::vector<Tensor<1, 2>>(n));
+      line.keep();
       line.begin_step(scene.space, 1, 0.5, true, measure, false);
       line.set_target(3);
+    }
+
+    static ImplicitBoundary<2>
+    make_line(const RigidMotion<2> &motion, const Constraint<2>::Kind kind)
+    {
+      return ImplicitBoundary<2>(
+        "line",
+        std::make_shared<Polyline>(
+          std::vector<Point<2>>{{1.9, 1.1}, {2.1, 2.8}}),
+        motion,
+        [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+        {kind, {}},
+        EnforcementParameters().enforcement_of(),
+        0.);
     }
 
     Tensor<1, 2>
@@ -72,13 +79,13 @@ namespace
     }
 
     void
-    expect(const Tensor<1, 2> &reaction) const
+    expect(const Tensor<1, 2> &multiplier) const
     {
       EXPECT_GT(Utilities::MPI::sum<unsigned int>(line.points().size(),
                                                   MPI_COMM_WORLD),
                 0u);
       for (const auto &point : line.points())
-        EXPECT_LT((point.reaction - reaction).norm(), 1e-13);
+        EXPECT_LT((point.multiplier - multiplier).norm(), 1e-13);
     }
 
     SmallScene<2>       scene;
@@ -90,7 +97,7 @@ namespace
 
 
 
-TEST(ImplicitBoundary, ACarriedReactionIsAVectorOfItsPlace)
+TEST(ImplicitBoundary, AMultiplierIsAVectorOfItsPlace)
 {
   const TurningLine line(Constraint<2>::fixed, StrainMeasure::small);
   line.expect(traction);
@@ -98,7 +105,7 @@ TEST(ImplicitBoundary, ACarriedReactionIsAVectorOfItsPlace)
 
 
 
-TEST(ImplicitBoundary, AFixedSurfaceTurnsItsReactionByTheStepAtFiniteStrain)
+TEST(ImplicitBoundary, AFixedSurfaceTurnsItsMultiplierByTheStepAtFiniteStrain)
 {
   const TurningLine line(Constraint<2>::fixed, StrainMeasure::finite);
   EXPECT_GT((line.turned(1, 3) - traction).norm(), 0.1);
@@ -107,7 +114,7 @@ TEST(ImplicitBoundary, AFixedSurfaceTurnsItsReactionByTheStepAtFiniteStrain)
 
 
 
-TEST(ImplicitBoundary, ARollersReactionGoesWithItsNormal)
+TEST(ImplicitBoundary, ARollersMultiplierGoesWithItsNormal)
 {
   for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
     {
@@ -115,4 +122,53 @@ TEST(ImplicitBoundary, ARollersReactionGoesWithItsNormal)
       EXPECT_GT((line.turned(0, 1) - traction).norm(), 0.1);
       line.expect(line.turned(0, 1));
     }
+}
+
+
+
+TEST(ImplicitBoundary, WhatItCarriesGoesThroughAnArchive)
+{
+  TurningLine original(Constraint<2>::roller, StrainMeasure::small);
+  Archive     written;
+  original.line.write(written);
+  const Archive archive =
+    written.gathered(MPI_COMM_WORLD).scattered(MPI_COMM_WORLD);
+
+  auto copy = TurningLine::make_line(original.motion, Constraint<2>::roller);
+  copy.read(archive);
+  copy.begin_step(
+    original.scene.space, 1, 0.5, true, StrainMeasure::small, false);
+  copy.set_target(3);
+  const auto &points = original.line.points();
+  ASSERT_EQ(copy.points().size(), points.size());
+  for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      EXPECT_EQ(copy.points()[q].x, points[q].x);
+      EXPECT_EQ(copy.points()[q].multiplier, points[q].multiplier);
+      EXPECT_GT(points[q].multiplier.norm(), 1.);
+    }
+  Archive again;
+  copy.write(again);
+  EXPECT_TRUE(again.gathered(MPI_COMM_WORLD) ==
+              written.gathered(MPI_COMM_WORLD));
+}
+
+
+
+TEST(ImplicitBoundary, AStepThatIsNotKeptLeavesNoTrace)
+{
+  TurningLine tried(Constraint<2>::fixed, StrainMeasure::small);
+  Archive     before, after;
+  tried.line.write(before);
+  const unsigned int n = tried.line.points().size();
+  tried.line.set_multipliers(std::vector<Tensor<1, 2>>(n, -5. * traction));
+  tried.line.prepare(std::vector<Tensor<1, 2>>(n, 3. * traction),
+                     std::vector<Tensor<1, 2>>(n, traction));
+  tried.line.undo();
+  tried.line.begin_step(
+    tried.scene.space, 1, 0.5, true, StrainMeasure::small, true);
+  tried.line.set_target(3);
+  tried.expect(traction);
+  tried.line.write(after);
+  EXPECT_TRUE(after == before);
 }

@@ -23,13 +23,13 @@ namespace
   const MPI_Comm comm = MPI_COMM_WORLD;
 
   unsigned int
-  rank()
+  own_rank()
   {
     return dealii::Utilities::MPI::this_mpi_process(comm);
   }
 
   unsigned int
-  n_ranks()
+  rank_count()
   {
     return dealii::Utilities::MPI::n_mpi_processes(comm);
   }
@@ -51,7 +51,7 @@ namespace
     std::vector<unsigned int> ids;
     std::vector<double>       stress;
     for (unsigned int id = n_rows; id-- > 0;)
-      if (id % n_ranks() == rank())
+      if (id % rank_count() == own_rank())
         {
           ids.push_back(7 * id);
           for (unsigned int c = 0; c < 4; ++c)
@@ -75,13 +75,13 @@ namespace
   {
     TemporaryFile()
     {
-      path = "archive_test_" + std::to_string(n_ranks()) + ".h5";
+      path = "archive_test_" + std::to_string(rank_count()) + ".h5";
     }
 
     ~TemporaryFile()
     {
       MPI_Barrier(comm);
-      if (rank() == 0)
+      if (own_rank() == 0)
         std::remove(path.c_str());
     }
 
@@ -137,7 +137,7 @@ TEST(Archive, EqualityIsThatOfBits)
 TEST(Archive, GatheredRowsAreInTheOrderOfIds)
 {
   const Archive whole = make_archive().gathered(comm);
-  if (rank() > 0)
+  if (own_rank() > 0)
     {
       EXPECT_TRUE(whole.data_sets().empty());
       return;
@@ -158,11 +158,11 @@ TEST(Archive, GatheredRowsAreInTheOrderOfIds)
 TEST(Archive, IdsOfTwoNumbersAreOrderedByTheFirst)
 {
   Archive archive;
-  archive.distribute("surface", {rank(), 1u, rank(), 0u}, 2);
+  archive.distribute("surface", {own_rank(), 1u, own_rank(), 0u}, 2);
   archive.write("surface/gap",
-                std::vector<double>{10. * rank() + 1, 10. * rank()});
+                std::vector<double>{10. * own_rank() + 1, 10. * own_rank()});
   const Archive whole = archive.gathered(comm);
-  for (unsigned int i = 0; rank() == 0 && i < 2 * n_ranks(); ++i)
+  for (unsigned int i = 0; own_rank() == 0 && i < 2 * rank_count(); ++i)
     EXPECT_EQ(whole.numbers("surface/gap")[i], 10. * (i / 2) + i % 2);
 }
 
@@ -178,7 +178,7 @@ TEST(ArchiveFile, RoundTripKeepsEveryBit)
   // Every rank has the rest, and its share of the rows.
   EXPECT_EQ(read.number("time/current"), 0.1);
   EXPECT_EQ(read.text("history/empty"), "");
-  EXPECT_LE(read.integers("points/id").size(), n_rows / n_ranks() + 1);
+  EXPECT_LE(read.integers("points/id").size(), n_rows / rank_count() + 1);
 }
 
 
@@ -193,7 +193,7 @@ TEST(ArchiveFile, FailuresAreSaid)
             "cannot read 'nothing.h5': HDF5 reports a failure");
 
   const TemporaryFile file;
-  if (rank() == 0)
+  if (own_rank() == 0)
     std::ofstream(file.path) << "no HDF5";
   MPI_Barrier(comm);
   EXPECT_EQ(message_of<InputError>([&]() { read_file(file.path, comm); }),
@@ -209,7 +209,7 @@ TEST(ArchiveFile, AFullDiskLeavesTheOldFile)
   const TemporaryFile file;
   write_file(make_archive(), file.path, comm);
   const std::string part = file.path + ".part";
-  if (rank() == 0)
+  if (own_rank() == 0)
     std::filesystem::create_symlink("/dev/full", part);
   MPI_Barrier(comm);
   Archive large;

@@ -73,6 +73,7 @@ TEST(SimulationState, KeepsAllOrNothing)
               });
             }),
             "between the parts");
+  state.undo();
   EXPECT_EQ(a.accepted, 1.);
   EXPECT_EQ(a.trial, 1.);
   EXPECT_EQ(b.trial, 2.);

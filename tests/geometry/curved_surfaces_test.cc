@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/arc.h>
-#include <moraine/geometry/curved_surfaces.h>
-#include <moraine/geometry/rigid_motion.h>
 #include <moraine/core/exceptions.h>
+
+#include <moraine/geometry/curved_surfaces.h>
+#include <moraine/geometry/straight_shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +26,27 @@ namespace
                  const double        exact)
   {
     return std::abs(measure(all_pieces(surface, cells, n_gauss)) / exact - 1.);
+  }
+
+  /** Where an expression is zero, in the quarter above and right of a corner.
+   */
+  template <int dim>
+  LevelSetSurface<dim>
+  zero_of(const std::string &expression, const Extent<dim> &extent = {})
+  {
+    return {std::make_shared<ExpressionShape<dim>>(expression, "here"),
+            true,
+            extent,
+            unlimited_box<dim>()};
+  }
+
+  template <int dim>
+  std::shared_ptr<const Surface<dim>>
+  face(const Shape<dim> &shape, const std::string &part, const bool body_inside)
+  {
+    typename Shape<dim>::Faces faces;
+    shape.add_faces(part, body_inside, {}, faces);
+    return faces.at(0);
   }
 } // namespace
 
@@ -118,8 +139,8 @@ TEST(Arc, ExtentAndMistakes)
 TEST(LevelSetSurface, CircleByTheGenerator)
 {
   // errors of the length with 2 and 3 points; they fall with the cell size
-  const ExpressionSurface<2> circle(
-    "(3.3^2 - (x - 5.03)^2 - (y - 4.96)^2)/(2*3.3)", "here");
+  const auto circle =
+    zero_of<2>("(3.3^2 - (x - 5.03)^2 - (y - 4.96)^2)/(2*3.3)");
   const double exact  = 2. * pi * 3.3;
   const auto   coarse = box_cells<2>(10, 10., 0.),
              fine     = box_cells<2>(40, 10., 0.),
@@ -133,8 +154,10 @@ TEST(LevelSetSurface, CircleByTheGenerator)
 
 TEST(Sphere, Area)
 {
-  const Sphere sphere({1.03, 0.96, 1.01}, 0.7, false);
-  const double exact = 4. * pi * 0.49;
+  const RoundShape<3> ball({1.03, 0.96, 1.01}, 0.7);
+  const auto          surface = face<3>(ball, "", false);
+  const auto         &sphere  = *surface;
+  const double        exact   = 4. * pi * 0.49;
   EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 2, exact), 3e-3);
   EXPECT_LT(relative_error<3>(sphere, box_cells<3>(6, 2., 0.), 3, exact), 4e-4);
   EXPECT_LT(relative_error<3>(sphere, box_cells<3>(10, 2., 0.1), 3, exact),
@@ -150,12 +173,15 @@ TEST(Sphere, Area)
 TEST(Cylinder, Area)
 {
   // ends exact where the axis follows the mesh, else chosen point by point
-  const double       exact = 2. * pi * 0.6 * 1.1;
-  const auto         cells = box_cells<3>(6, 2., 0.);
-  const Cylinder     along({1.03, 0.96, 0.37}, {1.03, 0.96, 1.47}, 0.6, true);
-  const Tensor<1, 3> axis = Point<3>(1., 2., 3.) / std::sqrt(14.);
-  const Point<3>     middle(1.01, .99, 1.02);
-  const Cylinder tilted(middle - .55 * axis, middle + .55 * axis, 0.6, false);
+  const double        exact = 2. * pi * 0.6 * 1.1;
+  const auto          cells = box_cells<3>(6, 2., 0.);
+  const CylinderShape upright({1.03, 0.96, 0.37}, {1.03, 0.96, 1.47}, 0.6);
+  const Tensor<1, 3>  axis = Point<3>(1., 2., 3.) / std::sqrt(14.);
+  const Point<3>      middle(1.01, .99, 1.02);
+  const CylinderShape slanted(middle - .55 * axis, middle + .55 * axis, 0.6);
+  const auto          sides  = face<3>(upright, "side", true);
+  const auto          around = face<3>(slanted, "side", false);
+  const auto         &along = *sides, &tilted = *around;
   EXPECT_LT(relative_error<3>(along, cells, 3, exact), 2e-4);
   EXPECT_LT(relative_error<3>(tilted, cells, 2, exact), 2e-3);
   EXPECT_TRUE(tilted.in_extent(middle + .54 * axis));
@@ -165,9 +191,14 @@ TEST(Cylinder, Area)
 
 TEST(ExpressionSurface, AgreesWithTheCircle)
 {
-  const std::string          text = "3.3 - sqrt((x-5.03)^2 + (y-4.96)^2)";
-  const ExpressionSurface<2> circle(text, "here"),
-    half(text, "here", BoundingBox<2>({{0., 4.96}, {10., 10.}}));
+  const std::string text   = "3.3 - sqrt((x-5.03)^2 + (y-4.96)^2)";
+  const auto        circle = zero_of<2>(text),
+             half          = zero_of<2>(
+               text,
+               {{{std::make_shared<ConvexShape<2>>(
+                    ConvexShape<2>::half_space({0., 4.96}, Point<2>(0., -1.))),
+                           true,
+                           Extent<2>::Along::inner}}});
   const auto cells = box_cells<2>(10, 10., 0.);
   EXPECT_LT(relative_error<2>(circle, cells, 3, 2. * pi * 3.3), 2e-6);
   EXPECT_LT(relative_error<2>(half, cells, 3, pi * 3.3), 2e-6);
@@ -176,15 +207,15 @@ TEST(ExpressionSurface, AgreesWithTheCircle)
   EXPECT_NEAR(circle.level({5.03, 7.96}), 0.3, 1e-9);
   EXPECT_NEAR((circle.normal({5.03, 7.96}) - Point<2>(0, 1)).norm(), 0., 1e-9);
   EXPECT_FALSE(half.in_extent({5.03, 2.}));
-  const auto hessian = circle.function_hessian({8.03, 4.96}, 1.);
+  const auto hessian =
+    ExpressionShape<2>(text, "here").hessian({8.03, 4.96}, 1.);
   EXPECT_NEAR(hessian[0][0], 0., 1e-7);
   EXPECT_NEAR(hessian[1][1], -1. / 3., 1e-7);
   EXPECT_NEAR(hessian[0][1], 0., 1e-7);
-  EXPECT_THROW(ExpressionSurface<2>("x + ", "here"), InputError);
-  EXPECT_THROW(ExpressionSurface<2>("x + z", "here"), InputError);
-  EXPECT_THROW(ExpressionSurface<2>("x + t", "here"), InputError);
-  EXPECT_THROW(ExpressionSurface<2>("sqrt(x)", "here").level({-1., 0.}),
-               InputError);
+  EXPECT_THROW(zero_of<2>("x + "), InputError);
+  EXPECT_THROW(zero_of<2>("x + z"), InputError);
+  EXPECT_THROW(zero_of<2>("x + t"), InputError);
+  EXPECT_THROW(zero_of<2>("sqrt(x)").level({-1., 0.}), InputError);
 }
 
 TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
@@ -192,10 +223,9 @@ TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
   // y = 0.5 is a mesh line of both meshes; the text is not a distance
   for (const double sign : {-1., 1.})
     {
-      const ExpressionSurface<2> line((sign > 0. ? "" : "-") +
-                                        std::string("(3*y - 1.5)"),
-                                      "here");
-      double                     sum = 0.;
+      const auto line =
+        zero_of<2>((sign > 0. ? "" : "-") + std::string("(3*y - 1.5)"));
+      double sum = 0.;
       for (const auto &cell : box_cells<2>(4, 1., 0.))
         {
           std::vector<SurfacePoint<2>> points;

@@ -149,10 +149,10 @@ TEST(StraightShapes, RotatedBoxes)
 TEST(StraightShapes, RotationAboutACentreThenTranslation)
 {
   const Placement<2> motion(90., {1., 0.}, {}, Tensor<1, 2>({0., 5.}));
-  EXPECT_EQ(motion.apply(Point<2>(2., 0.)), Point<2>(1., 6.));
-  EXPECT_EQ(motion.undo(Point<2>(1., 6.)), Point<2>(2., 0.));
+  EXPECT_EQ(motion.map(Point<2>(2., 0.)), Point<2>(1., 6.));
+  EXPECT_EQ(motion.inverse(Point<2>(1., 6.)), Point<2>(2., 0.));
   const Placement<3> about_x(90., {}, Tensor<1, 3>({2., 0., 0.}), {});
-  EXPECT_EQ(about_x.apply(Point<3>(1., 1., 0.)), Point<3>(1., 0., 1.));
+  EXPECT_EQ(about_x.map(Point<3>(1., 1., 0.)), Point<3>(1., 0., 1.));
 }
 
 
@@ -322,8 +322,8 @@ TEST(CurvedShapes, DiscAndRingAreExact)
 {
   const Point<2>         centre(0.31, 0.27);
   const Tensor<1, 3>     at({0.31, 0.27, 0.});
-  const auto             disc  = std::make_shared<BallShape<2>>(centre, 0.9);
-  const auto             inner = std::make_shared<BallShape<2>>(centre, 0.4);
+  const auto             disc  = std::make_shared<RoundShape<2>>(centre, 0.9);
+  const auto             inner = std::make_shared<RoundShape<2>>(centre, 0.4);
   const CombinedShape<2> ring(CombinedShape<2>::Operation::hollow_out,
                               disc,
                               inner);
@@ -362,8 +362,8 @@ TEST(CurvedShapes, DiscAndRingAreExact)
 
 TEST(CurvedShapes, SphereIsExact)
 {
-  const Point<3>     centre(0.31, 0.27, 0.29);
-  const BallShape<3> sphere(centre, 0.9);
+  const Point<3>      centre(0.31, 0.27, 0.29);
+  const RoundShape<3> sphere(centre, 0.9);
   for (const unsigned int n : {1, 3, 8})
     for (const bool bent : {false, true})
       expect_total(total_over_mesh(sphere, -1., 1.6, n, bent),
@@ -430,8 +430,8 @@ TEST(CurvedShapes, TwoCurvedOperands)
 {
   // lens of two discs of radius 1 at distance 1
   using Operation   = CombinedShape<2>::Operation;
-  const auto   a    = std::make_shared<BallShape<2>>(Point<2>(0., 0.), 1.);
-  const auto   b    = std::make_shared<BallShape<2>>(Point<2>(1., 0.), 1.);
+  const auto   a    = std::make_shared<RoundShape<2>>(Point<2>(0., 0.), 1.);
+  const auto   b    = std::make_shared<RoundShape<2>>(Point<2>(1., 0.), 1.);
   const double lens = 2. * PI / 3. - std::sqrt(3.) / 2.;
   expect_total(
     total_over_mesh(*combine<2>(Operation::intersect, a, b), -1., 2., 15),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/straight_surfaces.h>
 #include <moraine/core/exceptions.h>
+
+#include <moraine/geometry/straight_surfaces.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -240,7 +241,7 @@ TEST(Plane, LineInTwoDimensions)
       const Point<2>     p = numbers.point<2>(0., 10.);
       const Tensor<1, 2> n = numbers.direction<2>();
       const Tensor<1, 2> t = Point<2>(-n[1], n[0]);
-      EXPECT_NEAR(measure(all_pieces(Plane<2>(p, 3. * n), cells, 1)),
+      EXPECT_NEAR(measure(all_pieces(Polyline::plane(p, 3. * n), cells, 1)),
                   length_in_box(p - 50. * t, p + 50. * t, 10.),
                   1e-12);
     }
@@ -253,7 +254,7 @@ TEST(Plane, AreaInACube)
     {
       const auto cells = box_cells<3>(3, 1., distortion);
       const auto area  = [&](const Point<3> &p, const Tensor<1, 3> &n) {
-        return measure(all_pieces(Plane<3>(p, n), cells, 2));
+        return measure(all_pieces(PlanePatch::plane(p, n), cells, 2));
       };
       EXPECT_NEAR(area({.5, .5, .5}, Point<3>(1, 1, 1)),
                   .75 * std::sqrt(3.),
@@ -276,8 +277,9 @@ TEST(Plane, AlignedOnceAndOnTheBodySideIn3D)
         {
           Point<3> p(.4, .4, .4);
           p[d] = i / 4.;
-          const Plane<3> plane(p, sign * Point<3>::unit_vector(d));
-          double         sum = 0.;
+          const PlanePatch plane =
+            PlanePatch::plane(p, sign * Point<3>::unit_vector(d));
+          double sum = 0.;
           for (const auto &cell : cells)
             {
               std::vector<SurfacePoint<3>> points;
@@ -338,7 +340,8 @@ TEST(PlanePatch, CellsOfARegularMeshKeepTheirOwnPoints)
   Numbers    numbers(8);
   for (unsigned int i = 0; i < 20; ++i)
     {
-      const Plane<3> plane(numbers.point<3>(.2, .8), numbers.direction<3>());
+      const PlanePatch plane =
+        PlanePatch::plane(numbers.point<3>(.2, .8), numbers.direction<3>());
       for (const auto &cell : cells)
         {
           std::vector<SurfacePoint<3>> few, many;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/placement.h>
 #include <moraine/geometry/surface_library.h>
 #include <moraine/core/exceptions.h>
 
@@ -18,14 +18,14 @@ using namespace moraine_tests;
 namespace
 {
   template <int dim>
-  std::unique_ptr<Surface<dim>>
+  std::shared_ptr<const Surface<dim>>
   read(const std::string &text)
   {
     SurfaceParameters<dim> parameters;
     ParameterHandler       prm;
     parameters.add_parameters(prm);
     prm.parse_input_from_string(text);
-    return make_surface<dim>(parameters, "Boundaries/left");
+    return make_surface<dim>(parameters, {}, "Boundaries/left");
   }
 
   template <int dim>
@@ -122,6 +122,84 @@ TEST(SurfaceLibrary, MistakesAreNamed)
       "set Extent lower corner = 1, 1\nset Extent upper corner = 2, 0"),
     "section 'Boundaries/left', key 'Extent upper corner': found '2, 0', "
     "allowed: above the lower corner in every direction");
+}
+
+TEST(SurfaceLibrary, RimsOfBodies)
+{
+  const auto shape = [](const std::string &text) {
+    ShapeParameters<2> parameters;
+    ParameterHandler   prm;
+    parameters.add_parameters(prm);
+    prm.parse_input_from_string(text);
+    return parameters;
+  };
+  const auto bodies = make_shapes<2>(
+    {{"block",
+      shape("set Lower corner = 0, 0\nset Upper corner = 2, 1\n"
+            "set Rotation angle = 90")},
+     {"wheel",
+      shape("set Shape = ring\nset Centre = 5, 5\nset Radius = 2\n"
+            "set Inner radius = 1")},
+     {"both", shape("set Shape = union\nset Operands = block, wheel")},
+     {"all", shape("set Shape = mesh")},
+     {"plate", shape("set Shape = disc\nset Centre = 0, 0\nset Radius = 1")},
+     {"file", shape("set Shape = points-from-file\nset Point file = a.csv")}},
+    "Bodies");
+  const auto make = [&](const std::string &text) {
+    SurfaceParameters<2> parameters;
+    ParameterHandler     prm;
+    parameters.add_parameters(prm);
+    prm.parse_input_from_string(text);
+    return make_surface<2>(parameters, bodies, "Boundaries/left");
+  };
+  // the placement goes along
+  const auto left = make("set Body = block\nset Part = left");
+  EXPECT_NEAR(left->level({-.5, .25}), .25, 1e-15);
+  EXPECT_NEAR((left->normal({-.5, .25}) - Point<2>(0., -1.)).norm(), 0., 1e-15);
+  EXPECT_NEAR(make("set Body = wheel\nset Part = inner")->level({5., 6.25}),
+              .25,
+              1e-14);
+  EXPECT_NEAR(make("set Body = both\nset Part = wheel/outer")->level({5., 6.5}),
+              .5,
+              1e-14);
+  EXPECT_NEAR(make("set Body = plate")->level({0., .25}), .75, 1e-14);
+
+  const auto complaint_of = [&](const std::string &text) {
+    try
+      {
+        make(text);
+      }
+    catch (const InputError &error)
+      {
+        return std::string(error.what());
+      }
+    return std::string("none");
+  };
+  const std::string here = "section 'Boundaries/left', ";
+  EXPECT_EQ(complaint_of("set Body = whel"),
+            here + "key 'Body': found 'whel', allowed: names of bodies; did "
+                   "you mean 'wheel'? Allowed here: all, block, both, file, "
+                   "plate, wheel");
+  EXPECT_EQ(complaint_of("set Body = wheel\nset Part = iner"),
+            here + "key 'Part': found 'iner', allowed: parts of the rim of "
+                   "'wheel'; did you mean 'inner'? Allowed here: outer, inner");
+  EXPECT_EQ(complaint_of("set Body = plate\nset Part = top"),
+            here + "key 'Part': found 'top', allowed: nothing, the rim of "
+                   "'plate' is one whole");
+  EXPECT_EQ(complaint_of("set Part = top"),
+            here + "key 'Body': found nothing, allowed: a value, needed by a "
+                   "rim of a body");
+  EXPECT_EQ(complaint_of("set Body = wheel\nset Radius = 2"),
+            here + "key 'Radius': found '2', allowed: nothing, a rim of a body "
+                   "has no such entry");
+  EXPECT_EQ(complaint_of("set Body = wheel\nset Surface = circle"),
+            here + "key 'Surface': found 'circle', allowed: nothing, a rim of "
+                   "a body has no such entry");
+  for (const std::string name : {"all", "file"})
+    EXPECT_EQ(complaint_of("set Body = " + name),
+              here + "key 'Body': found '" + name +
+                "', allowed: a body with a rim; points of a file and the whole "
+                "mesh have none");
 }
 
 TEST(RigidMotion, PosesAndBack)

@@ -16,6 +16,15 @@ endfunction()
 
 step(${CMAKE_COMMAND} --install ${build} --prefix ${work}/prefix)
 step(${work}/prefix/bin/moraine --version)
+set(scenes ${work}/prefix/share/moraine/prm)
+step(${work}/prefix/bin/moraine check ${scenes}/cortis-2017/block-30.prm)
+step(${work}/prefix/bin/moraine check ${scenes}/verification/mesh-quads.prm)
+foreach(file LICENSE README.md CITATION.cff doc/parameters.md
+        doc/figures/footing.png)
+  if(NOT EXISTS ${work}/prefix/share/doc/moraine/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
 step(${CMAKE_COMMAND} -S ${consumer} -B ${work}/build -G ${generator} -D
      CMAKE_BUILD_TYPE=${type} -D CMAKE_PREFIX_PATH=${work}/prefix)
 step(${CMAKE_COMMAND} --build ${work}/build)

@@ -4,6 +4,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/output/history.h>
 #include <moraine/output/output_directory.h>
+#include <moraine/output/pvd_history.h>
 #include <moraine/output/summary.h>
 
 #include <gtest/gtest.h>
@@ -58,6 +59,56 @@ namespace moraine
 
 
 
+  TEST(History, goes_on_from_an_archive)
+  {
+    const Folder folder;
+    History      history(folder.file("a.csv"), MPI_COMM_WORLD);
+    History      resumed(folder.file("b.csv"), MPI_COMM_WORLD);
+    history.add_row({{"t", "-", 0.}, {"u, x", "length", 1. / 3.}});
+    Archive archive;
+    history.write(archive);
+    history.add_row({{"t", "-", 0.5}, {"u, x", "length", 2.}});
+    resumed.read(archive);
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_EQ(content(folder.file("b.csv")),
+              "t,\"u, x [length]\"\n0,0.333333333333333\n");
+    MPI_Barrier(MPI_COMM_WORLD);
+    resumed.add_row({{"t", "-", 0.5}, {"u, x", "length", 2.}});
+    EXPECT_EQ(content(folder.file("b.csv")), content(folder.file("a.csv")));
+    // A row that is taken back disappears from the file.
+    MPI_Barrier(MPI_COMM_WORLD);
+    history.read(archive);
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_EQ(content(folder.file("a.csv")),
+              "t,\"u, x [length]\"\n0,0.333333333333333\n");
+  }
+
+
+
+  TEST(PvdHistory, goes_on_from_an_archive)
+  {
+    const Folder folder, other;
+    PvdHistory   pvd(folder.file("points.pvd"), MPI_COMM_WORLD);
+    PvdHistory   resumed(other.file("points.pvd"), MPI_COMM_WORLD);
+    pvd.add(0., "points/0 a.vtu");
+    pvd.add(0.1, "points/1.vtu");
+    Archive archive;
+    pvd.write(archive);
+    resumed.read(archive);
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_EQ(content(other.file("points.pvd")),
+              content(folder.file("points.pvd")));
+    MPI_Barrier(MPI_COMM_WORLD);
+    pvd.add(0.2, "points/2.vtu");
+    resumed.add(0.2, "points/2.vtu");
+    EXPECT_EQ(content(other.file("points.pvd")),
+              content(folder.file("points.pvd")));
+    EXPECT_NE(content(folder.file("points.pvd")).find("0 a.vtu"),
+              std::string::npos);
+  }
+
+
+
   TEST(History, failed_write_names_the_file)
   {
     History history("/dev/full", MPI_COMM_WORLD);
@@ -108,6 +159,29 @@ namespace moraine
 
 
 
+  /** A run that failed before its first step has no results. */
+  TEST(OutputDirectory, a_summary_alone_is_no_result)
+  {
+    const Folder      folder;
+    const std::string path = folder.file("out");
+    EXPECT_FALSE(OutputDirectory::holds_results(path, MPI_COMM_WORLD));
+    {
+      const OutputDirectory directory(path, false, MPI_COMM_WORLD);
+    }
+    for (const char *name : {"/summary.json", "/log.txt", "/original.prm"})
+      touch(path + name);
+    EXPECT_FALSE(OutputDirectory::holds_results(path, MPI_COMM_WORLD));
+    {
+      const OutputDirectory directory(path, false, MPI_COMM_WORLD);
+    }
+    for (const char *name : {"/summary.json", "/log.txt", "/original.prm"})
+      EXPECT_FALSE(std::filesystem::exists(path + name)) << name;
+    touch(path + "/mesh/00003.vtu");
+    EXPECT_TRUE(OutputDirectory::holds_results(path, MPI_COMM_WORLD));
+  }
+
+
+
   TEST(OutputDirectory, that_cannot_be_made)
   {
     const Folder      folder;
@@ -143,9 +217,10 @@ namespace moraine
     Summary      summary;
     summary.version        = "1.0";
     summary.dimension      = 2;
-    summary.points         = 5000000000;
+    summary.sizes.points   = 5000000000;
     summary.timings        = {{"solve", 0.5}, {"assembly", 0.25}};
     summary.effects        = {"internal force"};
+    summary.linear_solvers = {"direct"};
     summary.errors         = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
     summary.probes         = {{"u_x at A", 0.125}};
     summary.reactions      = {{"left", {1., -2.}}};
@@ -173,6 +248,7 @@ namespace moraine
     "assembly": 0.25
   },
   "effects": ["internal force"],
+  "linear_solvers": ["direct"],
   "errors": {
     "r_u": 1e-10,
     "r_sigma_xy": null

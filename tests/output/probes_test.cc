@@ -100,6 +100,34 @@ namespace moraine
 
 
 
+  TEST(Probes, go_on_from_an_archive)
+  {
+    const BackgroundMesh<2> mesh(mesh_parameters<2>(), MPI_COMM_WORLD);
+    PointSet<2>             points(mesh, {});
+    fill(points);
+    const std::vector<ProbeParameters<2>> two = {
+      probe("A", {0.5, 0.5}, "nearest point", {"position"}),
+      probe("B", {1.5, 0.5}, "interpolated", {"displacement"})};
+    Probes<2> probes(two, points, true);
+    Archive   written, before;
+    probes.write(before);
+    EXPECT_EQ(before.integers("probes/point")[0], 99u);
+    written.write("probes/point", std::vector<unsigned int>{100, 0});
+    written.write("probes/displacement",
+                  std::vector<double>{0., 0., 0.25, -0.5},
+                  2);
+    probes.read(written);
+    Archive again;
+    probes.write(again);
+    EXPECT_TRUE(again == written);
+    const auto columns = probes.values(points);
+    EXPECT_DOUBLE_EQ(columns[0].value, 0.25);
+    EXPECT_DOUBLE_EQ(columns[2].value, 0.25);
+    EXPECT_DOUBLE_EQ(columns[3].value, -0.5);
+  }
+
+
+
   TEST(Probes, interpolate_and_are_carried_along)
   {
     const BackgroundMesh<2> mesh(mesh_parameters<2>(), MPI_COMM_WORLD);
@@ -126,31 +154,47 @@ namespace moraine
           probe("P", {1., 0.5}, "interpolated", {"displacement", "position"});
         Probes<2> carried({place}, points, true);
         Probes<2> kept({place}, points, false);
-        carried.try_step(field);
+        carried.try_step(field, points);
         carried.keep_step();
-        kept.try_step(field);
+        kept.try_step(field, points);
         kept.keep_step();
         EXPECT_NEAR(carried.values(points)[0].value, 0.625, 1e-14);
         EXPECT_NEAR(carried.values(points)[2].value, 1.625, 1e-14);
-        carried.try_step(field);
+        carried.try_step(field, points);
         carried.keep_step();
-        kept.try_step(field);
+        kept.try_step(field, points);
         kept.keep_step();
         const double second = 0.5 + 0.25 * 1.625 * 0.45;
         EXPECT_NEAR(carried.values(points)[0].value, 0.625 + second, 1e-14);
         EXPECT_NEAR(carried.values(points)[1].value, -0.05 - 0.045, 1e-14);
         EXPECT_NEAR(kept.values(points)[0].value, 1.25, 1e-14);
 
-        // x is now 2.31, and after one more step 3.04, where no material is.
-        carried.try_step(field);
+        // x is now 2.31, and after one more step 3.04, where no material is:
+        // from there on it goes with the point nearest to it.
+        carried.try_step(field, points);
         carried.keep_step();
-        EXPECT_FALSE(std::isnan(carried.values(points)[0].value));
-        carried.try_step(field);
+        EXPECT_TRUE(carried.news().empty());
+        const auto there = carried.values(points);
+        EXPECT_GT(there[2].value, 3.);
+        carried.try_step(field, points);
+        EXPECT_EQ(carried.values(points)[0].value, there[0].value);
         carried.keep_step();
-        carried.try_step(field);
+        ASSERT_EQ(carried.news().size(), 1u);
+        EXPECT_EQ(carried.news()[0].rfind("probe 'P' has left the cells", 0),
+                  0u);
+        for (unsigned int i = 0; i < there.size(); ++i)
+          EXPECT_NEAR(carried.values(points)[i].value, there[i].value, 1e-14);
+        const double u[] = {0.125, -0.25};
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          for (unsigned int d = 0; d < 2; ++d)
+            points.values(p)[points.displacement_offset() + d] += u[d];
+        carried.try_step(field, points);
         carried.keep_step();
-        for (const NamedValue &value : carried.values(points))
-          EXPECT_TRUE(std::isnan(value.value)) << value.name;
+        EXPECT_TRUE(carried.news().empty());
+        for (unsigned int i = 0; i < there.size(); ++i)
+          EXPECT_NEAR(carried.values(points)[i].value,
+                      there[i].value + u[i % 2],
+                      1e-14);
       }
   }
 

@@ -32,6 +32,8 @@ namespace moraine
     {
       unsigned int       n_components = 0;
       std::string        unit;
+      std::string        unit_for_vtk;
+      std::string        second_component;
       std::vector<float> values;
     };
 
@@ -88,9 +90,19 @@ namespace moraine
                       const std::string n     = attribute(tag, "NumberOfComponents");
                       array.n_components      = n.empty() ? 1 : std::stoi(n);
                       array.unit              = attribute(tag, "units");
+                      array.second_component  = attribute(tag, "ComponentName1");
                       std::string data =
-                        text.substr(end + 1, text.find('<', end) - end - 1);
-                      data.erase(std::remove_if(data.begin(),
+                        text.substr(end + 1, text.find("</DataArray", end) - end - 1);
+                      const std::string key = "</InformationKey>";
+                      if (data.find(key) != std::string::npos)
+            {
+                          const std::string element = data.substr(0, data.find(key));
+                          EXPECT_EQ(attribute(element, "name"), "UNITS_LABEL");
+                          EXPECT_EQ(attribute(element, "location"), "vtkDataArray");
+                          array.unit_for_vtk = element.substr(element.find('>') + 1);
+                          data.erase(0, data.find(key) + key.size());
+            }
+          data.erase(std::remove_if(data.begin(),
                                     data.end(),
                                     [](unsigned char c) {
                                       return std::isspace(c) != 0;
@@ -120,13 +132,14 @@ namespace moraine
     {
       const BackgroundMesh<dim> mesh(mesh_parameters<dim>(), MPI_COMM_WORLD);
       PointFields               layout;
-      const unsigned int plastic = layout.request("plastic_strain", 1, "-");
-      PointSet<dim>      points(mesh, layout);
+      const auto                plastic =
+        layout.request(FieldName<dim, double>{"plastic_strain", "-"});
+      PointSet<dim> points(mesh, layout);
       fill(points);
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
-          double *values                           = points.values(p);
-          values[plastic]                          = 0.5;
+          double *values = points.values(p);
+          plastic.store(0.5, values);
           values[points.displacement_offset() + 1] = points.id(p);
           for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
             values[points.stress_offset() + c] = c + 1;
@@ -140,6 +153,11 @@ namespace moraine
       ASSERT_EQ(arrays["stress"].n_components, 9u);
       EXPECT_EQ(arrays["displacement"].unit, "length");
       EXPECT_EQ(arrays["stress"].unit, "stress");
+      EXPECT_EQ(arrays["stress"].unit_for_vtk, "stress");
+      EXPECT_EQ(arrays["stress"].second_component, "xy");
+      EXPECT_EQ(arrays["displacement"].unit_for_vtk, "length");
+      EXPECT_EQ(arrays["displacement"].second_component, "");
+      EXPECT_EQ(arrays["id"].unit_for_vtk, "");
       EXPECT_EQ(arrays["volume"].unit, dim == 2 ? "length^2" : "length^3");
       EXPECT_EQ(arrays["body"].values, std::vector<float>(16, 0.f));
       EXPECT_EQ(arrays["plastic_strain"].values, std::vector<float>(16, 0.5f));

@@ -40,6 +40,8 @@ namespace
   {
     return {positions,
             std::vector<double>(positions.size(), 0.25),
+            {},
+            {},
             Tensor<2, 2>(),
             [](const unsigned int i) { return "row " + std::to_string(i); }};
   }
@@ -130,11 +132,11 @@ TEST(SeedBodies, RefusesWhatIsNotInTheMesh)
 {
   EXPECT_EQ(complaint({{"a", box(Point<2>(1, 1), Point<2>(4, 2))}}), "");
   EXPECT_EQ(complaint({{"a", box(Point<2>(1, 1), Point<2>(5, 2))}}),
-            "section 'Bodies/a': found 25 % of its volume outside the mesh, "
+            "body 'a': found 25 % of its volume outside the mesh, "
             "which is (0 0) to (4 4), allowed: a body in the mesh; only "
             "half-spaces and expressions are cut by it");
   EXPECT_EQ(complaint({{"a", box(Point<2>(5, 1), Point<2>(6, 2))}}),
-            "section 'Bodies/a': found no part of the body inside the mesh, "
+            "body 'a': found no part of the body inside the mesh, "
             "allowed: a body that is not empty and lies in the mesh");
   EXPECT_EQ(complaint({{"a", points_at({{1, 1}, {4.5, 1}})}}),
             "row 1: found a point at (4.5 1), allowed: points inside the mesh");
@@ -149,6 +151,6 @@ TEST(SeedBodies, RefusesOverlap)
             "");
   EXPECT_EQ(complaint({{"a", box(Point<2>(1, 1), Point<2>(2.2, 1.4))},
                        {"b", box(Point<2>(2.1, 1), Point<2>(3, 1.4))}}),
-            "section 'Bodies': 'a' and 'b' overlap near (2.25 1.25), allowed: "
+            "bodies: 'a' and 'b' overlap near (2.25 1.25), allowed: "
             "bodies that share no volume");
 }

@@ -208,9 +208,9 @@ TEST(SeedAnyMesh, BodyMustLieInTheMesh)
   };
   EXPECT_EQ(seed(Point<2>(5.2, -1), Point<2>(8, 1)), "");
   // a quarter of it is in the hole, within the box around the mesh
-  EXPECT_NE(seed(Point<2>(4., -0.1), Point<2>(8, 0.1))
-              .find("section 'Bodies/block': found 24.7"),
-            std::string::npos)
+  EXPECT_NE(
+    seed(Point<2>(4., -0.1), Point<2>(8, 0.1)).find("body 'block': found 24.7"),
+    std::string::npos)
     << seed(Point<2>(4., -0.1), Point<2>(8, 0.1));
 }
 

@@ -50,8 +50,8 @@ namespace
     PointSet<dim>             points(mesh, {});
     const auto                ring = std::make_shared<CombinedShape<dim>>(
       Operation::subtract,
-      std::make_shared<BallShape<dim>>(corner, outer),
-      std::make_shared<BallShape<dim>>(corner, inner));
+      std::make_shared<RoundShape<dim>>(corner, outer),
+      std::make_shared<RoundShape<dim>>(corner, inner));
     const auto box = std::make_shared<ConvexShape<dim>>(
       ConvexShape<dim>::box(corner, mesh_parameters.upper_corner));
     const double volume = seed_bodies<dim>(

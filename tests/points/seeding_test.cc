@@ -118,7 +118,7 @@ TEST(Seeding, VolumesSumUpToTheBody)
           1e-12);
       }
   EXPECT_NEAR(total(seed_mesh(CellSeeder<2>(2, PointLayout::equal),
-                              BallShape<2>(Point<2>(0.2, 0.1), 0.7),
+                              RoundShape<2>(Point<2>(0.2, 0.1), 0.7),
                               15,
                               -0.8,
                               0.13)) /
@@ -210,7 +210,7 @@ TEST(Seeding, TrilinearGradientsOfCutCellsAreIntegrated)
   // int x_i x_j of the body: its principal moments, turned, about its centre
   const Placement<3> turn(30., Point<3>(), Tensor<1, 3>({1., 2., 3.}), {});
   const Point<3>     c =
-    turn.apply(Point<3>(0.5, 0.25, 0.35)) + Tensor<1, 3>({0.4, 0.3, 0.3});
+    turn.map(Point<3>(0.5, 0.25, 0.35)) + Tensor<1, 3>({0.4, 0.3, 0.3});
   const std::array<double, 3> length{{1., 0.5, 0.7}};
   for (const unsigned int n : {1, 2, 3})
     {
@@ -220,7 +220,7 @@ TEST(Seeding, TrilinearGradientsOfCutCellsAreIntegrated)
           const unsigned int e     = (d + 1) % 3;
           double             exact = c[d] * c[e];
           for (unsigned int k = 0; k < 3; ++k)
-            exact += turn.rotation[d][k] * turn.rotation[e][k] * length[k] *
+            exact += turn.rotation()[d][k] * turn.rotation()[e][k] * length[k] *
                      length[k] / 12.;
           EXPECT_NEAR(sums[d], 0.35 * exact, 1e-14);
         }

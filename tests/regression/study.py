@@ -36,11 +36,36 @@ picture = (beam.folder / "study.png").read_bytes()
 text("picture", "PNG" if picture[1:4] == b"PNG" and len(picture) > 10000
      else "NO")
 script = (beam.folder / "study.gp").read_text()
-for line in ("set xlabel", "set ylabel", "set title", "set logscale"):
-    text("plot", next(l for l in script.splitlines() if l.startswith(line)))
-text("curves", script.count(" with linespoints"))
+for line in ("set multiplot", "set xlabel", "set ylabel", "set logscale"):
+    for found in dict.fromkeys(l for l in script.splitlines()
+                               if l.startswith(line)):
+        text("plot", found)
+text("curves in each panel", [panel.count(" with linespoints")
+                              for panel in script.split("plot ")[1:]])
+header, *rows = ([cell.strip() for cell in line.split("|")[1:-1]]
+                 for line in beam.output.splitlines() if line.startswith("|"))
+order = {(row[0], row[1]): row[header.index("order")] for row in rows}
+number("order of FE Q1", float(order["FE Q1", "10"]), 3)
+text("order of the first size", order["FE Q1", "20"])
 table = [line for line in beam.output.splitlines() if line.startswith("|")]
 text("table", f"{len(table)} lines, {' '.join(table[0].split())}")
+
+# Steps are the last choice, and numbers of cells a list: orders in the mesh,
+# curves that do not join different steps, errors over the largest stress.
+column = study("prm/studies/large-column.prm",
+               {"Mesh/Cells": "{{1, 8|1, 32}}", "Time/Steps": "{{5|10}}",
+                "Study/Panels": "Steps = 5, | Steps = 10, FE"})
+header, *rows = ([cell.strip() for cell in line.split("|")[1:-1]]
+                 for line in column.output.splitlines() if line.startswith("|"))
+for row in rows:
+    if row[0] == "FE Q1":
+        text("  column", ", ".join(
+            [*row[:3], row[header.index("error")], row[header.index("order")]]))
+script = (column.folder / "study.gp").read_text()
+text("curves in each panel", [panel.count(" with linespoints")
+                              for panel in script.split("plot ")[1:]])
+text("points of the first curve",
+     script[:script.index("EOD\n", 20)].count("\n") - 1)
 
 again = run("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "20"}, command="study",
             extra=["--output", str(beam.folder)], expect=2)
@@ -83,7 +108,11 @@ for settings in ({"Study/Error": "probe u_z at corner"},
                  {"Study/Reference value": "0"},
                  {"Method/Degree": "{{1|3}}"},
                  {"Study/Series/direct/Settings": "Solver/Slover = direct"},
-                 {"Boundaries/*/Enforcement": "penalty"}):
+                 {"Boundaries/*/Enforcement": "penalty"},
+                 {"Study/Group by": "Cell size",
+                  "Mesh/Cell size": "{{10|5}}", "Time/Steps": "{{1|2}}"},
+                 {"Time/Steps": "{{1|2|3|4|5|6|7|8|9|10}}",
+                  "Title": "{{1|2|3|4|5|6|7|8|9|10}}" * 6}):
     result = run("prm/studies/solvers.prm",
                  {"Mesh/Cell size": "10", **settings}, command="study", expect=2)
     message = next(l for l in result.output.splitlines() if "moraine: " in l)

@@ -166,7 +166,7 @@ end
         EXPECT_EQ(&parameters.chosen(), &method);
         EXPECT_NO_THROW(parameters.check());
         EXPECT_EQ(parameters.after_step(), method.mesh_after_step);
-        parameters.split_domains = true;
+        parameters.split_domains = "true";
         if (method.can_split_domains)
           EXPECT_NO_THROW(parameters.check());
         else

@@ -94,10 +94,10 @@ namespace
       return rhs;
     }
 
-    double
-    force_scale() const override
+    std::vector<double>
+    force_scales() const override
     {
-      return scale;
+      return {scale};
     }
 
     bool
@@ -241,6 +241,29 @@ TEST(Newton, ConvergesQuadratically)
   EXPECT_LE(outcome.report.iterations, 6u);
 }
 
+TEST(Newton, TellsEachCorrection)
+{
+  SmallSystem                  system = circle_and_hyperbola();
+  std::vector<NewtonIteration> seen;
+  Newton                       newton{NewtonParameters()};
+  newton.watch([&](const NewtonIteration &one) { seen.push_back(one); });
+  LinearSolver       linear_solver(LinearSolverParameters(), 2);
+  LA::Vector         x;
+  const NewtonReport report = newton.solve(system, linear_solver, x);
+  ASSERT_EQ(seen.size(), report.iterations);
+  for (unsigned int i = 0; i < seen.size(); ++i)
+    {
+      EXPECT_EQ(seen[i].number, i + 1);
+      EXPECT_EQ(seen[i].residual, report.residuals[i + 1]);
+    }
+}
+
+TEST(Newton, FewResidualsShowNoOrder)
+{
+  SmallSystem system = linear();
+  EXPECT_EQ(solve(system).report.observed_order, 0.);
+}
+
 TEST(Newton, ALinearProblemCostsOneSolve)
 {
   SmallSystem system  = linear();
@@ -328,6 +351,74 @@ TEST(Newton, ReportsWhatWentWrong)
   const auto unfinished  = solve(slow, few);
   EXPECT_EQ(unfinished.report.status, NewtonStatus::too_many_iterations);
   EXPECT_EQ(unfinished.report.iterations, 2u);
+}
+
+namespace
+{
+  /** A stiff and a soft spring that know nothing of each other. */
+  class TwoParts : public SmallSystem
+  {
+  public:
+    TwoParts()
+      : SmallSystem(
+          {0., 0.},
+          [](const Values &x) {
+            return Values{1e9 * (1. - x[0]), 2. - x[1] - std::pow(x[1], 3)};
+          },
+          [](const Values &x) {
+            return two_by_two(1e9, 0., 0., 1. + 3. * x[1] * x[1]);
+          })
+    {
+      LA::Vector x;
+      initial_guess(x);
+      for (const auto i : x.locally_owned_elements())
+        parts.push_back(i);
+    }
+
+    std::vector<double>
+    force_scales() const override
+    {
+      return {1e9, 1.};
+    }
+
+    const std::vector<unsigned int> &
+    part_of_unknown() const override
+    {
+      return parts;
+    }
+
+  private:
+    std::vector<unsigned int> parts;
+  };
+} // namespace
+
+TEST(Newton, ASoftPartIsNotForgivenForAStiffOne)
+{
+  TwoParts   system;
+  const auto outcome = solve(system);
+  EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+  EXPECT_NEAR(outcome.x[0], 1., 1e-12);
+  EXPECT_NEAR(outcome.x[1], 1., 1e-8);
+}
+
+TEST(Newton, NoThresholdHasAUnit)
+{
+  for (const double unit : {1e-25, 1e-6, 1., 1e20})
+    {
+      SmallSystem system(
+        {0., 0.},
+        [unit](const Values &x) {
+          return Values{unit * (1. - std::sinh(x[0])), unit * (1. - x[1])};
+        },
+        [unit](const Values &x) {
+          return two_by_two(unit * std::cosh(x[0]), 0., 0., unit);
+        },
+        unit);
+      const auto outcome = solve(system);
+      EXPECT_TRUE(outcome.report.converged()) << unit;
+      EXPECT_NEAR(outcome.x[0], std::asinh(1.), 1e-9) << unit;
+      EXPECT_EQ(outcome.report.iterations, 4u) << unit;
+    }
 }
 
 TEST(Newton, MeasuresTheResidualAgainstTheForces)

@@ -139,6 +139,21 @@ TEST(TimeControl, StopsBelowTheSmallestStep)
             "step).");
 }
 
+TEST(TimeControl, TakesBackTheCutsOfAStep)
+{
+  TimeControl time(steps(2));
+  step(time);
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      time.next();
+      EXPECT_NEAR(time.trial_time(), 0.5 + 0.5 / (1 << i), 1e-15);
+      EXPECT_TRUE(time.reject("test"));
+    }
+  time.take_back_cuts();
+  time.next();
+  EXPECT_EQ(time.trial_time(), 1.);
+}
+
 TEST(TimeControl, StartsWithTheLargestStep)
 {
   TimeParameters parameters = steps(2);
@@ -179,6 +194,50 @@ TEST(TimeControl, ReadsItsKeys)
   EXPECT_EQ(parameters.n_steps, 6u);
   EXPECT_EQ(parameters.cut, 0.25);
   EXPECT_EQ(output.every, 2u);
+}
+
+TEST(TimeControl, GoesOnFromAnArchive)
+{
+  TimeControl time(steps(4)), resumed(steps(4));
+  time.next();
+  time.reject("test");
+  time.next();
+  time.accept(100);
+  moraine::Archive archive;
+  time.write(archive);
+  resumed.read(archive);
+  EXPECT_EQ(resumed.time(), 0.125);
+  EXPECT_EQ(resumed.n_rejected(), 1u);
+  while (!time.finished())
+    {
+      step(time);
+      step(resumed);
+      EXPECT_EQ(time.time(), resumed.time());
+      EXPECT_EQ(time.at_step_end(), resumed.at_step_end());
+      EXPECT_EQ(time.n_completed_steps(), resumed.n_completed_steps());
+      EXPECT_EQ(time.n_accepted(), resumed.n_accepted());
+    }
+  EXPECT_TRUE(resumed.finished());
+}
+
+TEST(TimeControl, UndoLeavesTheLastAcceptedStep)
+{
+  const auto archive_of = [](const TimeControl &time) {
+    moraine::Archive archive;
+    time.write(archive);
+    return archive;
+  };
+  TimeControl time(steps(4));
+  step(time);
+  const moraine::Archive accepted = archive_of(time);
+  time.next();
+  time.reject("test");
+  time.next();
+  EXPECT_TRUE(archive_of(time) == accepted);
+  time.undo();
+  EXPECT_EQ(time.trial_time(), time.time());
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.5);
 }
 
 TEST(OutputTimes, SayWhenResultsAreDue)

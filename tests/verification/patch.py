@@ -12,6 +12,14 @@ METHODS = {
     "GIMP, 1 point": {"Method/Method": "GIMP"},
     "GIMP, 3x3 points": {"Method/Method": "GIMP",
                          "Method/Points per direction": 3},
+    "CPDI1, 1 point": {"Method/Method": "CPDI1"},
+    "CPDI1, 3x3 points": {"Method/Method": "CPDI1",
+                          "Method/Points per direction": 3},
+    "CPDI2, 1 point": {"Method/Method": "CPDI2"},
+    "CPDI2, 2x2 points": {"Method/Method": "CPDI2",
+                          "Method/Points per direction": 2},
+    "CPDI2, 3x3 points": {"Method/Method": "CPDI2",
+                          "Method/Points per direction": 3},
 }
 
 

@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """The doughnut twist to 80 degrees on finer meshes: its path of equilibria ends
-where the ring gives way, and goes on elsewhere (Limit points = jump)."""
+where the ring gives way, and goes on elsewhere (Limit points = pseudo-transient)."""
 
 from math import pi
 
 E, HOLE = 1e6, 5
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-JUMP = {"Solver/Limit points": "jump", "Method/Put back": 0.3}
+JUMP = {"Solver/Limit points": "pseudo-transient", "Method/Put back": 0.3}
 SCENES = {"fe": "prm/wang-2018/twist-80-fe.prm",
           "mpm": "prm/wang-2018/twist-80-mpm.prm",
           "cpdi1": "prm/wang-2018/twist-80-cpdi1.prm",

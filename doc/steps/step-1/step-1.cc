@@ -170,7 +170,9 @@ main(int argc, char **argv)
   const auto                         supports = make_supports(mesh);
   Loads<dim>                         loads    = make_loads(mesh);
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  MechanicsSystem<dim> system(state, no_boundaries, supports, loads, {"block"});
+  MechanicsSystem<dim>               system(state,
+                              make_terms(no_boundaries, supports, loads),
+                              {"block"});
 
   Newton       newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);

@@ -156,9 +156,10 @@ main(int argc, char **argv)
     make_roller("stop", Point<dim>(0, height), Point<dim>(0, 0)));
 
   const std::vector<GridCondition<dim>> no_conditions;
-  MechanicsSystem<dim>                  system(
-    state, boundaries, no_conditions, loads, {"block"});
-  Newton       newton{NewtonParameters()};
+  MechanicsSystem<dim>                  system(state,
+                              make_terms(boundaries, no_conditions, loads),
+                              {"block"});
+  Newton                                newton{NewtonParameters()};
   LinearSolver linear_solver(LinearSolverParameters(), dim);
 
   // Is it the block we wanted?

@@ -163,7 +163,7 @@ main(int argc, char **argv)
   // elastic left Cauchy-Green tensor and its volume at the start. The fields
   // must be in the layout before there are points.
   PointFields fields;
-  StateFields<dim>(fields, measure, /* plastic = */ false);
+  StateFields<dim>(fields, measure);
   PointSet<dim> points(mesh, fields);
   const auto    beam = std::make_shared<ConvexShape<dim>>(
     ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
@@ -184,7 +184,9 @@ main(int argc, char **argv)
   const auto                         clamp = make_clamp(mesh);
   Loads<dim>                         loads = make_loads(mesh);
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  MechanicsSystem<dim> system(state, no_boundaries, clamp, loads, {"beam"});
+  MechanicsSystem<dim>               system(state,
+                              make_terms(no_boundaries, clamp, loads),
+                              {"beam"});
 
   // Round-off in the membrane forces of a slender beam is large against the
   // forces that bend it. We do not try to get below it.

@@ -153,7 +153,7 @@ press(const Plate plate)
   const CellSeeder<dim> seeder(2, PointLayout::equal);
   PointFields           fields;
   Cpdi2Basis<dim>::request_fields(fields);
-  StateFields<dim>(fields, measure, /* plastic = */ false);
+  StateFields<dim>(fields, measure);
   PointSet<dim> points(mesh, fields);
   seed_bodies(bodies, seeder, points);
   Cpdi2Basis<dim> basis(space, points, seeder, bodies);
@@ -172,8 +172,9 @@ press(const Plate plate)
     boundaries.push_back(make_plate());
   const auto           conditions = make_conditions(plate, mesh);
   Loads<dim>           no_loads;
-  MechanicsSystem<dim> system(
-    state, boundaries, conditions, no_loads, {"block"});
+  MechanicsSystem<dim> system(state,
+                              make_terms(boundaries, conditions, no_loads),
+                              {"block"});
   if (plate == Plate::carries_the_mesh)
     system.move_mesh_by(make_mesh_motion(), mesh);
 

@@ -4,127 +4,191 @@
 #ifndef moraine_assembly_term_h
 #define moraine_assembly_term_h
 
-#include <moraine/boundary/implicit_boundary.h>
-#include <moraine/state/state.h>
+#include <moraine/assembly/boundary_report.h>
+#include <moraine/assembly/global_system.h>
+#include <moraine/assembly/step_context.h>
+#include <moraine/basis/stencil.h>
 
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
+#include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace moraine
 {
-  /**
-   * Matrix and force of the unknowns of one group of points or one cell, in
-   * node major order, with the scratch arrays the terms share.
-   */
-  template <int dim>
-  struct LocalSystem
+  /** An effect as a run tells of it. */
+  struct Effect
   {
-    dealii::FullMatrix<double>                   matrix;
-    dealii::Vector<double>                       force;
-    std::vector<dealii::types::global_dof_index> dofs;
-    const unsigned int                          *nodes = nullptr;
-    std::vector<dealii::Tensor<1, dim>>          nodal_increments;
-    /** Moments of gradients. */
-    std::vector<double> moments;
-    TrialPoints<dim>    trial_points;
-    /** Why a point has no stress, if one has none since reset. */
-    std::string fault;
-    /** Boundary fluxes of unit displacements of the unknowns. */
-    std::vector<dealii::Tensor<1, dim>> fluxes;
-
-    /** Take the unknowns and increments of @p n_nodes nodes and zero the rest.
-     */
-    void
-    reinit(const State<dim>   &state,
-           const unsigned int *nodes,
-           const unsigned int  n_nodes,
-           const bool          tangent);
+    std::string name; ///< in the list of effects
+    std::string kind; ///< what the console calls it; "" if it is always there
+    std::string text; ///< what the console tells of it
   };
 
-  /** A term of the weak form that is integrated by the material points. */
+  /**
+   * A physical effect or a strong condition of a scene, as MechanicsSystem sees
+   * it. A term exists only if the scene names it. Functions do nothing unless
+   * said otherwise.
+   *
+   * What a term carries from step to step is committed and written by keep()
+   * alone; everything else is derived from it and can be thrown away.
+   */
   template <int dim>
-  class PointTerm
+  class Term
   {
   public:
-    virtual ~PointTerm() = default;
+    /** Takes groups of nodes that are coupled with each other. */
+    using Couple =
+      std::function<void(const unsigned int *nodes, const unsigned int n)>;
+
+    virtual ~Term() = default;
+
+    /** What it is, and what it touches at the start of a step. Collective. */
+    virtual std::vector<Effect>
+    effects(const StepContext<dim> &context) const = 0;
+
+    /** The part of a run that begin_step() is counted as; "" if it takes no
+     * time worth counting. */
+    virtual std::string
+    timer() const
+    {
+      return "";
+    }
 
     /**
-     * Add the forces of the points of a block (positive where they push the
-     * nodes along) and, if asked, minus their derivative to the matrix.
+     * Find cells, pieces, nodes at the start of a step, from committed values.
+     * @return whether couplings or constraints of this rank are new.
+     * Collective.
+     */
+    virtual bool
+    begin_step(const StepContext<dim> &)
+    {
+      return false;
+    }
+
+    /** Name the nodes that it couples beyond cells and stencils. */
+    virtual void
+    couple(const StepContext<dim> &, const Couple &) const
+    {}
+
+    /** Add its lines to those that are there, with values at the end of the
+     * step. */
+    virtual void
+    constrain(const StepContext<dim> &,
+              dealii::AffineConstraints<double> &) const
+    {}
+
+    /** Ask for a value at the end of the step. @throws InputError, perhaps on
+     * one rank alone, if there is none. */
+    virtual void
+    check_values(const StepContext<dim> &)
+    {}
+
+    /** Aim at the end of the step and forget what was tried before. */
+    virtual void
+    begin_trial(const StepContext<dim> &)
+    {}
+
+    /** Whether its forces depend on time alone, not on the trial state. */
+    virtual bool
+    is_dead() const
+    {
+      return false;
+    }
+
+    /** Whether it only holds what would be free: its share is watched. */
+    virtual bool
+    stabilises() const
+    {
+      return false;
+    }
+
+    /**
+     * Add the forces of the trial state (positive where they push the nodes
+     * along) and, if asked, minus their derivative to the matrix.
      */
     virtual void
-    add(const State<dim>        &state,
+    add(const StepContext<dim> &, const bool, GlobalSystem<dim> &) const
+    {}
+
+    /** Whether its derivative is symmetric. */
+    virtual bool
+    symmetric(const StepContext<dim> &) const
+    {
+      return true;
+    }
+
+    /** The largest violation on this rank of what augment() enforces. */
+    virtual double
+    violation(const StepContext<dim> &) const
+    {
+      return 0.;
+    }
+
+    /** Take multipliers from the trial state, until the next begin_trial(). */
+    virtual void
+    augment(const StepContext<dim> &)
+    {}
+
+    /** Whether failure() asks where points would go. */
+    virtual bool
+    watches_points() const
+    {
+      return false;
+    }
+
+    /** Why the trial state, in which points move by @p moves, cannot be
+     * accepted; or "". Collective. */
+    virtual std::string
+    failure(const StepContext<dim> &,
+            const std::vector<dealii::Tensor<1, dim>> & /*moves*/) const
+    {
+      return "";
+    }
+
+    /** Whether prepare() asks for the forces of nodes. */
+    virtual bool
+    wants_unbalanced_forces() const
+    {
+      return false;
+    }
+
+    /**
+     * Find what keep() is to commit, while everything can still be undone.
+     * @p unbalanced is the residual with the forces that strong conditions
+     * take. Collective.
+     */
+    virtual void
+    prepare(const StepContext<dim> &, const LA::Vector & /*unbalanced*/)
+    {}
+
+    /** Commit what was prepared. */
+    virtual void
+    keep() noexcept
+    {}
+
+    /** Tell of the step that was kept; points are at its end already.
+     * Collective. */
+    virtual void
+    report(const StepContext<dim> &, std::vector<BoundaryReport<dim>> &) const
+    {}
+  };
+
+  /** A term that is integrated over the material points. They share one pass
+   * over the stencils. */
+  template <int dim>
+  class PointTerm : public Term<dim>
+  {
+  public:
+    using Term<dim>::add;
+
+    /** Term::add() for the points of a block. */
+    virtual void
+    add(const StepContext<dim>  &context,
         const StencilBlock<dim> &block,
         const bool               tangent,
         LocalSystem<dim>        &local) const = 0;
   };
-
-  /**
-   * @f$-\sum_p B_p^T \sigma_p v_p@f$ with trial stresses, and
-   * @f$K = \sum_p B_p^T C B_p v_p@f$ (Cortis et al. 2017, eqs. 7-9).
-   *
-   * With a constant isotropic C the sum over points needs only the moments
-   * @f$G_{ai,bj} = \sum_p v_p\, \partial_i N_a\, \partial_j N_b@f$; then
-   * @f$K_{ai,bj} = \lambda G_{ai,bj} + \mu G_{aj,bi}
-   *  + \mu\, \delta_{ij} \sum_k G_{ak,bk}@f$, so that many points in a cell
-   * cost little more than few.
-   *
-   * Otherwise, with TrialPoints' weights w and gradients g and the spatial
-   * tangent c,
-   * @f$f_{ai} = -\sum_p w\, \tau_{ij} g_{aj}@f$ and
-   * @f$K_{ai,bj} = \sum_p w\, (g_{ak} c_{ikjl}\, g_{bl}
-   *  + \delta_{ij}\, g_a \cdot \tau g_b)@f$, the second term at finite strain
-   * only. It is the exact derivative, and symmetric.
-   */
-  template <int dim>
-  class InternalForce : public PointTerm<dim>
-  {
-  public:
-    void
-    add(const State<dim>        &state,
-        const StencilBlock<dim> &block,
-        const bool               tangent,
-        LocalSystem<dim>        &local) const override;
-  };
-
-  /**
-   * The traction on the body at a point of an implicit boundary, t plus what
-   * the trial state adds; @p grad_du is the gradient of its increment there.
-   * See Enforcement for the weak form.
-   *
-   * At finite strain the strain of the flux is that of the gradient with
-   * respect to the middle of the step, @f$A (1 + A/2)^{-1}@f$ for
-   * @f$A = W \nabla \Delta u@f$: a rotation has none, and a stretch differs
-   * from its logarithm in the third order only (Hughes and Winget 1980). It
-   * sees the elastic stiffness; what that leaves out goes into the reaction by
-   * the penalty. The flux of the test function stays that of the start, so that
-   * the derivative is exact.
-   */
-  template <int dim>
-  dealii::Tensor<1, dim>
-  boundary_traction(const BoundaryPoint<dim>     &point,
-                    const ConstraintState<dim>   &constraint,
-                    const Enforcement            &enforcement,
-                    const LameConstants          &stiffness,
-                    const StrainMeasure           measure,
-                    const dealii::Tensor<2, dim> &grad_du);
-
-  /** Adds the force of such a point and, if asked, its derivative. */
-  template <int dim>
-  void
-  add_boundary_point(const BoundaryPoint<dim>     &point,
-                     const ConstraintState<dim>   &constraint,
-                     const Enforcement            &enforcement,
-                     const LameConstants          &stiffness,
-                     const StrainMeasure           measure,
-                     const double                 *N,
-                     const dealii::Tensor<1, dim> *grad_N,
-                     const dealii::Tensor<2, dim> &grad_du,
-                     const bool                    tangent,
-                     LocalSystem<dim>             &local);
 } // namespace moraine
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <moraine/basis/basis.h>
 #include <moraine/basis/cell_patch.h>
+#include <moraine/basis/domain_tools.h>
 #include <moraine/points/bodies.h>
 
 #include <string>
@@ -77,7 +78,7 @@ namespace moraine
             dealii::Tensor<1, dim> *g) const = 0;
 
     /** DomainTools::initial_domains() of the points. */
-    std::vector<CellVertices<dim>>
+    std::vector<DomainTools::InitialDomain<dim>>
     initial_domains(const PointSet<dim> &points) const;
 
     /** @f$\sum_i N_i(x_c) \Delta u_i@f$ of a corner, as found last. */
@@ -189,7 +190,8 @@ namespace moraine
 
     /**
      * Of DomainTools::initial_domains(): vectors from the point to the middles
-     * of its sides, scaled so that the volume is the point's.
+     * of its sides, scaled so that the volume is the point's, in a sub-cell
+     * that a body cuts that of the domain.
      */
     void
     initialise_points(PointSet<dim> &points) const override;
@@ -226,7 +228,7 @@ namespace moraine
    * CPDI2 (Sadeghirad, Brannon and Guilkey 2013): the domain is a quadrilateral
    * or hexahedron whose corners move with the grid at finite strain,
    * @f$x_c \leftarrow x_c + \sum_i N_i(x_c) \Delta u_i@f$, and the volume of a
-   * point is that of its domain. Corners that two domains share stay
+   * point changes as that of its domain. Corners that two domains share stay
    * together, inside the mesh. At small strain, where volumes and domains do
    * not change, they are shifted with their point.
    * @f[ w_c = \frac{1}{V} \int M_c \, dV, \qquad
@@ -254,7 +256,7 @@ namespace moraine
     /**
      * DomainTools::initial_domains(). Volumes become those of the domains
      * (they differ for Gauss points of full cells that are askew; the sum over
-     * a cell is the same).
+     * a cell is the same), but for sub-cells that a body cuts.
      */
     void
     initialise_points(PointSet<dim> &points) const override;

@@ -22,15 +22,14 @@ namespace moraine
     std::string
     name_of(const PointSet<dim> &points, const unsigned int p);
 
-    /** Offset of the field @p name if there is one. */
-    std::optional<unsigned int>
-    find_field(const PointFields &fields, const std::string &name);
-
     /** Whether deformations are finite: a point carries its gradient. */
-    inline bool
-    finite_strain(const PointFields &fields)
+    template <int dim>
+    bool
+    finite_strain(const PointSet<dim> &points)
     {
-      return find_field(fields, "deformation_gradient").has_value();
+      return points.fields()
+        .find(FieldNames<dim>::deformation_gradient)
+        .exists();
     }
 
     /**
@@ -61,16 +60,28 @@ namespace moraine
     parallelepiped(const dealii::Point<dim>     &x,
                    const dealii::Tensor<2, dim> &half_edges);
 
+    /** The domain of a point that was just made. */
+    template <int dim>
+    struct InitialDomain
+    {
+      CellVertices<dim> corners;
+      /** Whether it stands for what a body cuts from a sub-cell; its volume is
+       * about that of the point, or less. */
+      bool is_cut;
+    };
+
     /**
      * The domains of points that were just made, in the order of the flat
-     * numbering. A seeded point has the sub-cell of the cell it was made for,
-     * or that sub-cell's shape, with its centroid at the point and the point's
-     * volume, where the body cuts it. Listed points have the parallelepiped of
-     * PointList::half_edges or, if that is zero, a square or cube along the
-     * axes with the volume of the point.
+     * numbering. A seeded point has the sub-cell of the cell it was made for.
+     * Where the body cuts that, it is a box of the sub-cell's reference
+     * coordinates around the point, with the point's volume or, if there is no
+     * room for that, less: it stays in the sub-cell, because domains that
+     * reach over the edge of their cell integrate no gradient exactly. Listed
+     * points have the parallelepiped of PointList::half_edges or, if that is
+     * zero, a square or cube along the axes with the volume of the point.
      */
     template <int dim>
-    std::vector<CellVertices<dim>>
+    std::vector<InitialDomain<dim>>
     initial_domains(const PointSet<dim>                       &points,
                     const CellSeeder<dim>                     &seeder,
                     const std::vector<bool>                   &is_seeded,

@@ -54,9 +54,9 @@ namespace moraine
     request_fields(PointFields       &fields,
                    const DomainUpdate update = DomainUpdate::frozen)
     {
-      fields.request("half_length", dim, "length");
+      fields.request(half_length_name);
       if (update == DomainUpdate::stretch)
-        fields.request("initial_half_length", dim, "length");
+        fields.request(initial_half_length_name);
     }
 
     /**
@@ -124,6 +124,14 @@ namespace moraine
     domain_corners(const unsigned int p) const override;
 
   private:
+    using HalfLength = PointField<dim, dealii::Tensor<1, dim>>;
+
+    inline static const typename FieldNames<dim>::Vector half_length_name{
+      "half_length",
+      "length"};
+    inline static const typename FieldNames<dim>::Vector
+      initial_half_length_name{"initial_half_length", "length"};
+
     /** First and last cell the box overlaps, by direction. */
     struct Window
     {
@@ -166,14 +174,10 @@ namespace moraine
     unsigned int
     too_long_edge(const unsigned int point) const;
 
-    /**
-     * Half lengths between middles of faces that moved with the grid; @p patch
-     * is that of the point's cell.
-     */
+    /** Half lengths between middles of faces that moved with the grid. */
     dealii::Tensor<1, dim>
     tracked_half_length(
       const unsigned int                         point,
-      const CellPatch<dim>                      &patch,
       const std::vector<dealii::Tensor<1, dim>> &nodal_increments) const;
 
     Window
@@ -187,6 +191,8 @@ namespace moraine
     const std::vector<bool>   is_seeded;
     const DomainUpdate        update;
     const bool                split;
+    const HalfLength          half_length_field;
+    const HalfLength          initial_half_length_field;
     const unsigned int        half_length_offset;
     std::vector<Window>       windows;
   };

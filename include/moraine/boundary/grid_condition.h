@@ -4,7 +4,7 @@
 #ifndef moraine_boundary_grid_condition_h
 #define moraine_boundary_grid_condition_h
 
-#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/placement.h>
 #include <moraine/mesh/grid_space.h>
 
 #include <deal.II/base/bounding_box.h>

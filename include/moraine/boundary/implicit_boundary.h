@@ -5,7 +5,8 @@
 #define moraine_boundary_implicit_boundary_h
 
 #include <moraine/boundary/enforcement.h>
-#include <moraine/geometry/rigid_motion.h>
+#include <moraine/core/simulation_state.h>
+#include <moraine/geometry/placement.h>
 #include <moraine/geometry/surface.h>
 #include <moraine/material/spectral.h>
 #include <moraine/mesh/grid_space.h>
@@ -38,9 +39,8 @@ namespace moraine
   };
 
   /**
-   * A place of a cut surface with what the surface carries there. The values
-   * and gradients of the shape functions stand beside it in the boundary's
-   * arrays.
+   * A place of a cut surface in a step. The values and gradients of the shape
+   * functions stand beside it in the boundary's arrays.
    */
   template <int dim>
   struct BoundaryPoint
@@ -49,11 +49,13 @@ namespace moraine
     dealii::Tensor<1, dim> normal;     ///< outward, at the start of the step
     double                 JxW;        ///< length or area
     unsigned int           cell;       ///< active_cell_index()
+    unsigned int           number;     ///< among the points of the cell
     double                 h;          ///< size of that cell
     dealii::Tensor<1, dim> prescribed; ///< @f$\Delta g@f$ of the step
-    dealii::Tensor<1, dim> reaction;   ///< carried @f$t@f$, of the trial state
-    dealii::Tensor<1, dim> committed_reaction;
-    dealii::Tensor<1, dim> gap; ///< committed @f$M(u - g)@f$
+    dealii::Tensor<1, dim> multiplier; ///< @f$t@f$ of the trial state
+    dealii::Tensor<1, dim> multiplier_at_start; ///< of the step
+    /** @f$\sum M(u - g)@f$ of the steps before. */
+    dealii::Tensor<1, dim> accumulated_violation;
   };
 
   /**
@@ -68,25 +70,47 @@ namespace moraine
     dealii::Tensor<1, dim>          violation; ///< @f$M(\Delta u - \Delta g)@f$
   };
 
+  /** What a place of a surface carries from step to step. */
+  template <int dim>
+  struct CarriedPlace
+  {
+    dealii::Tensor<1, dim> place; ///< in the surface's own frame
+    /** Multiplier and accumulated violation; a roller's in that frame too. */
+    dealii::Tensor<1, dim> multiplier;
+    dealii::Tensor<1, dim> violation;
+    /** Cell and number of the point it was: names that ranks share. */
+    std::array<unsigned int, 2> id;
+
+    template <class BoostArchive>
+    void
+    serialize(BoostArchive &archive, const unsigned int)
+    {
+      archive &place &multiplier &violation &id;
+    }
+  };
+
   /**
    * A surface with a constraint that need not follow the mesh. Each step its
    * pieces in the active cells of this rank are found again if anything moved,
    * and what a place of the surface carries is handed over to the same place:
-   * a roller's reaction with its normal, any other as the vector it is. At
+   * a roller's multiplier with its normal, any other as the vector it is. At
    * finite strain a fixed surface turns the body beside it, and thus its
-   * reaction, by the rotation of the step.
+   * multiplier, by the rotation of the step.
+   *
+   * What it carries is written by keep() alone; points and their values are
+   * derived from that by begin_step() and set_target().
    *
    * A piece in a cell without unknowns that lies within @p reach of an active
    * cell belongs to the nearest one and sees its functions continued over the
    * edge, because the material represented by points close to the edge reaches
    * over it.
    *
-   * A roller on a curved wall asks that the surface points land on the wall,
+   * A roller on a curved wall asks that the surface points end on the wall,
    * @f$\phi_{n+1}(x + \Delta u) = 0@f$, if the points move at all; linear
    * otherwise.
    */
   template <int dim>
-  class ImplicitBoundary
+  class ImplicitBoundary : public StatePart
   {
   public:
     /** Prescribed displacement relative to the surface's motion, of (x, t). */
@@ -133,10 +157,29 @@ namespace moraine
       return constraint.projection(normal);
     }
 
-    /** Commit the reactions and violations of the trial state. */
+    /** Take these multipliers until the next set_target(). */
     void
-    accept(const std::vector<dealii::Tensor<1, dim>> &tractions,
-           const std::vector<dealii::Tensor<1, dim>> &violations);
+    set_multipliers(const std::vector<dealii::Tensor<1, dim>> &multipliers);
+
+    /** Find what the surface will carry with the tractions and violations of
+     * the trial state. */
+    void
+    prepare(const std::vector<dealii::Tensor<1, dim>> &tractions,
+            const std::vector<dealii::Tensor<1, dim>> &violations);
+
+    /** Carry what was prepared. */
+    void
+    keep() noexcept;
+
+    /** What it carries, in the group "boundaries/" and its name. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+    void
+    undo() override;
 
     /** Distance behind the surface at the end of the step; 0 if in front. */
     double
@@ -184,11 +227,13 @@ namespace moraine
       return limit;
     }
 
-    std::vector<BoundaryPoint<dim>> &
-    points()
-    {
-      return boundary_points;
-    }
+    /** Number of points over all ranks. Collective. */
+    unsigned int
+    n_points(const MPI_Comm &communicator) const;
+
+    /** What it constrains, in words. */
+    std::string
+    constraint_name() const;
 
     const std::vector<BoundaryPoint<dim>> &
     points() const
@@ -223,10 +268,14 @@ namespace moraine
     void
     evaluate_shapes(const GridSpace<dim> &space);
 
+    /** Give @p point what @p carried says. */
     void
-    take_over(const std::vector<BoundaryPoint<dim>> &previous,
-              const Pose<dim>                       &previous_pose,
-              const MPI_Comm                        &communicator);
+    take_over(const CarriedPlace<dim> &carried,
+              BoundaryPoint<dim>      &point) const;
+
+    /** Give every point what the nearest carried place of all ranks has. */
+    void
+    take_over_nearest(const MPI_Comm &communicator);
 
     const std::string                   boundary_name;
     MovedSurface<dim>                   at_start;
@@ -237,11 +286,16 @@ namespace moraine
     const Enforcement                   how;
     const double                        limit;
     double                              t_start           = 0;
+    double                              t_placed          = 0;
     bool                                placed            = false;
+    bool                                has_pieces        = false;
     bool                                moves_with_points = true;
-    bool                                lands             = false;
-    bool                                turns_reaction    = false;
+    bool                                projects          = false;
+    bool                                turns_multiplier  = false;
     unsigned int                        n_nodes           = 0;
+    std::vector<CarriedPlace<dim>>      carried;
+    std::vector<CarriedPlace<dim>>      prepared;
+    bool                                kept_at_points = false;
     std::vector<BoundaryPoint<dim>>     boundary_points;
     std::vector<double>                 values;
     std::vector<dealii::Tensor<1, dim>> gradients;

@@ -4,7 +4,7 @@
 #ifndef moraine_boundary_mesh_motion_h
 #define moraine_boundary_mesh_motion_h
 
-#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/placement.h>
 
 #include <functional>
 #include <optional>

@@ -54,6 +54,10 @@ namespace moraine
       return stream() << value;
     }
 
+    /** From now on write to the log only, or to the screen again. */
+    void
+    set_quiet(const bool quiet);
+
     /**
      * One line that the next call or output replaces, shown only on a terminal.
      */

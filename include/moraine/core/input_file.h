@@ -74,7 +74,7 @@ namespace moraine
     bool
     has(const std::string &section, const std::string &key) const;
 
-    /** Value of a key, or @p fallback if it is not set. */
+    /** Value of a key, its constants replaced, or @p fallback if not set. */
     std::string
     get(const std::string &section,
         const std::string &key,
@@ -108,11 +108,13 @@ namespace moraine
     text() const;
 
     /**
-     * Set every entry in @p prm, where everything is declared.
+     * Set every entry in @p prm, where everything is declared. Where a pattern
+     * wants numbers, arithmetic as "2*$E" or "100/7" gives them.
+     * @return the entries whose value is not the default, constants replaced.
      * @throw InputError for a section or key that is not declared, and for a
      * value its pattern refuses. The handler is then partly set.
      */
-    void
+    std::vector<Entry>
     parse(dealii::ParameterHandler &prm) const;
 
   private:
@@ -124,14 +126,15 @@ namespace moraine
     };
 
     /**
-     * The value of an entry with every `$name` replaced by the value of key
+     * The values of entries() with every `$name` replaced by the value of key
      * `name` in section `Constants`, so that a scene (or a study) says a value
-     * once.
+     * once. A constant sees those before it only; one that is arithmetic
+     * ("100/7", "2*$b") stands for its number.
      *
      * @throw InputError for a name that section does not have.
      */
-    std::string
-    with_constants(const Entry &entry) const;
+    std::vector<std::string>
+    values() const;
 
     void
     scan();

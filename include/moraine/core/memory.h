@@ -6,6 +6,8 @@
 
 #include <mpi.h>
 
+#include <string>
+
 namespace moraine
 {
   /** Resident memory in MiB of the rank that has most; all ranks must call. */
@@ -24,6 +26,22 @@ namespace moraine
    */
   bool
   reset_peak_memory();
+
+  /** Bytes of the machine that are free for programs. */
+  double
+  free_memory();
+
+  /**
+   * Whether the machine has @p bytes is asked before they are used.
+   * @return the end of a message that tells how much there is if not, or "".
+   */
+  std::string
+  lack_of_memory(const double bytes);
+
+  /** @throws InputError if @p bytes are not there: @p what, then how much there
+   * is. */
+  void
+  require_memory(const double bytes, const std::string &what);
 } // namespace moraine
 
 #endif

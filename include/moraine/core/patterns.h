@@ -7,6 +7,7 @@
 #include <deal.II/base/patterns.h>
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,23 @@ namespace moraine
     positive_integers(
       const unsigned int n_min = 0,
       const unsigned int n_max = std::numeric_limits<unsigned int>::max());
+
+    /**
+     * A text of numbers, as the corners of a polygon "0 0; 1 0; 1 1": any text
+     * for deal.II, but arithmetic between blanks, ',', ';' and ':' is done when
+     * it is read.
+     */
+    class NumberText : public dealii::Patterns::Anything
+    {
+    public:
+      static const char *const description_init;
+
+      std::string
+      description(const OutputStyle style = Machine) const override;
+
+      std::unique_ptr<dealii::Patterns::PatternBase>
+      clone() const override;
+    };
 
     /** One of the words. */
     dealii::Patterns::Selection

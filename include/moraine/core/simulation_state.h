@@ -7,6 +7,7 @@
 #include <moraine/core/archive.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace moraine
@@ -55,7 +56,7 @@ namespace moraine
    *         throw;
    *       }
    *
-   * Whatever throws, the parts are in the last accepted state afterwards. A
+   * Whatever throws, the parts are in the last accepted state after undo(). A
    * checkpoint is write() and write_file().
    */
   class SimulationState
@@ -68,12 +69,15 @@ namespace moraine
 
     /**
      * The one place in which a step is accepted: @p commit writes the state of
-     * all parts. If it throws, on all ranks, they get back what they had.
+     * all parts. If it throws, undo() has to follow.
      */
     void
     keep(const std::function<void()> &commit);
 
-    /** Let all parts forget what was tried. Collective. */
+    /**
+     * Give all parts what they had before a keep() that threw, if there was
+     * one, and let them forget what was tried. Collective.
+     */
     void
     undo();
 
@@ -85,6 +89,8 @@ namespace moraine
 
   private:
     std::vector<StatePart *> parts;
+    /** What was accepted, while keep() is not done. */
+    std::optional<Archive> accepted;
   };
 } // namespace moraine
 

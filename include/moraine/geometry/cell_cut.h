@@ -44,15 +44,14 @@ namespace moraine
   coordinate_magnitude(const dealii::Point<dim> &x);
 
   /**
-   * Gauss points on a chord given by abscissae @p from < @p to along
+   * Gauss points on a chord between two abscissae of the line
    * origin + s direction.
    */
   template <int dim>
   void
   add_segment_points(const dealii::Point<dim>       &origin,
                      const dealii::Tensor<1, dim>   &direction,
-                     const double                    from,
-                     const double                    to,
+                     const Stretch                  &stretch,
                      const dealii::Tensor<1, dim>   &normal,
                      const unsigned int              n_gauss,
                      std::vector<SurfacePoint<dim>> &out);

@@ -6,45 +6,13 @@
 
 #include <moraine/geometry/shape.h>
 
+#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace moraine
 {
-  /**
-   * x -> rotation x + shift with an orthogonal rotation.
-   */
-  template <int dim>
-  struct Placement
-  {
-    /**
-     * Nothing moves.
-     */
-    Placement();
-
-    /**
-     * Rotate by @p degrees, counter-clockwise, about @p centre (in 3D about
-     * the axis through it along @p axis, which need not have unit length and
-     * is not used in 2D), then translate. Multiples of a right angle about a
-     * coordinate axis are exact.
-     */
-    Placement(const double                  degrees,
-              const dealii::Point<dim>     &centre,
-              const dealii::Tensor<1, dim> &axis,
-              const dealii::Tensor<1, dim> &translation);
-
-    dealii::Point<dim>
-    apply(const dealii::Point<dim> &x) const;
-
-    dealii::Point<dim>
-    undo(const dealii::Point<dim> &x) const;
-
-    dealii::Tensor<2, dim> rotation;
-    dealii::Tensor<1, dim> shift;
-  };
-
-
-
   /**
    * A shape after a rigid motion.
    */
@@ -67,6 +35,15 @@ namespace moraine
     bool
     is_straight() const override;
 
+    std::vector<std::string>
+    parts() const override;
+
+    void
+    add_faces(const std::string          &part,
+              const bool                  body_inside,
+              const Extent<dim>          &extent,
+              typename Shape<dim>::Faces &faces) const override;
+
   protected:
     VolumeMoments<dim>
     moments_of_part(const ConvexPolytope<dim> &cell,
@@ -85,13 +62,14 @@ namespace moraine
     Placement<dim>                    motion;
   };
 
-
-
   /**
    * What two shapes a and b make: their union (a + b - ab), their
    * intersection ab (the pieces of the straighter one, clipped by the other),
    * their difference (a - ab), or a hollowed out by b, which lies inside a
    * (a - b: ring, tube; needs no intersection).
+   *
+   * The rims of the operands a and b are the parts of its rim, with the names
+   * given. Parts of theirs are called name/part, or part if they have no name.
    */
   template <int dim>
   class CombinedShape : public Shape<dim>
@@ -107,7 +85,8 @@ namespace moraine
 
     CombinedShape(const Operation                          operation,
                   const std::shared_ptr<const Shape<dim>> &a,
-                  const std::shared_ptr<const Shape<dim>> &b);
+                  const std::shared_ptr<const Shape<dim>> &b,
+                  const std::array<std::string, 2>        &names = {});
 
     double
     level(const dealii::Point<dim> &p) const override;
@@ -121,6 +100,15 @@ namespace moraine
     bool
     is_straight() const override;
 
+    std::vector<std::string>
+    parts() const override;
+
+    void
+    add_faces(const std::string          &part,
+              const bool                  body_inside,
+              const Extent<dim>          &extent,
+              typename Shape<dim>::Faces &faces) const override;
+
   protected:
     VolumeMoments<dim>
     moments_of_part(const ConvexPolytope<dim> &cell,
@@ -130,6 +118,10 @@ namespace moraine
     add_pieces_of_part(const ConvexPolytope<dim>     &cell,
                        const double                   sign,
                        std::vector<SignedPiece<dim>> &pieces) const override;
+
+    Operation                         operation;
+    std::shared_ptr<const Shape<dim>> a;
+    std::shared_ptr<const Shape<dim>> b;
 
   private:
     /** Of ab, or of b where it lies inside a. */
@@ -142,11 +134,12 @@ namespace moraine
                       const double                   sign,
                       std::vector<SignedPiece<dim>> &pieces) const;
 
-    Operation                         operation;
-    std::shared_ptr<const Shape<dim>> a;
-    std::shared_ptr<const Shape<dim>> b;
-  };
+    /** What comes before the names of an operand's parts. */
+    std::string
+    prefix(const unsigned int k) const;
 
+    std::array<std::string, 2> names;
+  };
 } // namespace moraine
 
 #endif

@@ -182,8 +182,6 @@ namespace moraine
     double round_off = 0.;
   };
 
-
-
   template <int dim>
   template <typename Action>
   void
@@ -209,8 +207,6 @@ namespace moraine
           }
       }
   }
-
-
 
   template <int dim>
   template <typename Map>

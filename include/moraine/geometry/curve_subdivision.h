@@ -16,42 +16,31 @@ namespace moraine
   using LevelFunction = std::function<double(const dealii::Point<dim> &)>;
 
   /**
-   * Approximation of a curved boundary by polytopes.
+   * Append the pieces of @p cell in which @p level is positive, times @p sign:
+   * the approximation of a curved boundary by polytopes. If @p is_distance,
+   * |level| is never more than the distance to the boundary; otherwise what is
+   * decided without cutting rests on values at the vertices.
    *
    * A polytope that the boundary may cut is halved until the boundary in it
-   * differs from a plane by less than a small fraction of its size, or has
-   * been halved depth times in each direction. It is then clipped by the
-   * tangent plane, shifted by the mean distance to the boundary over the cut
-   * face, so that the volume is right to second order in the curvature.
+   * differs from a plane by less than a small fraction of its size, or has been
+   * halved often enough to resolve edges of an expression to 1e-3 (2D), 2e-2
+   * (3D) of the cell. It is then clipped by the tangent plane, shifted by the
+   * mean distance to the boundary over the cut face, so that the volume is
+   * right to second order in the curvature.
    */
   template <int dim>
-  struct CurveSubdivision
-  {
-    /**
-     * Halvings per direction that resolve edges of an expression to 1e-3
-     * (2D), 2e-2 (3D) of a sub-cell.
-     */
-    static constexpr unsigned int default_depth = (dim == 2 ? 10 : 6);
+  void
+  add_curved_pieces(const LevelFunction<dim>      &level,
+                    const bool                     is_distance,
+                    const ConvexPolytope<dim>     &cell,
+                    const double                   sign,
+                    std::vector<SignedPiece<dim>> &pieces);
 
-    unsigned int depth = default_depth;
-
-    /**
-     * Append the pieces of @p cell in which @p level is positive. If
-     * @p is_distance, |level| is never more than the distance to the
-     * boundary; otherwise what is decided without cutting rests on values at
-     * the vertices.
-     */
-    void
-    add_pieces(const LevelFunction<dim>      &level,
-               const bool                     is_distance,
-               const ConvexPolytope<dim>     &cell,
-               const double                   sign,
-               std::vector<SignedPiece<dim>> &pieces) const;
-
-    /** Quick answer that rests on values at the vertices and the middle. */
-    static Overlap
-    overlap(const LevelFunction<dim> &level, const ConvexPolytope<dim> &cell);
-  };
+  /** Quick answer that rests on values at the vertices and the middle. */
+  template <int dim>
+  Overlap
+  overlap_by_values(const LevelFunction<dim>  &level,
+                    const ConvexPolytope<dim> &cell);
 } // namespace moraine
 
 #endif

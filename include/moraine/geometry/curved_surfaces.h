@@ -4,152 +4,102 @@
 #ifndef moraine_geometry_curved_surfaces_h
 #define moraine_geometry_curved_surfaces_h
 
-#include <moraine/geometry/level_set_surface.h>
-#include <moraine/core/expression.h>
-
-#include <string>
+#include <moraine/geometry/curved_shapes.h>
+#include <moraine/geometry/surface.h>
 
 namespace moraine
 {
   /**
-   * What spheres and cylinders share: a constant distance from a centre or an
-   * axis, the body inside or outside.
-   */
-  class RoundSurface : public LevelSetSurface<3>
-  {
-  public:
-    double
-    level(const dealii::Point<3> &x) const override;
-
-    dealii::Tensor<1, 3>
-    normal(const dealii::Point<3> &x) const override;
-
-    double
-    function_value(const dealii::Point<3> &x) const override;
-
-    dealii::Tensor<1, 3>
-    function_gradient(const dealii::Point<3> &x,
-                      const double            length) const override;
-
-  protected:
-    /** Throws InputError for a radius that is not positive. */
-    RoundSurface(const double radius, const bool body_inside);
-
-    /** From the nearest point of centre or axis to x. */
-    virtual dealii::Tensor<1, 3>
-    radial(const dealii::Point<3> &x) const = 0;
-
-    double radius;
-    double sign;
-  };
-
-  /** A sphere, the body inside or outside. */
-  class Sphere : public RoundSurface
-  {
-  public:
-    Sphere(const dealii::Point<3> &centre,
-           const double            radius,
-           const bool              body_inside);
-
-    dealii::BoundingBox<3>
-    bounding_box() const override;
-
-    dealii::SymmetricTensor<2, 3>
-    function_hessian(const dealii::Point<3> &x,
-                     const double            length) const override;
-
-  protected:
-    dealii::Point<3>
-    foot_point(const dealii::Point<3> &x) const override;
-
-    dealii::Tensor<1, 3>
-    radial(const dealii::Point<3> &x) const override;
-
-  private:
-    dealii::Point<3> centre;
-  };
-
-  /**
-   * The round side of a cylinder between the planes through both ends of its
-   * axis, the body inside or outside. Throws InputError for an axis without
-   * length.
-   */
-  class Cylinder : public RoundSurface
-  {
-  public:
-    Cylinder(const dealii::Point<3> &axis_start,
-             const dealii::Point<3> &axis_end,
-             const double            radius,
-             const bool              body_inside);
-
-    dealii::BoundingBox<3>
-    bounding_box() const override;
-
-    dealii::SymmetricTensor<2, 3>
-    function_hessian(const dealii::Point<3> &x,
-                     const double            length) const override;
-
-  protected:
-    dealii::Point<3>
-    foot_point(const dealii::Point<3> &x) const override;
-
-    dealii::Tensor<1, 3>
-    radial(const dealii::Point<3> &x) const override;
-
-  private:
-    dealii::Point<3>     start, end;
-    dealii::Tensor<1, 3> axis;
-  };
-
-  /**
-   * φ(x, y[, z]) = 0 in muParser syntax, φ > 0 on the body's side, within a box
-   * if one is given. Gradient and Hessian are central differences (errors about
-   * 1e-9 and 1e-7 relative to φ's variation over a cell).
+   * A circle or an arc of it in 2D: counter-clockwise from the start to the end
+   * angle (degrees from the x axis), the body inside or outside. Pieces are cut
+   * exactly by the cell's straight edges and use Gauss points in the angle, on
+   * stretches of at most 45 degrees.
    *
-   * Throws InputError if the text cannot be read, and where φ is not a finite
-   * number.
+   * Throws InputError for a radius that is not positive, or an arc of zero or
+   * more than 360 degrees.
+   */
+  class Arc : public Surface<2>
+  {
+  public:
+    Arc(const dealii::Point<2> &centre,
+        const double            radius,
+        const bool              body_inside,
+        const double            start_angle = 0.,
+        const double            end_angle   = 360.,
+        const Extent<2>        &extent      = {});
+
+    NearestPoint<2>
+    nearest(const dealii::Point<2> &x) const override;
+
+    void
+    pieces(const CellVertices<2>        &cell,
+           const unsigned int            n_gauss,
+           std::vector<SurfacePoint<2>> &out) const override;
+
+    dealii::BoundingBox<2>
+    bounding_box() const override;
+
+  private:
+    /** An angle as seen from the start of the arc, in [0, 2π). */
+    double
+    from_start(const double angle) const;
+
+    dealii::Point<2>
+    at_angle(const double from_start) const;
+
+    dealii::Tensor<1, 2>
+    normal_at(const dealii::Point<2> &x) const;
+
+    /** Gauss points of the stretch between two angles from the start. */
+    void
+    add_points(const double                  from,
+               const double                  to,
+               const unsigned int            n_gauss,
+               std::vector<SurfacePoint<2>> &out) const;
+
+    dealii::Point<2>       centre;
+    double                 radius;
+    double                 sign;
+    double                 start;
+    double                 sweep;
+    dealii::BoundingBox<2> box;
+    Extent<2>              extent;
+  };
+
+  /**
+   * The boundary φ = 0 of a smooth shape, the body in the shape or around it,
+   * cut by dealii::NonMatching::QuadratureGenerator in the reference space of
+   * the cell (φ composed with the cell's multilinear map). The number of points
+   * sets its accuracy; it is not exact. Cells across the end of its extent are
+   * cut exactly if that is straight and follows the cell's axes, else halved
+   * four times and their points chosen one by one.
    */
   template <int dim>
-  class ExpressionSurface : public LevelSetSurface<dim>
+  class LevelSetSurface : public Surface<dim>
   {
   public:
-    /** @p place: where the text stands, for messages. */
-    ExpressionSurface(
-      const std::string              &expression,
-      const std::string              &place,
-      const dealii::BoundingBox<dim> &extent = unlimited_box<dim>());
+    /** @p box holds the part of the surface within @p extent. */
+    LevelSetSurface(const std::shared_ptr<const SmoothShape<dim>> &shape,
+                    const bool                                     body_inside,
+                    const Extent<dim>                             &extent,
+                    const dealii::BoundingBox<dim>                &box);
 
-    double
-    level(const dealii::Point<dim> &x) const override;
+    NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const override;
 
-    dealii::Tensor<1, dim>
-    normal(const dealii::Point<dim> &x) const override;
+    void
+    pieces(const CellVertices<dim>        &cell,
+           const unsigned int              n_gauss,
+           std::vector<SurfacePoint<dim>> &out) const override;
 
     dealii::BoundingBox<dim>
     bounding_box() const override;
 
-    double
-    function_value(const dealii::Point<dim> &x) const override;
-
-    dealii::Tensor<1, dim>
-    function_gradient(const dealii::Point<dim> &x,
-                      const double              length) const override;
-
-    dealii::SymmetricTensor<2, dim>
-    function_hessian(const dealii::Point<dim> &x,
-                     const double              length) const override;
-
-  protected:
-    dealii::Point<dim>
-    foot_point(const dealii::Point<dim> &x) const override;
-
   private:
-    /** Scale of differences where no cell is at hand. */
-    double
-    length_near(const dealii::Point<dim> &x) const;
-
-    Expression<dim>          function;
-    dealii::BoundingBox<dim> box;
+    std::shared_ptr<const SmoothShape<dim>> shape;
+    bool                                    body_inside;
+    Extent<dim>                             extent;
+    dealii::BoundingBox<dim>                box;
   };
 } // namespace moraine
 

@@ -5,10 +5,9 @@
 #define moraine_geometry_shape_h
 
 #include <moraine/geometry/convex_polytope.h>
+#include <moraine/geometry/surface.h>
 
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/base/point.h>
-
+#include <string>
 #include <vector>
 
 namespace moraine
@@ -44,13 +43,13 @@ namespace moraine
   };
 
   /**
-   * The region a body fills at the start.
+   * The region a body fills at the start, and its rim.
    *
    * A shape knows its part of any convex polytope (a cell or sub-cell of the
    * mesh): exactly, but for round-off, for straight-sided shapes, discs,
    * spheres and their combinations in which at most one operand is curved in
    * a cell; to about 1e-9 of the polytope for cylinders; otherwise by
-   * subdivision (see CurveSubdivision).
+   * subdivision (see add_curved_pieces()).
    */
   template <int dim>
   class Shape
@@ -72,8 +71,8 @@ namespace moraine
     contains(const dealii::Point<dim> &p) const;
 
     /**
-     * A box the shape fits in; infinite if the shape is, or if nothing better
-     * is known (expressions).
+     * A box the shape fits in; without limits if the shape has none, or if
+     * nothing better is known (expressions).
      */
     virtual dealii::BoundingBox<dim>
     bounding_box() const = 0;
@@ -113,6 +112,32 @@ namespace moraine
     virtual bool
     is_straight() const;
 
+    /** Names of the parts of the rim; none if it is one whole. */
+    virtual std::vector<std::string>
+    parts() const;
+
+    /**
+     * The rim as a surface with the shape as its body, or the part of it called
+     * @p part. Null if the shape has no rim. Rims of combined shapes end where
+     * the other operand begins: exactly in 2D, to about 1e-6 of a cell on plane
+     * sides in 3D, to a fraction of a cell on curved ones.
+     */
+    std::shared_ptr<const Surface<dim>>
+    rim(const std::string &part = "") const;
+
+    using Faces = std::vector<std::shared_ptr<const Surface<dim>>>;
+
+    /**
+     * Append the surfaces that make up a part, or the whole rim if @p part is
+     * empty, as far as @p extent goes. The body is the shape if
+     * @p body_inside, else what is around it.
+     */
+    virtual void
+    add_faces(const std::string &part,
+              const bool         body_inside,
+              const Extent<dim> &extent,
+              Faces             &faces) const = 0;
+
   protected:
     /**
      * moments() of a cell that the shape may cut. Without an override the
@@ -131,21 +156,6 @@ namespace moraine
                        std::vector<SignedPiece<dim>> &pieces) const = 0;
   };
 
-
-
-  /**
-   * The box without bounds.
-   */
-  template <int dim>
-  dealii::BoundingBox<dim>
-  infinite_box();
-
-  /**
-   * Whether all bounds are finite.
-   */
-  template <int dim>
-  bool
-  is_finite(const dealii::BoundingBox<dim> &box);
 } // namespace moraine
 
 #endif

@@ -53,8 +53,6 @@ namespace moraine
     is_point_file() const;
   };
 
-
-
   /**
    * A shape and what it is for the user: the value of `Shape` and the keys it
    * needs and may have.

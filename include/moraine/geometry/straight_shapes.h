@@ -28,13 +28,17 @@ namespace moraine
     };
 
     /**
-     * @p bounding_box must hold the intersection of @p sides.
+     * @p bounding_box must hold the intersection of @p sides. @p names are
+     * those of the sides, or none.
      */
-    ConvexShape(const std::vector<HalfSpace>   &sides,
-                const dealii::BoundingBox<dim> &bounding_box);
+    ConvexShape(
+      const std::vector<HalfSpace>   &sides,
+      const dealii::BoundingBox<dim> &bounding_box = unlimited_box<dim>(),
+      const std::vector<std::string> &names        = {});
 
     /**
-     * The box with these opposite corners, lower < upper.
+     * The box with these opposite corners, lower < upper. Its sides are called
+     * left, right (x), bottom, top (y), or front, back (y), bottom, top (z).
      */
     static ConvexShape
     box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
@@ -62,6 +66,15 @@ namespace moraine
     bool
     is_straight() const override;
 
+    std::vector<std::string>
+    parts() const override;
+
+    void
+    add_faces(const std::string          &part,
+              const bool                  body_inside,
+              const Extent<dim>          &extent,
+              typename Shape<dim>::Faces &faces) const override;
+
   protected:
     void
     add_pieces_of_part(const ConvexPolytope<dim>     &cell,
@@ -69,11 +82,14 @@ namespace moraine
                        std::vector<SignedPiece<dim>> &pieces) const override;
 
   private:
+    /** The corners of a side as a PlaneSurface wants them; bounded shapes. */
+    std::vector<dealii::Point<dim>>
+    corners_of(const unsigned int side) const;
+
     std::vector<HalfSpace>   sides;
     dealii::BoundingBox<dim> bounds;
+    std::vector<std::string> names;
   };
-
-
 
   /**
    * A simple polygon, convex or not, in the x-y plane; in 3D the prism over it
@@ -85,11 +101,11 @@ namespace moraine
   public:
     /**
      * The vertices in either sense of rotation, at least three, without
-     * crossing edges (see first_crossing() in polygon.h). @p extent is lower
+     * crossing edges (see first_crossing() in polygon.h). @p heights are lower
      * and upper z, not used in 2D.
      */
     PolygonShape(const std::vector<dealii::Point<2>> &vertices,
-                 const std::pair<double, double>     &extent = {0., 1.});
+                 const std::pair<double, double>     &heights = {0., 1.});
 
     double
     level(const dealii::Point<dim> &p) const override;
@@ -99,6 +115,16 @@ namespace moraine
 
     bool
     is_straight() const override;
+
+    /** The edges, counted from 1 in the order given; in 3D bottom and top. */
+    std::vector<std::string>
+    parts() const override;
+
+    void
+    add_faces(const std::string          &part,
+              const bool                  body_inside,
+              const Extent<dim>          &extent,
+              typename Shape<dim>::Faces &faces) const override;
 
   protected:
     /**
@@ -111,8 +137,9 @@ namespace moraine
                        std::vector<SignedPiece<dim>> &pieces) const override;
 
   private:
-    std::vector<dealii::Point<2>> vertices;
-    std::pair<double, double>     extent;
+    std::vector<dealii::Point<2>> vertices; ///< counter-clockwise
+    std::pair<double, double>     heights;
+    bool                          reversed;
   };
 } // namespace moraine
 

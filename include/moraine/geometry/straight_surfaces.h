@@ -7,6 +7,8 @@
 #include <moraine/geometry/cell_cut.h>
 #include <moraine/geometry/surface.h>
 
+#include <type_traits>
+
 namespace moraine
 {
   /**
@@ -21,16 +23,20 @@ namespace moraine
   {
   public:
     Polyline(const std::vector<dealii::Point<2>> &points,
-             const bool                           flip = false);
+             const bool                           flip   = false,
+             const Extent<2>                     &extent = {});
 
-    double
-    level(const dealii::Point<2> &x) const override;
+    /**
+     * The straight line without ends through @p point with @p normal, of any
+     * length, pointing out of the body. Throws InputError if it is zero.
+     */
+    static Polyline
+    plane(const dealii::Point<2>     &point,
+          const dealii::Tensor<1, 2> &normal,
+          const Extent<2>            &extent = {});
 
-    dealii::Tensor<1, 2>
-    normal(const dealii::Point<2> &x) const override;
-
-    bool
-    in_extent(const dealii::Point<2> &x) const override;
+    NearestPoint<2>
+    nearest(const dealii::Point<2> &x) const override;
 
     void
     pieces(const CellVertices<2>        &cell,
@@ -49,63 +55,19 @@ namespace moraine
       dealii::Point<2>     start;
       dealii::Tensor<1, 2> direction;
       dealii::Tensor<1, 2> normal;
-      double               length;
+      double               from; ///< abscissa of its first point
+      double               to;
     };
 
-    /** Where the point of the line nearest to x lies. */
-    struct Foot
-    {
-      const Segment       *segment;
-      double               distance;
-      dealii::Tensor<1, 2> normal;
-      bool                 beyond_end;
-    };
-
-    Foot
-    nearest(const dealii::Point<2> &x) const;
+    Polyline(const dealii::BoundingBox<2> &box,
+             const double                  magnitude,
+             const Extent<2>              &extent);
 
     std::vector<Segment>   segments;
-    bool                   closed;
+    bool                   closed = false;
     dealii::BoundingBox<2> box;
     double                 magnitude;
-  };
-
-  /** A straight line (2D) or plane (3D) without limits. */
-  template <int dim>
-  class Plane : public Surface<dim>
-  {
-  public:
-    /**
-     * Through @p point with @p normal, of any length, pointing out of the body.
-     * Throws InputError if it is zero.
-     */
-    Plane(const dealii::Point<dim>     &point,
-          const dealii::Tensor<1, dim> &normal);
-
-    double
-    level(const dealii::Point<dim> &x) const override;
-
-    dealii::Tensor<1, dim>
-    normal(const dealii::Point<dim> &x) const override;
-
-    bool
-    in_extent(const dealii::Point<dim> &x) const override;
-
-    void
-    pieces(const CellVertices<dim>        &cell,
-           const unsigned int              n_gauss,
-           std::vector<SurfacePoint<dim>> &out) const override;
-
-    dealii::BoundingBox<dim>
-    bounding_box() const override;
-
-    bool
-    curved() const override;
-
-  private:
-    dealii::Point<dim>     point;
-    dealii::Tensor<1, dim> unit_normal;
-    double                 magnitude;
+    Extent<2>              extent;
   };
 
   /**
@@ -120,16 +82,17 @@ namespace moraine
   {
   public:
     PlanePatch(const std::vector<dealii::Point<3>> &vertices,
-               const bool                           flip = false);
+               const bool                           flip   = false,
+               const Extent<3>                     &extent = {});
 
-    double
-    level(const dealii::Point<3> &x) const override;
+    /** The plane without ends; see Polyline::plane(). */
+    static PlanePatch
+    plane(const dealii::Point<3>     &point,
+          const dealii::Tensor<1, 3> &normal,
+          const Extent<3>            &extent = {});
 
-    dealii::Tensor<1, 3>
-    normal(const dealii::Point<3> &x) const override;
-
-    bool
-    in_extent(const dealii::Point<3> &x) const override;
+    NearestPoint<3>
+    nearest(const dealii::Point<3> &x) const override;
 
     void
     pieces(const CellVertices<3>        &cell,
@@ -143,12 +106,30 @@ namespace moraine
     curved() const override;
 
   private:
+    PlanePatch(const PlaneFrame             &frame,
+               const dealii::Tensor<1, 3>   &unit_normal,
+               const dealii::BoundingBox<3> &box,
+               const double                  magnitude,
+               const Extent<3>              &extent);
+
+    /** Append points of what of a polygon lies within the extent. */
+    void
+    add_points(const Polygon                &polygon,
+               const double                  tolerance,
+               const unsigned int            n_gauss,
+               std::vector<SurfacePoint<3>> &out) const;
+
     PlaneFrame             frame;
     dealii::Tensor<1, 3>   unit_normal;
-    std::vector<Polygon>   convex_parts;
+    std::vector<Polygon>   convex_parts; ///< none: the whole plane
     dealii::BoundingBox<3> box;
     double                 magnitude;
+    Extent<3>              extent;
   };
+
+  /** What is bounded by corners in a plane, or the whole plane. */
+  template <int dim>
+  using PlaneSurface = std::conditional_t<dim == 2, Polyline, PlanePatch>;
 } // namespace moraine
 
 #endif

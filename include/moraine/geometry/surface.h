@@ -4,16 +4,17 @@
 #ifndef moraine_geometry_surface_h
 #define moraine_geometry_surface_h
 
+#include <moraine/geometry/placement.h>
 #include <moraine/mesh/cell_map.h>
 
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
-
+#include <memory>
 #include <vector>
 
 namespace moraine
 {
+  template <int dim>
+  class Shape;
+
   /**
    * A quadrature point on a surface: its place, the unit normal pointing out of
    * the body (−∇φ), and its weight (length in 2D, area in 3D).
@@ -26,22 +27,26 @@ namespace moraine
     double                 JxW;
   };
 
-  /** Half the width of the bounding box of a surface without limits. */
-  constexpr double unlimited_extent = 1e100;
-
-  /** The box of a surface without limits. */
-  template <int dim>
-  dealii::BoundingBox<dim>
-  unlimited_box();
-
   /** The direction of v, or any where v is zero. */
   template <int dim>
   dealii::Tensor<1, dim>
-  unit_or_any(const dealii::Tensor<1, dim> &v);
+  unit_or_any(const dealii::Tensor<1, dim> &v)
+  {
+    const double length = v.norm();
+    return length > 0. ? v / length : dealii::Point<dim>::unit_vector(0);
+  }
 
-  /** Throws InputError unless a radius is positive. */
-  void
-  check_radius(const double radius);
+  /** What is known of the point of a surface nearest to a place. */
+  template <int dim>
+  struct NearestPoint
+  {
+    /** φ of the place, its signed distance. */
+    double level;
+    /** Unit normal there, out of the body. */
+    dealii::Tensor<1, dim> normal;
+    /** Whether the nearest point lies within the extent of the surface. */
+    bool in_extent;
+  };
 
   /**
    * A surface φ(x) = 0 with the body on the side φ > 0, in its own frame. A
@@ -54,20 +59,30 @@ namespace moraine
     virtual ~Surface() = default;
 
     /**
-     * φ(x), positive on the body's side. The signed distance; for expressions
-     * φ/|∇φ|, its first-order estimate.
+     * φ is positive on the body's side: the signed distance; for expressions
+     * φ/|∇φ|, its first-order estimate. The normal −∇φ/|∇φ| means something at
+     * or near the surface.
      */
-    virtual double
-    level(const dealii::Point<dim> &x) const = 0;
+    virtual NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const = 0;
 
-    /** Unit normal pointing out of the body, −∇φ/|∇φ|, at or near the surface.
-     */
-    virtual dealii::Tensor<1, dim>
-    normal(const dealii::Point<dim> &x) const = 0;
+    double
+    level(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).level;
+    }
 
-    /** Whether the foot point of x lies within the extent of the surface. */
-    virtual bool
-    in_extent(const dealii::Point<dim> &x) const = 0;
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).normal;
+    }
+
+    bool
+    in_extent(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).in_extent;
+    }
 
     /**
      * Append quadrature points of the part of the surface inside one convex
@@ -94,6 +109,135 @@ namespace moraine
     {
       return true;
     }
+  };
+
+  /** Part of a curve: from one value of its parameter to a larger one. */
+  struct Stretch
+  {
+    double from, to;
+  };
+
+  /**
+   * Where shapes end a surface that goes on beyond them: it keeps what is on
+   * one side of each.
+   */
+  template <int dim>
+  struct Extent
+  {
+    /** What a surface along the boundary of a shape counts as. */
+    enum class Along
+    {
+      inner, ///< what lies just behind the surface, in its body
+      outer, ///< what lies just before it
+      never  ///< outside of the extent
+    };
+
+    struct Limit
+    {
+      std::shared_ptr<const Shape<dim>> shape;
+      bool                              inside; ///< else outside of the shape
+      Along                             along;
+    };
+
+    /**
+     * Positive where a place @p x of a surface with unit normal @p normal is
+     * within all limits, zero at the ends. Lengths below @p tolerance are
+     * round-off.
+     */
+    double
+    value(const dealii::Point<dim>     &x,
+          const dealii::Tensor<1, dim> &normal,
+          const double                  tolerance) const;
+
+    /** Whether x is within the limits or at an end, up to round-off. */
+    bool
+    contains(const dealii::Point<dim>     &x,
+             const dealii::Tensor<1, dim> &normal) const;
+
+    /**
+     * The parts within the limits of a piece of a curve, of which @p curve
+     * gives place and unit normal. They are exact if they are not shorter than
+     * a 32nd of the piece.
+     */
+    std::vector<Stretch>
+    stretches(
+      const Stretch &piece,
+      const double   tolerance,
+      const std::function<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>(
+        double)>    &curve) const;
+
+    /** The limits seen from the frame that @p placement puts in place. */
+    Extent
+    seen_from(const Placement<dim> &placement) const;
+
+    std::vector<Limit> limits;
+  };
+
+  /**
+   * A surface in its present place. Answers in present coordinates by asking
+   * the reference surface in its own frame.
+   */
+  template <int dim>
+  class MovedSurface : public Surface<dim>
+  {
+  public:
+    MovedSurface(std::shared_ptr<const Surface<dim>> reference,
+                 const Placement<dim>               &pose = Placement<dim>());
+
+    void
+    set_pose(const Placement<dim> &pose);
+
+    const Placement<dim> &
+    pose() const;
+
+    NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const override;
+
+    void
+    pieces(const CellVertices<dim>        &cell,
+           const unsigned int              n_gauss,
+           std::vector<SurfacePoint<dim>> &out) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    bool
+    curved() const override;
+
+  private:
+    std::shared_ptr<const Surface<dim>> reference;
+    Placement<dim>                      present;
+  };
+
+  /**
+   * Several surfaces that bound one body together. Nearest is the one whose
+   * nearest point is nearest among those within their extents; outside of all,
+   * the one of the smallest |φ|.
+   */
+  template <int dim>
+  class SurfaceList : public Surface<dim>
+  {
+  public:
+    using Members = std::vector<std::shared_ptr<const Surface<dim>>>;
+
+    SurfaceList(const Members &members);
+
+    NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const override;
+
+    void
+    pieces(const CellVertices<dim>        &cell,
+           const unsigned int              n_gauss,
+           std::vector<SurfacePoint<dim>> &out) const override;
+
+    dealii::BoundingBox<dim>
+    bounding_box() const override;
+
+    bool
+    curved() const override;
+
+  private:
+    Members members;
   };
 } // namespace moraine
 

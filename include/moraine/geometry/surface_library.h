@@ -4,50 +4,40 @@
 #ifndef moraine_geometry_surface_library_h
 #define moraine_geometry_surface_library_h
 
+#include <moraine/geometry/shape_library.h>
 #include <moraine/geometry/surface.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <memory>
 #include <string>
 
 namespace moraine
 {
   /**
-   * What the user says about one surface. Texts left empty were not given;
-   * make_surface() tells which ones a kind needs and which it refuses.
+   * What the user says about one surface: the rim of a body or a surface of its
+   * own. make_surface() tells which keys a kind needs and which it refuses.
    */
   template <int dim>
   struct SurfaceParameters
   {
-    std::string surface = dim == 2 ? "polyline" : "plane patch";
-    std::string points;
-    std::string centre;
-    std::string radius;
-    std::string start_angle;
-    std::string end_angle;
-    std::string point;
-    std::string normal;
-    std::string axis_start;
-    std::string axis_end;
-    std::string body_side;
-    std::string expression;
-    std::string lower_corner;
-    std::string upper_corner;
-    bool        flip = false;
+    /** The text of each key; empty if it was not given. */
+    std::map<std::string, std::string> texts;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
   };
 
   /**
-   * Make the surface described. @p section names the input section in messages.
-   * Throws InputError for entries that are missing, wrong, or that this kind
-   * of surface does not use.
+   * Make the surface described; @p bodies are those whose rims it may be.
+   * @p section names the input section in messages. Throws InputError for
+   * entries that are missing, wrong, or that this kind of surface does not use.
    */
   template <int dim>
-  std::unique_ptr<Surface<dim>>
+  std::shared_ptr<const Surface<dim>>
   make_surface(const SurfaceParameters<dim> &parameters,
+               const NamedShapes<dim>       &bodies,
                const std::string            &section);
 } // namespace moraine
 

@@ -5,6 +5,7 @@
 #define moraine_load_load_h
 
 #include <moraine/geometry/surface.h>
+#include <moraine/core/simulation_state.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
 
@@ -51,7 +52,7 @@ namespace moraine
    * and known to all ranks.
    */
   template <int dim>
-  class CarriedLoad
+  class CarriedLoad : public StatePart
   {
   public:
     struct Place
@@ -74,10 +75,24 @@ namespace moraine
     void
     find_cells(const GridSpace<dim> &space, const double reach);
 
-    /** Carry the places along with the trial increments. Collective. */
+    /** Find where the trial increments carry the places. Collective. */
     void
-    move(const GridSpace<dim>                      &space,
-         const std::vector<dealii::Tensor<1, dim>> &nodal_increments);
+    prepare_move(const GridSpace<dim>                      &space,
+                 const std::vector<dealii::Tensor<1, dim>> &nodal_increments);
+
+    /** Let the places be where prepare_move() found them, if it was called. */
+    void
+    move() noexcept;
+
+    /** The places, in the group "loads/" and its name. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+    void
+    undo() override;
 
     const std::vector<Place> &
     places() const
@@ -97,10 +112,18 @@ namespace moraine
       return load_name;
     }
 
+    /** Whether it is one force at one place. */
+    bool
+    is_single() const
+    {
+      return load_places.size() == 1 && load_places[0].weight == 1;
+    }
+
   private:
     const std::string         load_name;
     const VectorFunction<dim> function;
     std::vector<Place>        load_places;
+    std::vector<Place>        next_places; ///< if the trial is accepted
     bool                      placed = false;
   };
 
@@ -112,7 +135,7 @@ namespace moraine
    * that carry must not be split (checked with the input).
    */
   template <int dim>
-  class ForceOnPoints
+  class ForceOnPoints : public StatePart
   {
   public:
     ForceOnPoints(const std::string         &name,
@@ -127,6 +150,13 @@ namespace moraine
      */
     void
     find_points(const PointSet<dim> &points);
+
+    /** The points, in the group "loads/" and its name. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
 
     /** Whether the point of this rank has a share. */
     bool
@@ -144,11 +174,17 @@ namespace moraine
       return 1. / ids.size() * function(x, t);
     }
 
+    const std::string &
+    name() const
+    {
+      return load_name;
+    }
+
   private:
     void
     choose(const PointSet<dim> &points);
 
-    const std::string         name;
+    const std::string         load_name;
     const VectorFunction<dim> function;
     const dealii::Point<dim>  place;
     std::vector<unsigned int> ids;          ///< sorted, the same on all ranks

@@ -4,10 +4,14 @@
 #ifndef moraine_material_material_h
 #define moraine_material_material_h
 
+#include <moraine/core/step_time.h>
+
 #include <deal.II/base/array_view.h>
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -46,10 +50,30 @@ namespace moraine
     return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
   }
 
+  /** What a strain is. */
+  enum class StrainMeasure
+  {
+    /** @f$\varepsilon = \mathrm{sym}\,\nabla u@f$ */
+    small,
+    /** @f$\varepsilon = \frac12 \ln b@f$, @f$b = F F^T@f$ */
+    finite
+  };
+
   /**
-   * What a material is asked at one point, and its answer, in the principal
-   * directions of the trial elastic strain. All our materials are isotropic, so
-   * stress, elastic strain and trial strain have these directions in common.
+   * A number that a material keeps at each point from step to step. It becomes
+   * a field of the points and an array of the output with this name.
+   */
+  struct InternalVariable
+  {
+    std::string name;
+    std::string unit;
+    double      initial = 0; ///< before the first step
+  };
+
+  /**
+   * What an isotropic material is asked at one point, and its answer, in the
+   * principal directions of the trial elastic strain, which stress and elastic
+   * strain have in common with it.
    *
    * The strain is the small strain or, at finite strain, the logarithmic one,
    * @f$\varepsilon^e = \frac12 \ln b^e@f$; the stress is then Kirchhoff's
@@ -60,8 +84,9 @@ namespace moraine
     /** In: trial elastic strain; out: elastic strain. */
     dealii::Tensor<1, 3> strain;
 
-    /** In and out: accumulated plastic strain of a plastic material. */
-    double plastic_strain;
+    /** In: internal variables at @f$t_n@f$, out: at @f$t_{n+1}@f$, in the order
+     * of Material::internal_variables(). */
+    double *internal;
 
     /** Out: @f$\sigma_A@f$ or @f$\tau_A@f$. */
     dealii::Tensor<1, 3> stress;
@@ -71,25 +96,79 @@ namespace moraine
   };
 
   /**
-   * An isotropic material: a pure function of the committed state of a point
-   * and the strain of the step. It knows no mesh and no neighbours. Plane
-   * strain is the 3D law with a plane strain increment, so that the
-   * out-of-plane stress is kept.
+   * What a material that is not isotropic is asked at one point, and its
+   * answer.
+   */
+  struct TensorState
+  {
+    /** In, at small strain: @f$\Delta\varepsilon@f$. */
+    dealii::SymmetricTensor<2, 3> strain_increment;
+
+    /** In, at finite strain: @f$F_n@f$ and @f$F_{n+1}@f$. */
+    dealii::Tensor<2, 3> F_n, F;
+
+    /** As in PrincipalState. */
+    double *internal;
+
+    /** In: Cauchy's @f$\sigma_n@f$. Out: @f$\sigma_{n+1}@f$ or, at finite
+     * strain, Kirchhoff's @f$\tau_{n+1}@f$. */
+    dealii::SymmetricTensor<2, 3> stress;
+
+    /**
+     * Out: @f$\partial\sigma/\partial\Delta\varepsilon@f$; at finite strain
+     * the spatial tangent c, @f$L_v\tau = c : d@f$. With major symmetry.
+     */
+    dealii::SymmetricTensor<4, 3> tangent;
+  };
+
+  /**
+   * A material: a pure function of the committed state of a point, the strain
+   * of the step and its time. It knows no mesh and no neighbours. Plane strain
+   * is the 3D law with a plane strain increment, so that the out-of-plane
+   * stress is kept. An isotropic one answers in principal values, any other in
+   * tensors.
    */
   class Material
   {
   public:
     virtual ~Material() = default;
 
+    /** Whether it answers in principal values. */
+    virtual bool
+    is_isotropic() const
+    {
+      return true;
+    }
+
     /**
-     * Answer for a block of points. Where there is no answer (a return mapping
-     * without a solution) the stress is not a number; why_no_stress() says what
-     * that means.
+     * Answer for a block of points, if it is isotropic. Where there is no
+     * answer (a return mapping without a solution) the stress is not a number;
+     * why_no_stress() says what that means.
      */
     virtual void
-    respond(const dealii::ArrayView<PrincipalState> &points) const = 0;
+    respond(const StepTime &, const dealii::ArrayView<PrincipalState> &) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
 
-    /** The elastic stiffness, by which boundaries scale their enforcement. */
+    /** The same, if it is not isotropic. */
+    virtual void
+    respond(const StepTime &,
+            const StrainMeasure,
+            const dealii::ArrayView<TensorState> &) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
+
+    /** What points of this material carry beside stress and strain. */
+    virtual std::vector<InternalVariable>
+    internal_variables() const
+    {
+      return {};
+    }
+
+    /** The elastic stiffness, by which boundaries scale their enforcement; if
+     * it is not isotropic, an isotropic one as stiff as its stiffest. */
     virtual LameConstants
     elastic_stiffness() const = 0;
 
@@ -103,13 +182,6 @@ namespace moraine
      */
     virtual bool
     is_linear() const = 0;
-
-    /** Whether points carry an accumulated plastic strain. */
-    virtual bool
-    is_plastic() const
-    {
-      return false;
-    }
 
     /** Whether it makes sense at small strain. */
     virtual bool

@@ -26,8 +26,11 @@ namespace moraine
      */
     NeoHookean(const double E, const double nu, const double rho);
 
+    using Material::respond;
+
     void
-    respond(const dealii::ArrayView<PrincipalState> &points) const override;
+    respond(const StepTime                          &time,
+            const dealii::ArrayView<PrincipalState> &points) const override;
 
     LameConstants
     elastic_stiffness() const override

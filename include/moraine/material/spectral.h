@@ -11,15 +11,6 @@
 
 namespace moraine
 {
-  /** What a strain is. */
-  enum class StrainMeasure
-  {
-    /** @f$\varepsilon = \mathrm{sym}\,\nabla u@f$ */
-    small,
-    /** @f$\varepsilon = \frac12 \ln b@f$, @f$b = F F^T@f$ */
-    finite
-  };
-
   /** Principal values @f$\lambda_A@f$ and orthonormal directions @f$n_A@f$. */
   struct Spectrum
   {
@@ -104,6 +95,18 @@ namespace moraine
   template <int dim>
   using VoigtMatrix =
     std::array<std::array<double, n_voigt<dim>>, n_voigt<dim>>;
+
+  template <int dim>
+  inline VoigtMatrix<dim>
+  voigt_matrix(const dealii::SymmetricTensor<4, 3> &c)
+  {
+    constexpr auto   pairs = voigt_pairs<dim>();
+    VoigtMatrix<dim> result;
+    for (unsigned int I = 0; I < n_voigt<dim>; ++I)
+      for (unsigned int J = 0; J < n_voigt<dim>; ++J)
+        result[I][J] = c[pairs[I][0]][pairs[I][1]][pairs[J][0]][pairs[J][1]];
+    return result;
+  }
 
   /**
    * The spatial tangent @f$c@f$ of the Kirchhoff stress, with which a material

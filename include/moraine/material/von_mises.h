@@ -54,8 +54,11 @@ namespace moraine
              const double                                  rho,
              const std::vector<std::pair<double, double>> &yield_radius);
 
+    using Material::respond;
+
     void
-    respond(const dealii::ArrayView<PrincipalState> &points) const override;
+    respond(const StepTime                          &time,
+            const dealii::ArrayView<PrincipalState> &points) const override;
 
     LameConstants
     elastic_stiffness() const override
@@ -75,10 +78,11 @@ namespace moraine
       return false;
     }
 
-    bool
-    is_plastic() const override
+    /** The accumulated plastic strain @f$\kappa@f$. */
+    std::vector<InternalVariable>
+    internal_variables() const override
     {
-      return true;
+      return {{"plastic_strain", "-"}};
     }
 
     std::string

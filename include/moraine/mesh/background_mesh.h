@@ -4,6 +4,7 @@
 #ifndef moraine_mesh_background_mesh_h
 #define moraine_mesh_background_mesh_h
 
+#include <moraine/core/simulation_state.h>
 #include <moraine/mesh/cell_map.h>
 #include <moraine/mesh/mesh_parameters.h>
 #include <moraine/mesh/mesh_sides.h>
@@ -42,7 +43,7 @@ namespace moraine
    * cell is the multilinear one of its vertices.
    */
   template <int dim>
-  class BackgroundMesh
+  class BackgroundMesh : public StatePart
   {
   public:
     using CellIterator =
@@ -79,6 +80,14 @@ namespace moraine
     move_vertices(
       const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
         &motion);
+
+    /** Data sets "mesh/...": where the vertices are. */
+    void
+    write(Archive &archive) const override;
+
+    /** The cells must be those of the time of writing. */
+    void
+    read(const Archive &archive) override;
 
     /** @throws ComputationError as move_vertices() would. */
     void

@@ -30,7 +30,7 @@ namespace moraine
    * it owns, of the active cells that touch those, and of those it asked for.
    */
   template <int dim>
-  class GridSpace
+  class GridSpace : public StatePart
   {
   public:
     using CellIterator =
@@ -136,6 +136,14 @@ namespace moraine
      */
     void
     follow_mesh();
+
+    /** Data set "nodes/position" of the nodes of each active cell. */
+    void
+    write(Archive &archive) const override;
+
+    /** The active cells must be those of the time of writing. */
+    void
+    read(const Archive &archive) override;
 
     const dealii::DoFHandler<dim> &
     dof_handler() const

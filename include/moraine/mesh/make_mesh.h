@@ -27,6 +27,15 @@ namespace moraine
             dealii::Triangulation<dim> &triangulation);
 
   /**
+   * Refuse @p n cells that do not fit into the memory.
+   *
+   * @throws InputError naming @p where, section and key.
+   */
+  template <int dim>
+  void
+  require_memory_for_cells(const double n, const std::string &where);
+
+  /**
    * The centre of a cell whose Jacobian is not positive at one of its corners
    * if its vertex number v (of the mesh) is at @p vertices[v]; nothing if there
    * is none.

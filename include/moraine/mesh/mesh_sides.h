@@ -32,16 +32,19 @@ namespace moraine
 
   /**
    * Read the text of key `Side names`, "hole: 1, outer: 2", for a mesh whose
-   * boundary has the ids @p found. If @p all_need_names, the ids other than 0
-   * (gmsh: no physical curve) must have a name as soon as one has.
+   * boundary has the ids @p found. What the mesh itself calls its sides,
+   * @p of_mesh, are names too, where the text gives neither name nor id; these
+   * sides are called by their number as well.
    *
    * @throws InputError for a text of another form, a name or id given twice,
-   * an id the boundary does not have, and an id that has no name but needs one.
+   * and an id the boundary does not have.
    */
   MeshSides
-  read_side_names(const std::string                          &text,
-                  const std::set<dealii::types::boundary_id> &found,
-                  const bool                                  all_need_names);
+  read_side_names(
+    const std::string                          &text,
+    const std::set<dealii::types::boundary_id> &found,
+    const std::vector<std::pair<std::string, dealii::types::boundary_id>>
+      &of_mesh = {});
 } // namespace moraine
 
 #endif

@@ -6,6 +6,8 @@
 
 #include <istream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace moraine
 {
@@ -19,6 +21,13 @@ namespace moraine
    */
   std::string
   complaint_about_msh(std::istream &in);
+
+  /**
+   * Names and numbers of the physical groups of dimension @p dimension, of
+   * section $PhysicalNames; none if the file has no such section.
+   */
+  std::vector<std::pair<std::string, unsigned int>>
+  physical_names_of_msh(std::istream &in, const unsigned int dimension);
 } // namespace moraine
 
 #endif

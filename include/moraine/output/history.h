@@ -4,6 +4,7 @@
 #ifndef moraine_output_history_h
 #define moraine_output_history_h
 
+#include <moraine/core/simulation_state.h>
 #include <moraine/output/named_value.h>
 
 #include <mpi.h>
@@ -19,7 +20,7 @@ namespace moraine
    * The first row fixes the columns; the header gives names and units as
    * "u_y at A [length]", a unit "-" is left out. Numbers have 15 digits.
    */
-  class History
+  class History : public StatePart
   {
   public:
     History(const std::string &path, const MPI_Comm &communicator);
@@ -32,14 +33,24 @@ namespace moraine
     void
     add_row(const std::vector<NamedValue> &row);
 
-  private:
+    /** Data sets "output/history/...": the columns and the rows so far. */
     void
-    write_row(const std::vector<NamedValue> &row);
+    write(Archive &archive) const override;
+
+    /** Writes the file with the rows of the archive. Collective. */
+    void
+    read(const Archive &archive) override;
+
+  private:
+    /** Write @p rows and, if they are the first, the columns before. */
+    void
+    write_rows(const std::vector<double> &rows, const bool first);
 
     std::string              path;
     MPI_Comm                 communicator;
     std::ofstream            file;
     std::vector<std::string> columns;
+    std::vector<double>      values; ///< row by row
   };
 } // namespace moraine
 

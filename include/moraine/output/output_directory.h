@@ -25,14 +25,20 @@ namespace moraine
      * Make the folder, or check the one that is there. Collective.
      *
      * With @p overwrite the files of an earlier run are removed; only files
-     * with the names above are.
+     * with the names above are. What a run left that failed before its first
+     * step is removed in any case.
      *
-     * @throws InputError on every rank if the folder holds files of an earlier
-     * run and @p overwrite is not set, or if it cannot be made or written.
+     * @throws InputError on every rank if the folder holds results of an
+     * earlier run and @p overwrite is not set, or if it cannot be made or
+     * written.
      */
     OutputDirectory(const std::string &path,
                     const bool         overwrite,
                     const MPI_Comm    &communicator);
+
+    /** Whether folder @p path holds results of an earlier run. Collective. */
+    static bool
+    holds_results(const std::string &path, const MPI_Comm &communicator);
 
     /** Path of a file in the folder. */
     std::string

@@ -45,11 +45,11 @@ namespace moraine
    * location at the start (of equally near ones the one with the smallest id)
    * and follows it. A probe of kind *interpolated* stands on the material: the
    * increments of the mesh displacement at its place add up to its displacement
-   * and carry it along. Where an interpolated probe leaves the active cells its
-   * values are nan from then on.
+   * and carry it along. Where an interpolated probe leaves the active cells it
+   * follows the point that is nearest to it from then on, and news() says so.
    */
   template <int dim>
-  class Probes
+  class Probes : public StatePart
   {
   public:
     /**
@@ -77,13 +77,22 @@ namespace moraine
      *
      * @param step_increment displacement of this step at a place of the mesh as
      * it stood before the step; see grid_evaluation().
+     * @param points as they stood before the step
      */
     void
-    try_step(const PlaceFunction<dim> &step_increment);
+    try_step(const PlaceFunction<dim> &step_increment,
+             const PointSet<dim>      &points);
 
     /** The step of the last try_step() is accepted. */
     void
     keep_step();
+
+    /** What the last keep_step() changed for the user, sentence by sentence. */
+    const std::vector<std::string> &
+    news() const
+    {
+      return sentences;
+    }
 
     /**
      * The values now, the same on every rank, named "u_x at A" and so on.
@@ -94,6 +103,15 @@ namespace moraine
     std::vector<NamedValue>
     values(const PointSet<dim> &points) const;
 
+    /** Data sets "probes/...": which points they follow, and how far places
+     * went. */
+    void
+    write(Archive &archive) const override;
+
+    /** The probes must be those of the time of writing. */
+    void
+    read(const Archive &archive) override;
+
   private:
     struct Probe
     {
@@ -102,22 +120,34 @@ namespace moraine
       unsigned int           point_id = 0;
       double                 distance = 0; ///< of the point that is followed
       dealii::Tensor<1, dim> displacement;
-      dealii::Tensor<1, dim> increment; ///< of the trial step
+      dealii::Tensor<1, dim> increment;            ///< of the trial step
+      bool                   leaves_cells = false; ///< in the trial step
+      bool                   has_left     = false;
+      /** Of a probe that has left the cells: over that of its point. */
+      dealii::Tensor<1, dim> ahead;
 
       bool
       follows_point() const;
     };
 
+    /** Find the point nearest to @p place. Collective. */
     void
-    choose_point(Probe &probe, const PointSet<dim> &points) const;
+    choose_point(const dealii::Point<dim> &place,
+                 const PointSet<dim>      &points,
+                 Probe                    &probe) const;
+
+    /** The displacement of a point, known on one rank. Collective. */
+    dealii::Tensor<1, dim>
+    displacement_of(const unsigned int id, const PointSet<dim> &points) const;
 
     /** Position, displacement and stress of the points that are followed. */
     std::vector<std::vector<double>>
     gather_points(const PointSet<dim> &points) const;
 
-    std::vector<Probe> probes;
-    double             cell_size;
-    bool               moves_through_mesh;
+    std::vector<Probe>       probes;
+    std::vector<std::string> sentences;
+    double                   cell_size;
+    bool                     moves_through_mesh;
   };
 } // namespace moraine
 

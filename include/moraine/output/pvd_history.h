@@ -4,6 +4,8 @@
 #ifndef moraine_output_pvd_history_h
 #define moraine_output_pvd_history_h
 
+#include <moraine/core/simulation_state.h>
+
 #include <mpi.h>
 
 #include <string>
@@ -17,7 +19,7 @@ namespace moraine
    * animation. It is replaced as a whole at each step, so it is complete
    * whenever the run ends.
    */
-  class PvdHistory
+  class PvdHistory : public StatePart
   {
   public:
     PvdHistory(const std::string &path, const MPI_Comm &communicator);
@@ -31,7 +33,19 @@ namespace moraine
     void
     add(const double time, const std::string &file);
 
+    /** Data sets "output/<name of the file>/...". */
+    void
+    write(Archive &archive) const override;
+
+    /** Writes the file with the entries of the archive. Collective. */
+    void
+    read(const Archive &archive) override;
+
   private:
+    void
+    write_file(
+      const std::vector<std::pair<double, std::string>> &entries) const;
+
     std::string                                 path;
     MPI_Comm                                    communicator;
     std::vector<std::pair<double, std::string>> times_and_names;

@@ -20,32 +20,42 @@ namespace moraine
     template <class T>
     using List = std::vector<std::pair<std::string, T>>;
 
+    /** How large the scene is. */
+    struct Sizes
+    {
+      std::uint64_t cells           = 0;
+      std::uint64_t active_cells    = 0;
+      std::uint64_t unknowns        = 0;
+      std::uint64_t points          = 0;
+      unsigned int  bytes_per_point = 0;
+    };
+
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
-    std::string   message;
-    std::string   version;
-    unsigned int  dimension         = 0;
-    unsigned int  ranks             = 1;
-    std::uint64_t cells             = 0;
-    std::uint64_t active_cells      = 0;
-    std::uint64_t unknowns          = 0;
-    std::uint64_t points            = 0;
-    unsigned int  steps             = 0;
-    unsigned int  rejected_steps    = 0;
+    std::string  message;
+    std::string  version;
+    unsigned int dimension = 0;
+    unsigned int ranks     = 1;
+    Sizes        sizes;
+    unsigned int steps          = 0;
+    unsigned int rejected_steps = 0;
     /** Steps that ended by Newton::jump(). */
-    unsigned int  jumps             = 0;
-    unsigned int  newton_iterations = 0;
-    unsigned int  linear_iterations = 0;
+    unsigned int jumps             = 0;
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
     /** Left out if not asked for. */
     std::optional<double> condition_number;
-    unsigned int          bytes_per_point = 0;
     double                peak_memory_mib = 0;
     double                wall_seconds    = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */
     std::vector<std::string> effects;
+    /** See LinearSolver::choices(). */
+    std::vector<std::string> linear_solvers;
+    /** What may make results less than they look; left out if nothing. */
+    std::vector<std::string> warnings;
     /** Left out if the scene has no exact solution. */
     List<std::optional<double>> errors;
     /** Last values of the probes by column name. */

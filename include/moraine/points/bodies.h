@@ -40,6 +40,15 @@ namespace moraine
 
 
   /**
+   * A field of points for each further column of a point file, for output; call
+   * it when all other fields are there.
+   * @throws InputError for a column that has the name of one of them.
+   */
+  template <int dim>
+  void
+  request_columns(const std::vector<Body<dim>> &bodies, PointFields &fields);
+
+  /**
    * Put the points of all bodies into an empty @p points: those that @p seeder
    * gives the cells a shape covers, and those listed. A point's body is the
    * index in @p bodies. Its id counts the points that cells may have, then the

@@ -5,7 +5,10 @@
 #define moraine_points_point_fields_h
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,10 +21,161 @@ namespace moraine
   template <int dim>
   inline constexpr unsigned int n_stress_components = (dim == 2 ? 4 : 6);
 
+  /** What the numbers of a field make up together. */
+  enum class FieldKind
+  {
+    number,
+    vector,
+    symmetric_tensor,
+    tensor
+  };
+
+  /** How a value of type T is stored at a point. */
+  template <int dim, class T>
+  struct FieldStorage;
+
+  template <int dim>
+  struct FieldStorage<dim, double>
+  {
+    static constexpr FieldKind    kind         = FieldKind::number;
+    static constexpr unsigned int n_components = 1;
+
+    static double
+    load(const double *components)
+    {
+      return *components;
+    }
+
+    static void
+    store(const double value, double *components)
+    {
+      *components = value;
+    }
+  };
+
+  template <int dim>
+  struct FieldStorage<dim, dealii::Tensor<1, dim>>
+  {
+    static constexpr FieldKind    kind         = FieldKind::vector;
+    static constexpr unsigned int n_components = dim;
+
+    static dealii::Tensor<1, dim>
+    load(const double *components)
+    {
+      dealii::Tensor<1, dim> value;
+      std::copy_n(components, dim, value.begin_raw());
+      return value;
+    }
+
+    static void
+    store(const dealii::Tensor<1, dim> &value, double *components)
+    {
+      std::copy_n(value.begin_raw(), dim, components);
+    }
+  };
+
+  /** xx, yy, zz, xy[, xz, yz]; in plane strain the others are 0. */
+  template <int dim>
+  struct FieldStorage<dim, dealii::SymmetricTensor<2, 3>>
+  {
+    static constexpr FieldKind    kind         = FieldKind::symmetric_tensor;
+    static constexpr unsigned int n_components = n_stress_components<dim>;
+
+    static dealii::SymmetricTensor<2, 3>
+    load(const double *components)
+    {
+      dealii::SymmetricTensor<2, 3> value;
+      for (unsigned int c = 0; c < n_components; ++c)
+        value.access_raw_entry(c) = components[c];
+      return value;
+    }
+
+    static void
+    store(const dealii::SymmetricTensor<2, 3> &value, double *components)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        components[c] = value.access_raw_entry(c);
+    }
+  };
+
+  /** Row by row. */
+  template <int dim>
+  struct FieldStorage<dim, dealii::Tensor<2, dim>>
+  {
+    static constexpr FieldKind    kind         = FieldKind::tensor;
+    static constexpr unsigned int n_components = dim * dim;
+
+    static dealii::Tensor<2, dim>
+    load(const double *components)
+    {
+      dealii::Tensor<2, dim> value;
+      std::copy_n(components, dim * dim, value.begin_raw());
+      return value;
+    }
+
+    static void
+    store(const dealii::Tensor<2, dim> &value, double *components)
+    {
+      std::copy_n(value.begin_raw(), dim * dim, components);
+    }
+  };
+
+  /** The name of a field of values of type T, and their unit. */
+  template <int dim, class T>
+  struct FieldName
+  {
+    std::string name;
+    std::string unit;
+  };
+
+  /** Where the values of points have a field of type T, if they have it. */
+  template <int dim, class T>
+  class PointField
+  {
+  public:
+    /** No such field. */
+    PointField() = default;
+
+    explicit PointField(const unsigned int offset)
+      : first(offset)
+    {}
+
+    bool
+    exists() const
+    {
+      return first != none;
+    }
+
+    /** Of its first component in the values of a point. */
+    unsigned int
+    offset() const
+    {
+      return first;
+    }
+
+    /** Of a point with these @p values. */
+    T
+    operator()(const double *values) const
+    {
+      return FieldStorage<dim, T>::load(values + first);
+    }
+
+    void
+    store(const T &value, double *values) const
+    {
+      FieldStorage<dim, T>::store(value, values + first);
+    }
+
+  private:
+    static constexpr unsigned int none = -1;
+
+    unsigned int first = none;
+  };
+
   /**
    * The layout of the numbers a point carries. A basis, a material or an output
-   * asks for a field by name and gets the offset of its first component; nobody
-   * numbers fields by hand, and a field that nobody asks for does not exist.
+   * asks for a field and gets a handle of its type; nobody numbers fields by
+   * hand, and a field that nobody asks for does not exist.
    */
   class PointFields
   {
@@ -32,26 +186,38 @@ namespace moraine
       std::string  unit;
       unsigned int offset;
       unsigned int n_components;
+      FieldKind    kind;
     };
 
-    /**
-     * Offset of the field @p name; added to the layout if it is not there.
-     */
-    unsigned int
-    request(const std::string &name,
-            const unsigned int n_components,
-            const std::string &unit)
+    /** The field, added to the layout if it is not there. */
+    template <int dim, class T>
+    PointField<dim, T>
+    request(const FieldName<dim, T> &asked)
+    {
+      const PointField<dim, T> known = find(asked);
+      if (known.exists())
+        return known;
+      constexpr unsigned int n = FieldStorage<dim, T>::n_components;
+      list.push_back(
+        {asked.name, asked.unit, total, n, FieldStorage<dim, T>::kind});
+      total += n;
+      return PointField<dim, T>(list.back().offset);
+    }
+
+    /** The field, which need not exist. */
+    template <int dim, class T>
+    PointField<dim, T>
+    find(const FieldName<dim, T> &asked) const
     {
       for (const Field &field : list)
-        if (field.name == name)
+        if (field.name == asked.name)
           {
-            AssertThrow(field.n_components == n_components,
-                        dealii::ExcInternalError());
-            return field.offset;
+            AssertThrow(field.kind == (FieldStorage<dim, T>::kind),
+                        dealii::ExcMessage("Two kinds of the field " +
+                                           asked.name));
+            return PointField<dim, T>(field.offset);
           }
-      list.push_back({name, unit, total, n_components});
-      total += n_components;
-      return list.back().offset;
+      return {};
     }
 
     const std::vector<Field> &
@@ -70,6 +236,33 @@ namespace moraine
   private:
     std::vector<Field> list;
     unsigned int       total = 0;
+  };
+
+  /** The fields that several rooms know. */
+  template <int dim>
+  struct FieldNames
+  {
+    using Number          = FieldName<dim, double>;
+    using Vector          = FieldName<dim, dealii::Tensor<1, dim>>;
+    using SymmetricTensor = FieldName<dim, dealii::SymmetricTensor<2, 3>>;
+    using Tensor          = FieldName<dim, dealii::Tensor<2, dim>>;
+
+    inline static const Number          volume{"volume",
+                                      dim == 2 ? "length^2" : "length^3"};
+    inline static const Number          body{"body", "-"};
+    inline static const Vector          displacement{"displacement", "length"};
+    inline static const SymmetricTensor stress{"stress", "stress"};
+    /** @f$F@f$, at finite strain. */
+    inline static const Tensor deformation_gradient{"deformation_gradient",
+                                                    "-"};
+    /** @f$b^e@f$, at finite strain. */
+    inline static const SymmetricTensor elastic_left_cauchy_green{
+      "elastic_left_cauchy_green",
+      "-"};
+    /** @f$v_0@f$, at finite strain. */
+    inline static const Number initial_volume{"initial_volume",
+                                              dim == 2 ? "length^2" :
+                                                         "length^3"};
   };
 } // namespace moraine
 

@@ -22,6 +22,10 @@ namespace moraine
     std::vector<dealii::Point<dim>> positions;
     std::vector<double>             volumes;
 
+    /** Names of further columns, and their values point by point. */
+    std::vector<std::string>         columns;
+    std::vector<std::vector<double>> column_values;
+
     /**
      * Half the edges of the parallelepiped each point stands for, as columns
      * [length]; zero if nothing is known of it but its volume.
@@ -34,8 +38,8 @@ namespace moraine
 
   /**
    * The points of a CSV file: a header `x,y,volume` (3D: `x,y,z,volume`) and,
-   * if wanted, names of more columns, which are not used; then one point per
-   * row. Empty lines are skipped. The origin of a point is file and line.
+   * if wanted, names of more columns, which points carry along; then one point
+   * per row. Empty lines are skipped. The origin of a point is file and line.
    *
    * Throws InputError, with file and line, for a header that is different, a
    * row with a wrong number of values, a value that is not a finite number, a

@@ -4,6 +4,7 @@
 #ifndef moraine_points_point_set_h
 #define moraine_points_point_set_h
 
+#include <moraine/core/simulation_state.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/points/point_fields.h>
 
@@ -32,7 +33,7 @@ namespace moraine
    * | stress       | 4 or 6     | Cauchy stress @f$\sigma_p@f$              |
    */
   template <int dim>
-  class PointSet
+  class PointSet : public StatePart
   {
   public:
     using CellIterator =
@@ -115,6 +116,17 @@ namespace moraine
     std::optional<dealii::Point<dim>>
     place_for(const dealii::Point<dim> &x) const;
 
+    /**
+     * Data sets "points/position", "points/cell" and so on, one for each field.
+     * The order of points in memory is kept only by an archive in memory.
+     */
+    void
+    write(Archive &archive) const override;
+
+    /** The mesh and the fields must be those of the time of writing. */
+    void
+    read(const Archive &archive) override;
+
     const std::vector<CellPoints> &
     cells() const
     {
@@ -178,31 +190,43 @@ namespace moraine
     double
     volume(const unsigned int p) const
     {
-      return values(p)[volume_offset];
+      return volume_field(values(p));
     }
 
     void
     set_volume(const unsigned int p, const double v)
     {
-      values(p)[volume_offset] = v;
+      volume_field.store(v, values(p));
     }
 
     unsigned int
     body(const unsigned int p) const
     {
-      return static_cast<unsigned int>(values(p)[body_offset]);
+      return static_cast<unsigned int>(body_field(values(p)));
+    }
+
+    const PointField<dim, dealii::Tensor<1, dim>> &
+    displacement_field() const
+    {
+      return u_field;
+    }
+
+    const PointField<dim, dealii::SymmetricTensor<2, 3>> &
+    stress_field() const
+    {
+      return sigma_field;
     }
 
     unsigned int
     displacement_offset() const
     {
-      return u_offset;
+      return u_field.offset();
     }
 
     unsigned int
     stress_offset() const
     {
-      return sigma_offset;
+      return sigma_field.offset();
     }
 
     const PointFields &
@@ -252,20 +276,20 @@ namespace moraine
     void
     reinsert_lost_points();
 
-    const BackgroundMesh<dim>              &background;
-    PointFields                             layout;
-    unsigned int                            volume_offset;
-    unsigned int                            body_offset;
-    unsigned int                            u_offset;
-    unsigned int                            sigma_offset;
-    dealii::Particles::ParticleHandler<dim> handler;
-    dealii::Particles::PropertyPool<dim>   *pool;
-    std::vector<unsigned int>               handles;
-    std::vector<CellPoints>                 cell_points;
-    std::vector<CellIterator>               cells_of_copies;
-    std::vector<LostPoint>                  lost_points;
-    double                                  put_back_distance = 0;
-    unsigned int                            put_back          = 0;
+    const BackgroundMesh<dim>                     &background;
+    PointFields                                    layout;
+    PointField<dim, double>                        volume_field;
+    PointField<dim, double>                        body_field;
+    PointField<dim, dealii::Tensor<1, dim>>        u_field;
+    PointField<dim, dealii::SymmetricTensor<2, 3>> sigma_field;
+    dealii::Particles::ParticleHandler<dim>        handler;
+    dealii::Particles::PropertyPool<dim>          *pool;
+    std::vector<unsigned int>                      handles;
+    std::vector<CellPoints>                        cell_points;
+    std::vector<CellIterator>                      cells_of_copies;
+    std::vector<LostPoint>                         lost_points;
+    double                                         put_back_distance = 0;
+    unsigned int                                   put_back          = 0;
   };
 } // namespace moraine
 

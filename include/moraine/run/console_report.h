@@ -6,6 +6,9 @@
 
 #include <moraine/core/console.h>
 #include <moraine/run/run_observer.h>
+#include <moraine/run/simulation.h>
+
+#include <deal.II/base/timer.h>
 
 #include <string>
 #include <vector>
@@ -17,11 +20,11 @@ namespace moraine
   class ConsoleReport : public RunObserver<dim>
   {
   public:
-    /** @p results is the folder of the results; empty if there is none. */
-    ConsoleReport(const Scene<dim>  &scene,
-                  const Model<dim>  &model,
-                  const std::string &results,
-                  Console           &console);
+    /** The folder of the results is empty if there are none. */
+    ConsoleReport(const Scene<dim> &scene,
+                  const Model<dim> &model,
+                  const RunOptions &options,
+                  Console          &console);
 
     /** What will be simulated, and what the user should know of it. */
     void
@@ -32,6 +35,11 @@ namespace moraine
 
     void
     step_accepted(const AcceptedStep<dim> &step) override;
+
+    /** A line with verbose, else progress on a terminal. */
+    void
+    newton_iteration(const NewtonIteration &iteration,
+                     const TimeControl     &time) override;
 
     void
     step_rejected(const double t, const std::string &reason) override;
@@ -56,6 +64,10 @@ namespace moraine
     void
     note_domains();
 
+    /** ", about 3 min left"; nothing before the first step is done. */
+    std::string
+    time_left(const double t) const;
+
     void
     print_timings(const Summary &summary);
 
@@ -64,8 +76,9 @@ namespace moraine
 
     const Scene<dim> &scene;
     const Model<dim> &model;
-    const std::string results;
+    const RunOptions  options;
     Console          &console;
+    dealii::Timer     since_start;
     unsigned int      n_put_back      = 0;
     bool              has_far_domains = false;
   };

@@ -35,7 +35,8 @@ namespace moraine
     std::string  mesh_after_step      = "default";
     double       empty_stiffness      = 0.;
     std::string  domain_update        = "corners";
-    bool         split_domains        = false;
+    std::string  split_domains        = "auto";
+    std::string  separation           = "stop";
     double       put_back             = 0.;
 
     void
@@ -55,6 +56,13 @@ namespace moraine
     /** Boxes keep their size at small strain. */
     DomainUpdate
     update_of_domains() const;
+
+    bool
+    splits_domains() const
+    {
+      return split_domains == "true" ||
+             (split_domains == "auto" && chosen().must_split_domains);
+    }
 
     StrainMeasure
     strain_measure() const
@@ -86,6 +94,8 @@ namespace moraine
     std::string  allowed_after_step;
     unsigned int largest_degree;
     bool         can_split_domains;
+    /** A domain beyond the limit ends the run. */
+    bool must_split_domains;
     /** How cells are filled with points. */
     std::function<CellSeeder<dim>(const MethodParameters<dim> &)> make_seeder;
     /** Add what the basis stores with each point. */

@@ -22,8 +22,13 @@ namespace moraine
     std::optional<double> condition_number;
     /** What solved the last linear system. */
     std::string linear_solver;
-    /** Whether a singular matrix gave empty parts of cells a stiffness. */
-    bool holds_empty_parts = false;
+    /**
+     * Values of the stiffness of empty parts that were tried, because a matrix
+     * was singular or steps failed.
+     */
+    unsigned int n_empty_stiffness = 0;
+    /** What may make results less than they look. */
+    std::vector<std::string> warnings;
   };
 
   /** A step that was just accepted. */
@@ -57,6 +62,12 @@ namespace moraine
 
     virtual void
     step_accepted(const AcceptedStep<dim> &)
+    {}
+
+    /** In the step from time.time() to time.trial_time(). */
+    virtual void
+    newton_iteration([[maybe_unused]] const NewtonIteration &iteration,
+                     [[maybe_unused]] const TimeControl     &time)
     {}
 
     /** The step to @p t, for @p reason. */

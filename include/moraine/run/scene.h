@@ -5,7 +5,7 @@
 #define moraine_run_scene_h
 
 #include <moraine/boundary/enforcement.h>
-#include <moraine/geometry/rigid_motion.h>
+#include <moraine/geometry/placement.h>
 #include <moraine/geometry/surface_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
@@ -196,8 +196,14 @@ namespace moraine
     void
     declare();
 
+    /** Name files as seen from here, not from the folder of the scene. */
     void
-    check(const InputFile &input) const;
+    locate_files(const InputFile &input);
+
+    /** @p given: what InputFile::parse() returned. */
+    void
+    check(const InputFile                     &input,
+          const std::vector<InputFile::Entry> &given) const;
 
     void
     check_bodies(const InputFile &input) const;

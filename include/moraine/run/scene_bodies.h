@@ -4,6 +4,7 @@
 #ifndef moraine_run_scene_bodies_h
 #define moraine_run_scene_bodies_h
 
+#include <moraine/geometry/shape_library.h>
 #include <moraine/material/material.h>
 #include <moraine/points/bodies.h>
 #include <moraine/run/scene.h>
@@ -13,6 +14,14 @@
 
 namespace moraine
 {
+  /**
+   * The shapes of all bodies, operands too, by name; null for those whose
+   * points are given. @throws InputError for shapes that are wrong.
+   */
+  template <int dim>
+  NamedShapes<dim>
+  body_shapes(const Scene<dim> &scene);
+
   /**
    * The bodies of a scene in its order, but for those that others are made
    * from: a body that is an operand is a tool without material of its own.

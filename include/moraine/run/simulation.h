@@ -5,31 +5,43 @@
 #define moraine_run_simulation_h
 
 #include <moraine/core/console.h>
+#include <moraine/core/input_file.h>
 #include <moraine/output/summary.h>
-#include <moraine/run/scene.h>
 
 #include <string>
 
 namespace moraine
 {
+  /** What the console shows: the end; each step; each Newton iteration. */
+  enum class Verbosity
+  {
+    quiet,
+    normal,
+    verbose
+  };
+
   /** How `moraine run` was called. */
   struct RunOptions
   {
     std::string output_directory; ///< overrides the scene's
     bool        overwrite    = false;
     bool        write_output = true; ///< studies keep the summary only
+    Verbosity   verbosity    = Verbosity::normal;
   };
 
   /**
-   * Set up a scene, step to the end and write the results.
+   * Read a scene, set it up, step to the end and write the results. Whatever
+   * fails, nothing of an earlier run in the output directory is left once the
+   * directory may be written over: before anything is computed its files are
+   * removed, and a run that fails leaves a summary.json that says so.
+   *
    * @return the summary, also when the run ended early; its status says so.
-   * @throws InputError for mistakes that show only now: empty or overlapping
-   * bodies, bodies outside the mesh, boundaries that touch no body.
+   * @throws InputError for mistakes, also those that show only in the set-up:
+   * empty or overlapping bodies, boundaries that touch no body.
    */
   template <int dim>
   Summary
-  simulate(Scene<dim>       &scene,
-           const InputFile  &input,
+  simulate(const InputFile  &input,
            const RunOptions &options,
            const MPI_Comm   &communicator,
            Console          &console);
@@ -37,9 +49,9 @@ namespace moraine
   /** Set up a scene and say what would be simulated. */
   template <int dim>
   void
-  describe(const Scene<dim> &scene,
-           const MPI_Comm   &communicator,
-           Console          &console);
+  describe(const InputFile &input,
+           const MPI_Comm  &communicator,
+           Console         &console);
 } // namespace moraine
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef moraine_run_step_driver_h
 #define moraine_run_step_driver_h
 
+#include <moraine/assembly/fictitious_stiffness.h>
+#include <moraine/core/simulation_state.h>
 #include <moraine/run/run_observer.h>
 
 #include <string>
@@ -31,6 +33,13 @@ namespace moraine
      */
     bool
     run();
+
+    /** Go back to the last accepted step after run() threw. Collective. */
+    void
+    undo()
+    {
+      lasting.undo();
+    }
 
     const TimeControl &
     time() const
@@ -73,13 +82,28 @@ namespace moraine
     count(const NewtonReport &report);
 
     /**
-     * A matrix that cannot be factorised, because too few points touch some
-     * nodes: give empty parts of cells a stiffness from now on.
+     * Too few points may touch some nodes, for @p reason: give empty parts of
+     * cells a stiffness from now on, or more of it.
      * @return whether that is new.
      * @throw ComputationError if a body is not held.
      */
     bool
-    hold_empty_parts(const NewtonReport &report);
+    hold_empty_parts(const std::string &reason);
+
+    /** Whether empty parts have a stiffness that may still be raised. */
+    bool
+    may_support_more() const;
+
+    /**
+     * Say that a body came apart, and end the run unless the scene wants to go
+     * on. Collective.
+     */
+    void
+    check_separation();
+
+    /** A note for the observers. */
+    void
+    tell(const std::string &text) const;
 
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string
@@ -88,24 +112,35 @@ namespace moraine
     void
     accept(const NewtonReport &report, const LA::Vector &x, const bool jumped);
 
-    /** @throw ComputationError if no smaller step is left. */
+    /**
+     * After the @p n_rejections-th rejection in a row: shorten the next trial,
+     * or repeat the step with more stiffness of empty parts and begin to count
+     * anew.
+     * @throw ComputationError if no smaller step is left.
+     */
     void
-    reject(const NewtonReport &report, const std::string &reason);
+    reject(const NewtonReport &report,
+           const std::string  &reason,
+           unsigned int       &n_rejections);
 
-    /** @throw ComputationError naming the point that the step pushes out. */
-    void
-    check_that_points_stay(const LA::Vector &x);
+    /** Name the point that the step pushes out of the mesh; empty if none. */
+    std::string
+    point_that_leaves(const LA::Vector &x);
 
     const NewtonParameters                newton_parameters;
-    const double                          empty_stiffness;
+    const MethodParameters<dim>          &method;
     Model<dim>                           &model;
     const std::vector<RunObserver<dim> *> observers;
     const MPI_Comm                        communicator;
     Newton                                newton;
     TimeControl                           time_control;
+    SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
-    bool                                  first_step = true;
+    std::vector<unsigned int>             n_parts; ///< of each body
+    /** Of empty parts of cells, since they were too little without. */
+    FictitiousStiffness<dim> *support    = nullptr;
+    bool                      first_step = true;
   };
 } // namespace moraine
 

@@ -25,6 +25,7 @@ namespace moraine
     std::string error;
     std::string reference_value;
     std::string group_by;
+    std::string panels;
     std::string title;
 
     void
@@ -44,11 +45,13 @@ namespace moraine
   /**
    * Runs the cases of a study one after the other in this process and keeps,
    * in the output folder, study.csv (rewritten after each case), and at the end
-   * study.gp and study.png, error against wall time.
+   * study.gp and study.png, error against unknowns and against wall time.
    *
    * A case that fails is a row whose status says so. Peak memory is that of
-   * the case where the system lets us reset it, and else of all so far. A short
-   * first case is run twice, because the first run of a process takes longer.
+   * the case where the system lets us reset it, and else of all so far. A case
+   * below 0.1 s is run five times, and the run with the median time counts. A
+   * first case below 10 s is run once more before, because the first run of a
+   * process takes longer.
    */
   class Study
   {
@@ -69,8 +72,16 @@ namespace moraine
     run();
 
   private:
-    void
+    StudyResult
     run_case(const StudyCase &study_case);
+
+    /** The run with the median time of as many as its time asks for. */
+    StudyResult
+    measured_case(const StudyCase &study_case);
+
+    /** Wall time of the slowest rank. Collective. */
+    double
+    longest_time(const StudyResult &result) const;
 
     std::optional<double>
     error_of(const Summary &summary) const;

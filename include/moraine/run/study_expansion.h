@@ -50,6 +50,13 @@ namespace moraine
   /** The paths of all choices, in the order in which the cases bring them. */
   std::vector<std::string>
   choice_paths(const std::vector<StudyCase> &cases);
+
+  /**
+   * The choice along which errors should fall: the last one in section 'Mesh',
+   * or else the last; empty if there is none.
+   */
+  std::string
+  refined_choice(const std::vector<StudyCase> &cases);
 } // namespace moraine
 
 #endif

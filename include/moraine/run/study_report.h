@@ -35,8 +35,10 @@ namespace moraine
   {
     std::string                     folder;
     std::string                     title;
-    std::string                     error;    ///< its name; empty: the first
-    std::string                     group_by; ///< see StudyParameters
+    std::string                     error;     ///< its name; empty: the first
+    std::string                     reference; ///< see StudyParameters
+    std::string                     group_by;
+    std::string                     panels;
     const std::vector<StudyCase>   &cases;
     const std::vector<StudyResult> &results;
 
@@ -47,13 +49,35 @@ namespace moraine
     void
     print_table(Console &console) const;
 
-    /** Error over wall time. On one rank only. */
+    /**
+     * Error over unknowns and over wall time, side by side. On one rank only.
+     */
     void
     plot(Console &console) const;
 
-    /** Curves of the plot: name, and rows sorted by time. */
-    std::vector<std::pair<std::string, std::vector<const StudyResult *>>>
+    /** Results that differ in one choice only, the coarsest first. */
+    struct Curve
+    {
+      std::string                      name;
+      std::vector<const StudyResult *> results;
+    };
+
+    std::vector<Curve>
     curves() const;
+
+    /** Most curves in a panel: each has a colour and a symbol of its own. */
+    static constexpr unsigned int most_curves = 8;
+
+    /** Numbers of the curves in each panel. */
+    std::vector<std::vector<unsigned int>>
+    panels_of(const std::vector<Curve> &all) const;
+
+  private:
+    std::string
+    error_label() const;
+
+    void
+    write_script(const std::vector<Curve> &all) const;
   };
 } // namespace moraine
 

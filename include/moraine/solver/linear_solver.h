@@ -86,12 +86,16 @@ namespace moraine
     /**
      * Solve with what set_up() built. The start value of @p x is not used; if
      * the report says not converged, @p x is zero. Iterative solvers may stop
-     * at a residual norm of @p enough. Where auto has to solve directly what
-     * was meant for an iterative solver, the report says so; it does the same
-     * for the next ten set-ups.
+     * at a residual norm of @p enough, and measure it with the residual's
+     * entries times @p weights (positive) unless that is null. Where auto
+     * solves directly what it began with an iterative solver, the report says
+     * so. It goes on directly while that is cheaper, see doc/theory/solvers.md.
      */
     LinearReport
-    solve(LA::Vector &x, const LA::Vector &b, const double enough = 0.);
+    solve(LA::Vector       &x,
+          const LA::Vector &b,
+          const double      enough  = 0.,
+          const LA::Vector *weights = nullptr);
 
     /**
      * An estimate of the condition number of the matrix given to set_up(), in
@@ -112,6 +116,12 @@ namespace moraine
     /** Forget what set_up() built, and the matrix. */
     void
     clear();
+
+    /**
+     * What solved first, and each change that auto made, with its reason.
+     */
+    const std::vector<std::string> &
+    choices() const;
 
     /**
      * How many times set_up() was called.

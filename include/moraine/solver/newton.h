@@ -7,6 +7,7 @@
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/nonlinear_system.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,21 +19,18 @@ namespace moraine
    */
   struct NewtonParameters
   {
-    /**
-     * Norm of the residual over NonlinearSystem::force_scale(). A residual
-     * within round-off of the forces at the start of the step is always good
-     * enough: a rigid motion ends without any force to compare with.
-     */
+    /** Norm of the residual over NonlinearSystem::force_scales(); what is small
+     * besides that says ResidualMeasure. */
     double tolerance = 1e-9;
 
     /** A residual norm (force) below this is zero whatever the scale. */
-    double absolute_tolerance = 1e-14;
+    double absolute_tolerance = 0.;
 
     unsigned int maximum_iterations = 25;
 
     bool line_search = true;
 
-    /** stop, or jump to another equilibrium. */
+    /** stop, or pseudo-transient: go on at another equilibrium. */
     std::string limit_points = "stop";
 
     /** Updates of carried multipliers in one step. */
@@ -83,7 +81,8 @@ namespace moraine
 
     /**
      * Slope of log(residual) over the last three residuals above round-off
-     * before the first augmentation; zero if there are fewer than three.
+     * before the first augmentation. Zero where that says nothing: unless all
+     * three, and one before them, come after the first two digits are won.
      */
     double observed_order = 0.;
 
@@ -98,6 +97,17 @@ namespace moraine
     {
       return status == NewtonStatus::converged;
     }
+  };
+
+
+
+  /** One correction, for who watches Newton's method. */
+  struct NewtonIteration
+  {
+    unsigned int number;            ///< from 1 on in each step
+    double       residual;          ///< after it, over the forces
+    unsigned int linear_iterations; ///< of this correction alone
+    double       length;            ///< 1 unless the line search cut it
   };
 
 
@@ -127,8 +137,15 @@ namespace moraine
     NewtonReport
     jump(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
 
+    using Watcher = std::function<void(const NewtonIteration &)>;
+
+    /** Call @p watcher after each correction of solve(). */
+    void
+    watch(const Watcher &watcher);
+
   private:
     const NewtonParameters parameters;
+    Watcher                watcher;
   };
 } // namespace moraine
 

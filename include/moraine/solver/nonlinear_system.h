@@ -76,11 +76,31 @@ namespace moraine
     residual() const = 0;
 
     /**
-     * The norm of the forces that should balance, as of the last assemble();
-     * the residual is measured against it.
+     * The norm of the forces that should balance, as of the last assemble(),
+     * for each part of the system (a body, say); the residual of each part is
+     * measured against it.
+     */
+    virtual std::vector<double>
+    force_scales() const = 0;
+
+    /** The part of each owned unknown, in order; empty if there is one part. */
+    virtual const std::vector<unsigned int> &
+    part_of_unknown() const
+    {
+      static const std::vector<unsigned int> one_part;
+      return one_part;
+    }
+
+    /**
+     * A motion (length) that is lost in rounding when it is divided by 1e16,
+     * however small the increments are: strains are sums of 1 and their
+     * gradients, say. Zero if they are not.
      */
     virtual double
-    force_scale() const = 0;
+    displacement_scale() const
+    {
+      return 0.;
+    }
 
     /**
      * Whether the tangent is symmetric.

@@ -56,6 +56,19 @@ namespace moraine
     bool
     begin_step();
 
+    /** From when to when the step goes, for materials that depend on it. */
+    void
+    set_step_time(const StepTime &time)
+    {
+      times = time;
+    }
+
+    const StepTime &
+    step_time() const
+    {
+      return times;
+    }
+
     /** Set the trial increment. Collective. */
     void
     set_trial(const LA::Vector &increment);
@@ -138,7 +151,7 @@ namespace moraine
     const StateFields<dim> &
     fields() const
     {
-      return offsets;
+      return state_fields;
     }
 
     /** @f$J_n = \det F_n@f$ of a point; 1 at small strain. */
@@ -149,8 +162,9 @@ namespace moraine
     double
     initial_volume(const unsigned int p) const
     {
-      return measure == StrainMeasure::finite ? points.values(p)[offsets.v_0] :
-                                                points.volume(p);
+      return measure == StrainMeasure::finite ?
+               state_fields.v_0(points.values(p)) :
+               points.volume(p);
     }
 
     /** Whether the tangent is that of the elastic stiffness everywhere. */
@@ -171,7 +185,8 @@ namespace moraine
     const std::vector<std::shared_ptr<const Material>> materials;
     const MeshAfterStep                                after_step;
     const StrainMeasure                                measure;
-    const StateFields<dim>                             offsets;
+    const StateFields<dim>                             state_fields;
+    StepTime                                           times;
     bool                                               first_step = true;
     std::vector<dealii::Tensor<1, dim>>                trial;
   };

@@ -5,9 +5,11 @@
 #define moraine_state_trial_points_h
 
 #include <moraine/basis/stencil.h>
+#include <moraine/core/step_time.h>
 #include <moraine/material/spectral.h>
 #include <moraine/points/point_fields.h>
 
+#include <memory>
 #include <vector>
 
 namespace moraine
@@ -16,52 +18,31 @@ namespace moraine
   class State;
 
   /**
-   * What points carry of their state beside volume, displacement and stress
-   * (offsets into their values). A field that the strain measure and the
-   * materials do not need does not exist.
+   * What points carry of their state beside volume, displacement and stress. A
+   * field that the strain measure and the materials do not need does not exist.
    *
    * | field                     | components | exists                        |
    * |---------------------------|------------|-------------------------------|
    * | deformation_gradient      | dim * dim  | at finite strain: @f$F@f$     |
    * | elastic_left_cauchy_green | 4 or 6     | at finite strain: @f$b^e@f$   |
    * | initial_volume            | 1          | at finite strain: @f$v_0@f$   |
-   * | plastic_strain            | 1          | with plastic materials        |
+   * | internal variables        | 1 each     | of the materials, by name     |
    */
   template <int dim>
   struct StateFields
   {
     /** Ask for the fields, or find them where they were asked for. */
-    StateFields(PointFields        &fields,
-                const StrainMeasure measure,
-                const bool          plastic);
+    StateFields(
+      PointFields                                        &fields,
+      const StrainMeasure                                 measure,
+      const std::vector<std::shared_ptr<const Material>> &materials = {});
 
-    static constexpr unsigned int none = -1;
-
-    unsigned int F     = none;
-    unsigned int b     = none;
-    unsigned int v_0   = none;
-    unsigned int kappa = none;
+    PointField<dim, dealii::Tensor<2, dim>>        F;
+    PointField<dim, dealii::SymmetricTensor<2, 3>> b;
+    PointField<dim, double>                        v_0;
+    /** Of the material of each body; materials share what has one name. */
+    std::vector<std::vector<PointField<dim, double>>> internal;
   };
-
-  /** The symmetric tensor stored at a point: xx, yy, zz, xy[, xz, yz]. */
-  template <int dim>
-  inline dealii::SymmetricTensor<2, 3>
-  load_symmetric(const double *components)
-  {
-    dealii::SymmetricTensor<2, 3> tensor;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      tensor.access_raw_entry(c) = components[c];
-    return tensor;
-  }
-
-  template <int dim>
-  inline void
-  store_symmetric(const dealii::SymmetricTensor<2, 3> &tensor,
-                  double                              *components)
-  {
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      components[c] = tensor.access_raw_entry(c);
-  }
 
   /**
    * The trial state of points of one body that share their nodes: a function of
@@ -126,20 +107,23 @@ namespace moraine
     VoigtMatrix<dim>
     tangent(const unsigned int i) const
     {
-      return spatial_tangent<dim>(points[i].principal,
-                                  points[i].trial_strain,
-                                  answers[i],
-                                  measure);
+      return isotropic ? spatial_tangent<dim>(points[i].principal,
+                                              points[i].trial_strain,
+                                              answers[i],
+                                              measure) :
+                         voigt_matrix<dim>(tensor_answers[i].tangent);
     }
 
-    /** Elastic strain (logarithmic at finite strain) after the step. */
+    /** @f$b^e@f$ after a step of finite strain; of a material that is not
+     * isotropic b. */
     dealii::SymmetricTensor<2, 3>
     elastic_left_cauchy_green(const unsigned int i) const;
 
-    double
-    plastic_strain(const unsigned int i) const
+    /** Internal variables after the step, in the order of the material. */
+    const double *
+    internal_variables(const unsigned int i) const
     {
-      return answers[i].plastic_strain;
+      return internal.data() + i * n_internal;
     }
 
     /** The first of the points without a stress; n_points() if there is none.
@@ -189,19 +173,42 @@ namespace moraine
                const StencilBlock<dim> &block,
                const unsigned int       begin);
 
-    void
-    answer(const State<dim>        &state,
+    /** Volume, gradients and determinant at the end of a step of finite strain.
+     * @return @f$\Delta F@f$ of the i-th point. */
+    dealii::Tensor<2, dim>
+    deform(const State<dim>        &state,
            const StencilBlock<dim> &block,
-           const unsigned int       begin);
+           const unsigned int       begin,
+           const unsigned int       i);
+
+    /** Copy the committed internal variables. */
+    void
+    load_internal(const State<dim>        &state,
+                  const StencilBlock<dim> &block,
+                  const unsigned int       begin);
+
+    void
+    answer(const State<dim> &state, const Material &material);
+
+    /** Ask a material that is not isotropic. */
+    void
+    answer_in_tensors(const State<dim>        &state,
+                      const StencilBlock<dim> &block,
+                      const unsigned int       begin,
+                      const Material          &material);
 
     StrainMeasure                       measure         = StrainMeasure::small;
+    bool                                isotropic       = true;
     unsigned int                        n_nodes         = 0;
+    unsigned int                        n_internal      = 0;
     unsigned int                        fault           = 0;
     const dealii::Tensor<1, dim>       *block_gradients = nullptr;
     const dealii::Tensor<1, dim>       *moved_gradients = nullptr;
     std::vector<dealii::Tensor<1, dim>> moved;
     std::vector<TrialPoint>             points;
     std::vector<PrincipalState>         answers;
+    std::vector<TensorState>            tensor_answers;
+    std::vector<double>                 internal;
   };
 } // namespace moraine
 

@@ -4,6 +4,8 @@
 #ifndef moraine_time_time_control_h
 #define moraine_time_time_control_h
 
+#include <moraine/core/simulation_state.h>
+
 #include <string>
 #include <vector>
 
@@ -71,7 +73,7 @@ namespace moraine
    *           throw ComputationError(time.message());
    *       }
    */
-  class TimeControl
+  class TimeControl : public StatePart
   {
   public:
     /**
@@ -89,6 +91,18 @@ namespace moraine
     void
     accept(const unsigned int iterations);
 
+    /** Data sets "time/...": where the run is, and the size of its steps. */
+    void
+    write(Archive &archive) const override;
+
+    /** The parameters must be those of the time of writing. */
+    void
+    read(const Archive &archive) override;
+
+    /** Forget the trial time, and cuts since the last accepted step. */
+    void
+    undo() override;
+
     /** Whether the trial step may be cut if it fails. */
     bool
     can_cut() const;
@@ -99,6 +113,13 @@ namespace moraine
      */
     bool
     reject(const std::string &reason);
+
+    /**
+     * After reject(): the next trial has the size of the first one since the
+     * last accepted step, because something else than its size was mended.
+     */
+    void
+    take_back_cuts();
 
     bool
     finished() const;
@@ -141,11 +162,13 @@ namespace moraine
     double               current;
     double               trial;
     double               size;
+    double               accepted_size; ///< after the last accepted step
     bool                 trial_is_stop   = false;
     bool                 on_step_end     = false;
     unsigned int         completed_steps = 0;
     unsigned int         accepted        = 0;
     unsigned int         rejected        = 0;
+    unsigned int         rejected_before = 0; ///< the last accepted step
     std::string          text;
   };
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_boundary_force_h
+#define moraine_assembly_boundary_force_h
+
+#include <moraine/assembly/local_system.h>
+#include <moraine/boundary/implicit_boundary.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The traction on the body at a point of an implicit boundary, t plus what
+   * the trial state adds; @p grad_du is the gradient of its increment there.
+   * See Enforcement for the weak form.
+   *
+   * At finite strain the strain of the flux is that of the gradient with
+   * respect to the middle of the step, @f$A (1 + A/2)^{-1}@f$ for
+   * @f$A = W \nabla \Delta u@f$: a rotation has none, and a stretch differs
+   * from its logarithm in the third order only (Hughes and Winget 1980). It
+   * sees the elastic stiffness; what that leaves out goes into the multiplier
+   * by the penalty. The flux of the test function stays that of the start, so
+   * that the derivative is exact.
+   */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  boundary_traction(const BoundaryPoint<dim>     &point,
+                    const ConstraintState<dim>   &constraint,
+                    const Enforcement            &enforcement,
+                    const LameConstants          &stiffness,
+                    const StrainMeasure           measure,
+                    const dealii::Tensor<2, dim> &grad_du);
+
+  /** Adds the force of such a point and, if asked, its derivative. @p fluxes
+   * is scratch. */
+  template <int dim>
+  void
+  add_boundary_point(const BoundaryPoint<dim>            &point,
+                     const ConstraintState<dim>          &constraint,
+                     const Enforcement                   &enforcement,
+                     const LameConstants                 &stiffness,
+                     const StrainMeasure                  measure,
+                     const double                        *N,
+                     const dealii::Tensor<1, dim>        *grad_N,
+                     const dealii::Tensor<2, dim>        &grad_du,
+                     const bool                           tangent,
+                     std::vector<dealii::Tensor<1, dim>> &fluxes,
+                     LocalSystem<dim>                    &local);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_boundary_report_h
+#define moraine_assembly_boundary_report_h
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+
+namespace moraine
+{
+  /** Reaction force and worst violation of a boundary in an accepted step. */
+  template <int dim>
+  struct BoundaryReport
+  {
+    std::string            name;
+    dealii::Tensor<1, dim> reaction;    ///< force on the body
+    double                 violation;   ///< largest |M(u - g)| of the step
+    double                 penetration; ///< largest depth of a point behind it
+    /** Moment on the body about the axis its motion turns about, else about the
+     * origin; in 3D the component along the axis. */
+    double moment;
+    /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
+     */
+    double force_magnitude;
+  };
+
+  /** Add up what the ranks know of the forces of a boundary. */
+  template <int dim>
+  void
+  sum_over_ranks(BoundaryReport<dim> &report, const MPI_Comm &communicator)
+  {
+    namespace MPI          = dealii::Utilities::MPI;
+    report.reaction        = MPI::sum(report.reaction, communicator);
+    report.moment          = MPI::sum(report.moment, communicator);
+    report.force_magnitude = MPI::sum(report.force_magnitude, communicator);
+  }
+} // namespace moraine
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_boundary_term_h
+#define moraine_assembly_boundary_term_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/implicit_boundary.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /** What an implicit boundary adds to the weak form; see Enforcement. */
+  template <int dim>
+  class BoundaryTerm : public Term<dim>
+  {
+  public:
+    explicit BoundaryTerm(ImplicitBoundary<dim> &boundary);
+
+    std::vector<Effect>
+    effects(const StepContext<dim> &context) const override;
+
+    std::string
+    timer() const override
+    {
+      return "boundary pieces";
+    }
+
+    bool
+    begin_step(const StepContext<dim> &context) override;
+
+    void
+    check_values(const StepContext<dim> &context) override;
+
+    void
+    begin_trial(const StepContext<dim> &context) override;
+
+    void
+    add(const StepContext<dim> &context,
+        const bool              tangent,
+        GlobalSystem<dim>      &system) const override;
+
+    bool
+    symmetric(const StepContext<dim> &context) const override;
+
+    double
+    violation(const StepContext<dim> &context) const override;
+
+    void
+    augment(const StepContext<dim> &context) override;
+
+    bool
+    watches_points() const override
+    {
+      return boundary.penetration_limit() > 0;
+    }
+
+    std::string
+    failure(const StepContext<dim>                    &context,
+            const std::vector<dealii::Tensor<1, dim>> &moves) const override;
+
+    void
+    prepare(const StepContext<dim> &context,
+            const LA::Vector       &unbalanced) override;
+
+    void
+    keep() noexcept override;
+
+    void
+    report(const StepContext<dim>           &context,
+           std::vector<BoundaryReport<dim>> &reports) const override;
+
+  private:
+    /** Tension and violation of each point in the trial state. */
+    void
+    evaluate(const StepContext<dim>              &context,
+             std::vector<dealii::Tensor<1, dim>> &tractions,
+             std::vector<dealii::Tensor<1, dim>> &violations) const;
+
+    /**
+     * The largest depth of a point of this rank behind the boundary; with
+     * @p moves of the points added to their positions unless it is empty.
+     */
+    double
+    deepest_point(const StepContext<dim>                    &context,
+                  const std::vector<dealii::Tensor<1, dim>> &moves) const;
+
+    ImplicitBoundary<dim> &boundary;
+    BoundaryReport<dim>    prepared;
+  };
+} // namespace moraine
+
+#endif

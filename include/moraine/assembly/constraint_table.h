@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_constraint_table_h
+#define moraine_assembly_constraint_table_h
+
+#include <moraine/core/linear_algebra.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+
+namespace moraine
+{
+  /**
+   * The strong conditions on the unknowns of a step: lines
+   * @f$\Delta u_i = \sum_j w_{ij} \Delta u_j + g_i@f$ for matrix and force
+   * alike. With @f$\Delta u = W \Delta v + g@f$ the equations are
+   * @f$W^T r = 0@f$ and the tangent is @f$W^T K W@f$. Ranks hold the lines of
+   * all unknowns they know.
+   */
+  class ConstraintTable
+  {
+  public:
+    using AddLines = std::function<void(dealii::AffineConstraints<double> &)>;
+
+    /** Take new lines among the unknowns @p relevant. Collective. */
+    void
+    reinit(const dealii::IndexSet &relevant,
+           const MPI_Comm         &communicator,
+           const AddLines         &add_lines);
+
+    /** The same lines with new @f$g@f$. */
+    void
+    set_values(const AddLines &add_lines);
+
+    /** Whether any rank has a line. */
+    bool
+    any_lines() const
+    {
+      return has_lines;
+    }
+
+    /** The lines without @f$g@f$: those of corrections and of the matrix. */
+    const dealii::AffineConstraints<double> &
+    homogeneous() const
+    {
+      return lines;
+    }
+
+    /** Whether an unknown is prescribed, not tied to others. */
+    bool
+    prescribes(const dealii::types::global_dof_index dof) const;
+
+    /** Fill the constrained entries from the free ones. Collective. */
+    void
+    distribute(LA::Vector &x) const
+    {
+      lines_with_values.distribute(x);
+    }
+
+    /** The same for a correction, without @f$g@f$. Collective. */
+    void
+    distribute_correction(LA::Vector &dx) const
+    {
+      lines.distribute(dx);
+    }
+
+    /** @f$r \leftarrow W^T r@f$ on owned entries. Collective. */
+    void
+    condense(LA::Vector &force) const;
+
+  private:
+    dealii::AffineConstraints<double> lines;
+    dealii::AffineConstraints<double> lines_with_values;
+    bool                              has_lines = false;
+    bool                              has_ties  = false;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_global_system_h
+#define moraine_assembly_global_system_h
+
+#include <moraine/assembly/local_system.h>
+#include <moraine/core/linear_algebra.h>
+#include <moraine/core/local_rows.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <memory>
+#include <numeric>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Where the terms put their forces and minus their derivatives: the matrix
+   * with the constraints condensed, and the forces of all nodes as they are.
+   *
+   * Matrices of nodes that this rank owns and no constraint touches are summed
+   * where the rows lie in memory: the columns of a node follow each other, so
+   * one search finds a pair of nodes. Others take deal.II's way.
+   */
+  template <int dim>
+  class GlobalSystem
+  {
+  public:
+    /** Let the matrix go. */
+    void
+    clear()
+    {
+      sum_of_matrices.reset();
+    }
+
+    /** Make a matrix with a new pattern. Forces are measured for each of
+     * @p n_bodies, to which nodes belong by @p body_of_node. */
+    void
+    reinit(const GridSpace<dim>                    &space,
+           const dealii::AffineConstraints<double> &constraints,
+           const LA::SparsityPattern               &pattern,
+           const std::vector<unsigned int>         &body_of_node,
+           const unsigned int                       n_bodies);
+
+    /**
+     * Begin anew, with the matrix if @p tangent. The matrix times the values
+     * @p predicted of nodes is taken off the forces, unless there are none.
+     */
+    void
+    begin(const bool                                 tangent,
+          const std::vector<dealii::Tensor<1, dim>> &predicted = {});
+
+    /** Add to the forces and, if asked, to the matrix. */
+    void
+    add(const LocalSystem<dim> &local, const bool tangent);
+
+    /** Sum over ranks: close the matrix, if it was asked for, and put the
+     * forces into @p forces. Collective. */
+    void
+    end(LA::Vector &forces);
+
+    /** @f$\sum f^2@f$ of what this rank added to the nodes of each body: the
+     * size of forces that may cancel. */
+    const std::vector<double> &
+    squares_of_bodies() const
+    {
+      return squares;
+    }
+
+    /** Of all bodies. */
+    double
+    sum_of_squares() const
+    {
+      return std::accumulate(squares.begin(), squares.end(), 0.);
+    }
+
+    const std::shared_ptr<LA::SparseMatrix> &
+    matrix() const
+    {
+      return sum_of_matrices;
+    }
+
+  private:
+    /** Where an unconstrained node of this rank is in the matrix; the first
+     * of dim rows and columns that follow each other, or none. */
+    struct NodeInMatrix
+    {
+      int row    = LA::LocalRows::none;
+      int column = LA::LocalRows::none;
+    };
+
+    NodeInMatrix
+    find_node(const unsigned int node) const;
+
+    /** Add to rows in memory. @return whether all nodes are there. */
+    bool
+    add_to_rows(const LocalSystem<dim> &local);
+
+    const GridSpace<dim>                    *space       = nullptr;
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    std::shared_ptr<LA::SparseMatrix>        sum_of_matrices;
+    LA::LocalRows                            rows;
+    std::vector<NodeInMatrix>                nodes_in_matrix;
+    std::vector<unsigned int>                by_column; ///< scratch
+    std::vector<dealii::Tensor<1, dim>>      node_forces;
+    std::vector<dealii::Tensor<1, dim>>      predicted;
+    const std::vector<unsigned int>         *body_of_node = nullptr;
+    std::vector<double>                      squares;
+    bool                                     with_tangent = false;
+  };
+} // namespace moraine
+
+#endif

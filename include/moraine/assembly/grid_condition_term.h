@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_grid_condition_term_h
+#define moraine_assembly_grid_condition_term_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/grid_condition.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /** Displacements prescribed at nodes: lines of the constraint table. */
+  template <int dim>
+  class GridConditionTerm : public Term<dim>
+  {
+  public:
+    explicit GridConditionTerm(
+      const std::vector<GridCondition<dim>> &conditions);
+
+    std::vector<Effect>
+    effects(const StepContext<dim> &context) const override;
+
+    bool
+    begin_step(const StepContext<dim> &context) override;
+
+    void
+    constrain(const StepContext<dim>            &context,
+              dealii::AffineConstraints<double> &constraints) const override;
+
+    void
+    check_values(const StepContext<dim> &context) override;
+
+    bool
+    wants_unbalanced_forces() const override
+    {
+      return true;
+    }
+
+    void
+    prepare(const StepContext<dim> &context,
+            const LA::Vector       &unbalanced) override;
+
+    void
+    report(const StepContext<dim>           &context,
+           std::vector<BoundaryReport<dim>> &reports) const override;
+
+  private:
+    const std::vector<GridCondition<dim>> &conditions;
+    PrescribedNodes<dim>                   prescribed;
+    std::vector<BoundaryReport<dim>>       prepared;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_local_system_h
+#define moraine_assembly_local_system_h
+
+#include <moraine/state/state.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Matrix and force of the unknowns of one batch of points or one cell, in
+   * node major order, with the scratch arrays the terms share.
+   */
+  template <int dim>
+  struct LocalSystem
+  {
+    dealii::FullMatrix<double>                   matrix;
+    dealii::Vector<double>                       force;
+    std::vector<dealii::types::global_dof_index> dofs;
+    const unsigned int                          *nodes = nullptr;
+    std::vector<dealii::Tensor<1, dim>>          nodal_increments;
+    /** Moments of gradients. */
+    std::vector<double> moments;
+    TrialPoints<dim>    trial_points;
+    /** Why a point has no stress, if one has none since it was made. */
+    std::string failure;
+
+    /** Take the unknowns and increments of @p n_nodes nodes and zero the rest.
+     */
+    void
+    reinit(const State<dim>   &state,
+           const unsigned int *nodes,
+           const unsigned int  n_nodes,
+           const bool          tangent);
+  };
+} // namespace moraine
+
+#endif

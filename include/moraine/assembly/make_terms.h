@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_make_terms_h
+#define moraine_assembly_make_terms_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/grid_condition.h>
+#include <moraine/boundary/implicit_boundary.h>
+#include <moraine/load/load.h>
+
+#include <memory>
+#include <vector>
+
+namespace moraine
+{
+  template <int dim>
+  using Terms = std::vector<std::unique_ptr<Term<dim>>>;
+
+  /**
+   * The terms of a solid body with what holds and loads it, all of which must
+   * live longer than the terms. @p fictitious_stiffness is the fraction of
+   * FictitiousStiffness, or 0 for none.
+   */
+  template <int dim>
+  Terms<dim>
+  make_terms(std::vector<ImplicitBoundary<dim>>    &boundaries,
+             const std::vector<GridCondition<dim>> &conditions,
+             Loads<dim>                            &loads,
+             const double                           fictitious_stiffness = 0.);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_step_context_h
+#define moraine_assembly_step_context_h
+
+#include <moraine/assembly/cell_materials.h>
+#include <moraine/state/state.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What terms are told of a step: from when to when, the state at its start
+   * and the trial motion of the nodes. Quasi-static steps know nothing of the
+   * motion but its increments @f$\Delta u@f$; a time integrator adds
+   * velocities, accelerations and their derivatives by @f$\Delta u@f$ here, for
+   * the terms that ask.
+   */
+  template <int dim>
+  struct StepContext
+  {
+    /** Committed values of points, unknowns, and the trial increments. */
+    const State<dim>  &state;
+    CellMaterials<dim> cell_materials;
+    double             t_start = 0; ///< @f$t_n@f$
+    double             t_end   = 0; ///< @f$t_{n+1}@f$
+    /** Points close to the edge of the active cells stand for material that
+     * reaches over it by this much: the size of the largest one. */
+    double search_tolerance = 0;
+    /** Whether unknowns or their couplings are new in this step. */
+    bool couplings_changed = true;
+    /** Whether cells are not where they were, or others are active. */
+    bool cells_moved = true;
+    /** Whether the mesh that points move through moves between steps. */
+    bool mesh_moves = false;
+
+    explicit StepContext(const State<dim> &state)
+      : state(state)
+    {}
+
+    /** @f$\Delta t@f$ */
+    double
+    step_size() const
+    {
+      return t_end - t_start;
+    }
+
+    /** Trial increments @f$\Delta u_a@f$ of the nodes. */
+    const std::vector<dealii::Tensor<1, dim>> &
+    increments() const
+    {
+      return state.nodal_increments();
+    }
+  };
+} // namespace moraine
+
+#endif

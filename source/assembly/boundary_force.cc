@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/boundary_force.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * @f$M\,(C : \mathrm{sym}(w \otimes g))\,n@f$: the flux of a displacement
+     * gradient of rank one.
+     */
+    template <int dim>
+    Tensor<1, dim>
+    flux(const Tensor<1, dim>          &w,
+         const Tensor<1, dim>          &g,
+         const Tensor<1, dim>          &n,
+         const SymmetricTensor<2, dim> &M,
+         const LameConstants           &C)
+    {
+      return M * (C.lambda * (w * g) * n + C.mu * ((g * n) * w + (w * n) * g));
+    }
+
+
+
+    /** @f$W = w_c M + w_f (1 - M)@f$ */
+    template <int dim>
+    SymmetricTensor<2, dim>
+    weights(const Enforcement &how, const SymmetricTensor<2, dim> &M)
+    {
+      return how.w_constrained * M +
+             how.w_free * (unit_symmetric_tensor<dim>() - M);
+    }
+
+
+
+    /**
+     * @f$B = (1 + A/2)^{-1}@f$ at finite strain, else 1: the gradient of a step
+     * with respect to its middle is @f$A B@f$, and a change of A changes it by
+     * @f$B\, dA\, B@f$.
+     */
+    template <int dim>
+    Tensor<2, dim>
+    to_middle(const Tensor<2, dim> &A, const StrainMeasure measure)
+    {
+      const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+      return measure == StrainMeasure::finite ? invert(one + 0.5 * A) : one;
+    }
+
+
+
+    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$. */
+    template <int dim>
+    SymmetricTensor<2, dim>
+    penalty(const Enforcement             &how,
+            const double                   h,
+            const Tensor<1, dim>          &n,
+            const SymmetricTensor<2, dim> &M,
+            const LameConstants           &C)
+    {
+      const Tensor<1, dim> Mn = M * n;
+      return how.stiffness_factor / h *
+             ((C.lambda + C.mu) * symmetrize(outer_product(Mn, Mn)) + C.mu * M);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  boundary_traction(const BoundaryPoint<dim>   &point,
+                    const ConstraintState<dim> &constraint,
+                    const Enforcement          &how,
+                    const LameConstants        &C,
+                    const StrainMeasure         measure,
+                    const Tensor<2, dim>       &grad_du)
+  {
+    const Tensor<1, dim> &n = constraint.normal;
+    const auto           &M = constraint.M;
+    // A normal multiplier follows the normal of a curved wall.
+    Tensor<1, dim> traction = point.multiplier;
+    if (&n != &point.normal && n != point.normal)
+      traction = (point.multiplier * point.normal) * n;
+    const Tensor<2, dim>          A = Tensor<2, dim>(weights(how, M)) * grad_du;
+    const SymmetricTensor<2, dim> strain =
+      symmetrize(A * to_middle(A, measure));
+    traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
+    traction -= penalty(how, point.h, n, M, C) * constraint.violation;
+    return traction;
+  }
+
+
+
+  template <int dim>
+  void
+  add_boundary_point(const BoundaryPoint<dim>    &point,
+                     const ConstraintState<dim>  &constraint,
+                     const Enforcement           &how,
+                     const LameConstants         &C,
+                     const StrainMeasure          measure,
+                     const double                *N,
+                     const Tensor<1, dim>        *grad_N,
+                     const Tensor<2, dim>        &grad_du,
+                     const bool                   tangent,
+                     std::vector<Tensor<1, dim>> &fluxes,
+                     LocalSystem<dim>            &local)
+  {
+    const Tensor<1, dim> &n       = constraint.normal;
+    const auto           &M       = constraint.M;
+    const Tensor<2, dim>  W       = weights(how, M);
+    const unsigned int    n_nodes = local.dofs.size() / dim;
+    const Tensor<1, dim>  traction =
+      boundary_traction(point, constraint, how, C, measure, grad_du);
+    const Tensor<1, dim> violation =
+      point.accumulated_violation + constraint.violation;
+
+    // f[b*dim+j] = flux of the unit displacement j of node b
+    std::vector<Tensor<1, dim>> &f        = fluxes;
+    const auto                   evaluate = [&](const Tensor<2, dim> &B) {
+      const Tensor<2, dim> W_columns = transpose(B * W);
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int j = 0; j < dim; ++j)
+          f[dim * b + j] = flux(W_columns[j], grad_N[b] * B, n, M, C);
+    };
+    f.resize(dim * n_nodes);
+    evaluate(unit_symmetric_tensor<dim>());
+
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        local.force[dim * a + i] +=
+          point.JxW * (N[a] * traction[i] +
+                       how.adjoint_sign * (f[dim * a + i] * violation));
+    if (!tangent)
+      return;
+
+    // f lies in the range of M, so M e_j acts as e_j on it.
+    const SymmetricTensor<2, dim> beta = penalty(how, point.h, n, M, C);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            local.matrix(dim * a + i, dim * b + j) +=
+              point.JxW * (N[a] * N[b] * beta[i][j] -
+                           how.adjoint_sign * f[dim * a + i][j] * N[b]);
+    if (measure == StrainMeasure::finite)
+      evaluate(to_middle(W * grad_du, measure));
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            local.matrix(dim * a + i, dim * b + j) -=
+              point.JxW * N[a] * f[dim * b + j][i];
+  }
+
+
+
+#define INSTANTIATE(dim)                                                    \
+  template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,     \
+                                            const ConstraintState<dim> &,   \
+                                            const Enforcement &,            \
+                                            const LameConstants &,          \
+                                            const StrainMeasure,            \
+                                            const Tensor<2, dim> &);        \
+  template void           add_boundary_point(const BoundaryPoint<dim> &,    \
+                                             const ConstraintState<dim> &,  \
+                                             const Enforcement &,           \
+                                             const LameConstants &,         \
+                                             const StrainMeasure,           \
+                                             const double *,                \
+                                             const Tensor<1, dim> *,        \
+                                             const Tensor<2, dim> &,        \
+                                             const bool,                    \
+                                             std::vector<Tensor<1, dim>> &, \
+                                             LocalSystem<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/make_terms.h>
+
+#include <moraine/assembly/boundary_term.h>
+#include <moraine/assembly/fictitious_stiffness.h>
+#include <moraine/assembly/grid_condition_term.h>
+#include <moraine/assembly/internal_force.h>
+#include <moraine/assembly/load_terms.h>
+
+namespace moraine
+{
+  template <int dim>
+  Terms<dim>
+  make_terms(std::vector<ImplicitBoundary<dim>>    &boundaries,
+             const std::vector<GridCondition<dim>> &conditions,
+             Loads<dim>                            &loads,
+             const double                           fictitious_stiffness)
+  {
+    Terms<dim> terms;
+    terms.push_back(std::make_unique<InternalForce<dim>>());
+    if (fictitious_stiffness > 0)
+      terms.push_back(
+        std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
+    for (auto &boundary : boundaries)
+      terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
+    if (!conditions.empty())
+      terms.push_back(std::make_unique<GridConditionTerm<dim>>(conditions));
+    for (const auto &force : loads.body_forces)
+      terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));
+    for (const auto &traction : loads.side_tractions)
+      terms.push_back(std::make_unique<SideTractionTerm<dim>>(traction));
+    for (auto &load : loads.carried)
+      terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));
+    for (auto &force : loads.on_points)
+      terms.push_back(std::make_unique<ForceOnPointsTerm<dim>>(force));
+    return terms;
+  }
+
+
+
+  template Terms<2>
+  make_terms(std::vector<ImplicitBoundary<2>> &,
+             const std::vector<GridCondition<2>> &,
+             Loads<2> &,
+             const double);
+  template Terms<3>
+  make_terms(std::vector<ImplicitBoundary<3>> &,
+             const std::vector<GridCondition<3>> &,
+             Loads<3> &,
+             const double);
+} // namespace moraine

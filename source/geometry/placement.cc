@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/placement.h>
+
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <deal.II/physics/transformations.h>
+
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  BoundingBox<dim>
+  unlimited_box()
+  {
+    Point<dim> corner;
+    for (unsigned int d = 0; d < dim; ++d)
+      corner[d] = unlimited_extent;
+    return BoundingBox<dim>({-1. * corner, corner});
+  }
+
+  template <int dim>
+  bool
+  is_finite(const BoundingBox<dim> &box)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!(box.lower_bound(d) > -unlimited_extent &&
+            box.upper_bound(d) < unlimited_extent))
+        return false;
+    return true;
+  }
+
+  template <int dim>
+  Placement<dim>::Placement()
+    : matrix(unit_symmetric_tensor<dim>())
+  {}
+
+  template <int dim>
+  Placement<dim>::Placement(const double          degrees,
+                            const Point<dim>     &centre,
+                            const Tensor<1, dim> &axis,
+                            const Tensor<1, dim> &translation)
+    : centre(centre)
+    , translation(translation)
+  {
+    const double angle = degrees * numbers::PI / 180.;
+    if constexpr (dim == 2)
+      matrix = Physics::Transformations::Rotations::rotation_matrix_2d(angle);
+    else
+      matrix = Physics::Transformations::Rotations::rotation_matrix_3d(
+        Point<dim>(axis / axis.norm()), angle);
+    // no round-off where the exact entry is 0, 1 or -1
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        if (std::abs(matrix[i][j] - std::round(matrix[i][j])) < 4e-16)
+          matrix[i][j] = std::round(matrix[i][j]);
+  }
+
+  template <int dim>
+  Point<dim>
+  Placement<dim>::map(const Point<dim> &X) const
+  {
+    return centre + translation + matrix * (X - centre);
+  }
+
+  template <int dim>
+  Point<dim>
+  Placement<dim>::inverse(const Point<dim> &x) const
+  {
+    return centre + (x - centre - translation) * matrix;
+  }
+
+  template <int dim>
+  Placement<dim>
+  Placement<dim>::inverse() const
+  {
+    Placement<dim> result;
+    result.centre      = centre + translation;
+    result.translation = -translation;
+    result.matrix      = transpose(matrix);
+    return result;
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Placement<dim>::rotate(const Tensor<1, dim> &v) const
+  {
+    return matrix * v;
+  }
+
+  template <int dim>
+  const Tensor<2, dim> &
+  Placement<dim>::rotation() const
+  {
+    return matrix;
+  }
+
+  template <int dim>
+  BoundingBox<dim>
+  Placement<dim>::map(const BoundingBox<dim> &box) const
+  {
+    if (!is_finite(box))
+      return unlimited_box<dim>();
+    std::vector<Point<dim>> corners;
+    for (unsigned int v = 0; v < (1 << dim); ++v)
+      corners.push_back(map(box.vertex(v)));
+    return BoundingBox<dim>(corners);
+  }
+
+  template <int dim>
+  RigidMotion<dim>::RigidMotion(const std::array<Curve, dim> &translation,
+                                const Curve                  &angle,
+                                const Point<dim>             &centre,
+                                const Tensor<1, dim>         &axis)
+    : translation(translation)
+    , angle(angle)
+    , centre(centre)
+    , axis(axis)
+  {
+    if (dim == 3 && angle)
+      {
+        if (!(axis.norm() > 0.))
+          throw InputError("the axis of a rotation must not be zero");
+        this->axis /= axis.norm();
+      }
+  }
+
+  namespace
+  {
+    double
+    evaluate(const std::function<double(const double)> &curve,
+             const double                               t,
+             const std::string                         &what)
+    {
+      if (!curve)
+        return 0.;
+      const double value = curve(t);
+      if (!std::isfinite(value))
+        throw InputError("the prescribed " + what +
+                         " is not a number at t = " + std::to_string(t));
+      return value;
+    }
+  } // namespace
+
+  template <int dim>
+  Placement<dim>
+  RigidMotion<dim>::pose(const double t) const
+  {
+    if (!moves())
+      return Placement<dim>();
+    Tensor<1, dim> shift;
+    for (unsigned int d = 0; d < dim; ++d)
+      shift[d] =
+        evaluate(translation[d], t, std::string("translation in ") + "xyz"[d]);
+    const double degrees = evaluate(angle, t, "rotation angle");
+    return Placement<dim>(degrees, centre, axis, shift);
+  }
+
+  template <int dim>
+  bool
+  RigidMotion<dim>::moves() const
+  {
+    for (const auto &curve : translation)
+      if (curve)
+        return true;
+    return static_cast<bool>(angle);
+  }
+
+  template <int dim>
+  double
+  RigidMotion<dim>::moment(const Point<dim>     &x,
+                           const Tensor<1, dim> &f,
+                           const double          t) const
+  {
+    const Tensor<1, dim> arm = x - pose(t).map(centre);
+    if constexpr (dim == 2)
+      return arm[0] * f[1] - arm[1] * f[0];
+    else
+      return axis * cross_product_3d(arm, f);
+  }
+
+  template BoundingBox<2>
+  unlimited_box();
+  template BoundingBox<3>
+  unlimited_box();
+  template bool
+  is_finite(const BoundingBox<2> &);
+  template bool
+  is_finite(const BoundingBox<3> &);
+  template class Placement<2>;
+  template class Placement<3>;
+  template class RigidMotion<2>;
+  template class RigidMotion<3>;
+} // namespace moraine

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// Places of vertices and nodes in archives.
+
+#include <moraine/mesh/grid_space.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::write(Archive &archive) const
+  {
+    std::vector<double> places;
+    for (const Point<dim> &vertex : tria.get_vertices())
+      places.insert(places.end(), vertex.begin_raw(), vertex.end_raw());
+    archive.write("mesh/vertex_position", std::move(places), dim);
+    std::vector<double> grid;
+    if (box)
+      {
+        grid.assign(box->lower_corner.begin_raw(), box->lower_corner.end_raw());
+        grid.insert(grid.end(),
+                    box->cell_size.begin_raw(),
+                    box->cell_size.end_raw());
+      }
+    archive.write("mesh/box_corner_and_cell_size", std::move(grid), dim);
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::read(const Archive &archive)
+  {
+    const auto &places = archive.numbers("mesh/vertex_position", dim);
+    AssertThrow(places.size() == dim * tria.n_vertices(),
+                ExcMessage("The archive is of another mesh."));
+    for (const auto &cell : tria.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        std::copy_n(places.begin() + dim * cell->vertex_index(v),
+                    dim,
+                    cell->vertex(v).begin_raw());
+    const auto &grid = archive.numbers("mesh/box_corner_and_cell_size", dim);
+    if (grid.empty())
+      box.reset();
+    else
+      {
+        // The number of cells is that of the same mesh.
+        std::copy_n(grid.begin(), dim, box->lower_corner.begin_raw());
+        std::copy_n(grid.begin() + dim, dim, box->cell_size.begin_raw());
+      }
+    measure_cells();
+    tria.signals.mesh_movement();
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::write(Archive &archive) const
+  {
+    std::vector<unsigned int> ids;
+    std::vector<double>       places;
+    for (const auto &cell : background.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && knows(cell))
+        for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
+          {
+            ids.push_back(cell->active_cell_index());
+            ids.push_back(a);
+            const Point<dim> &x = positions[cell_nodes(cell)[a]];
+            places.insert(places.end(), x.begin_raw(), x.end_raw());
+          }
+    archive.distribute("nodes", std::move(ids), 2);
+    archive.write("nodes/position", std::move(places), dim);
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::read(const Archive &archive)
+  {
+    // A rank also knows nodes of cells that are another's.
+    const auto ids =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.integers("nodes/id", 2));
+    const auto places =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.numbers("nodes/position", dim));
+    std::vector<CellIterator> cells(
+      background.triangulation().n_active_cells());
+    for (const auto &cell : background.triangulation().active_cell_iterators())
+      cells[cell->active_cell_index()] = cell;
+    for (unsigned int rank = 0; rank < ids.size(); ++rank)
+      for (unsigned int row = 0; row < ids[rank].size() / 2; ++row)
+        {
+          const CellIterator &cell = cells.at(ids[rank][2 * row]);
+          if (knows(cell))
+            std::copy_n(
+              places[rank].begin() + dim * row,
+              dim,
+              positions[cell_nodes(cell)[ids[rank][2 * row + 1]]].begin_raw());
+        }
+  }
+
+
+
+  template void
+  BackgroundMesh<2>::write(Archive &) const;
+  template void
+  BackgroundMesh<3>::write(Archive &) const;
+  template void
+  BackgroundMesh<2>::read(const Archive &);
+  template void
+  BackgroundMesh<3>::read(const Archive &);
+  template void
+  GridSpace<2>::write(Archive &) const;
+  template void
+  GridSpace<3>::write(Archive &) const;
+  template void
+  GridSpace<2>::read(const Archive &);
+  template void
+  GridSpace<3>::read(const Archive &);
+} // namespace moraine

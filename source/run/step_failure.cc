@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/step_failure.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of the volume of its body: less than that may splash. */
+    constexpr double smallest_part = 0.01;
+
+
+
+    /** Node of the largest force on this rank, n_nodes() if there is none. */
+    template <int dim>
+    std::pair<unsigned int, double>
+    largest_force(const GridSpace<dim> &space, const LA::Vector &residual)
+    {
+      unsigned int worst   = space.n_nodes();
+      double       largest = 0;
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        if (space.locally_owned().is_element(space.node_dof(node)))
+          {
+            double square = 0;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const double force = residual(space.node_dof(node) + c);
+                square += force * force;
+              }
+            if (std::isfinite(square) && square > largest)
+              {
+                largest = square;
+                worst   = node;
+              }
+          }
+      return {worst, largest};
+    }
+
+
+
+    /** What points fill of the cells of a node, over these. */
+    template <int dim>
+    double
+    filled_part(const GridSpace<dim>          &space,
+                const PointSet<dim>           &points,
+                const types::global_dof_index &node_dof)
+    {
+      const auto         &tria = space.mesh().triangulation();
+      std::vector<double> filled(tria.n_active_cells(), 0.);
+      for (const auto &in_cell : points.cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          filled[in_cell.cell->active_cell_index()] += points.volume(p);
+      double volume = 0, sum = 0;
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned() && space.is_active(cell))
+          for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+            if (space.node_dof(space.cell_nodes(cell)[a]) == node_dof)
+              {
+                volume += cell->measure();
+                sum += filled[cell->active_cell_index()];
+              }
+      volume = Utilities::MPI::sum(volume, space.communicator());
+      sum    = Utilities::MPI::sum(sum, space.communicator());
+      return volume > 0 ? std::min(sum / volume, 1.) : 1.;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  place_of_imbalance(const GridSpace<dim> &space,
+                     const PointSet<dim>  &points,
+                     const LA::Vector     &residual)
+  {
+    const auto [node, square] = largest_force(space, residual);
+    const double largest = Utilities::MPI::max(square, space.communicator());
+    if (largest == 0)
+      return "";
+    // Of ranks with the same force the first unknown counts.
+    const bool                    here = square == largest;
+    const types::global_dof_index dof =
+      Utilities::MPI::min(here ? space.node_dof(node) :
+                                 numbers::invalid_dof_index,
+                          space.communicator());
+    Point<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = Utilities::MPI::sum(here && space.node_dof(node) == dof ?
+                                       space.node_position(node)[d] :
+                                       0.,
+                                     space.communicator());
+    std::ostringstream text;
+    text << "; the largest unbalanced force is at (" << std::setprecision(6);
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d > 0 ? ", " : "") << place[d];
+    text << "), where points fill "
+         << std::lround(100 * filled_part(space, points, dof))
+         << " % of the cells";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  name_separation(const std::vector<std::vector<BodyPart<dim>>> &parts,
+                  const std::vector<unsigned int>               &at_start,
+                  const std::vector<std::string>                &body_names)
+  {
+    for (unsigned int b = 0; b < parts.size(); ++b)
+      {
+        double volume = 0;
+        for (const auto &part : parts[b])
+          volume += part.volume;
+        const unsigned int next = at_start[b];
+        if (parts[b].size() <= next ||
+            parts[b][next].volume < smallest_part * volume)
+          continue;
+        std::ostringstream text;
+        text << "body '" << body_names[b]
+             << "' came apart: " << std::setprecision(3)
+             << 100 * parts[b][next].volume / volume
+             << " % of its volume, around (" << std::setprecision(6);
+        for (unsigned int d = 0; d < dim; ++d)
+          text << (d > 0 ? ", " : "") << parts[b][next].centre[d];
+        text << "), share no node with the rest any more and carry no force "
+                "across";
+        return text.str();
+      }
+    return "";
+  }
+
+
+
+#define INSTANTIATE(dim)                                          \
+  template std::string place_of_imbalance(const GridSpace<dim> &, \
+                                          const PointSet<dim> &,  \
+                                          const LA::Vector &);    \
+  template std::string name_separation(                           \
+    const std::vector<std::vector<BodyPart<dim>>> &,              \
+    const std::vector<unsigned int> &,                            \
+    const std::vector<std::string> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine

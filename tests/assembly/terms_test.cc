@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/fictitious_stiffness.h>
+#include <moraine/assembly/internal_force.h>
+#include <moraine/assembly/mechanics_system.h>
+#include <moraine/material/linear_elastic.h>
+#include <moraine/solver/linear_solver.h>
+#include <moraine/solver/newton.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "../small_scene.h"
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  /** The node at a place, or an invalid number if this rank does not know it.
+   */
+  unsigned int
+  node_at(const GridSpace<2> &space, const Point<2> &x)
+  {
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      if (space.node_position(node).distance(x) < 1e-9)
+        return node;
+    return numbers::invalid_unsigned_int;
+  }
+
+
+
+  /** All entries of a vector on all ranks. */
+  std::vector<double>
+  gather(const LA::Vector &vector)
+  {
+    std::vector<double> all(vector.size(), 0.);
+    for (const auto i : vector.locally_owned_elements())
+      all[i] = vector(i);
+    Utilities::MPI::sum(all, MPI_COMM_WORLD, all);
+    return all;
+  }
+
+
+
+  /** A term of no effect but what a test adds. */
+  class TestTerm : public Term<2>
+  {
+  public:
+    std::vector<Effect>
+    effects(const StepContext<2> &) const override
+    {
+      return {{"test", "", ""}};
+    }
+  };
+
+
+
+  /** The node at a is the mean of those at b and c. */
+  struct Tie : TestTerm
+  {
+    Tie(const Point<2> &a, const Point<2> &b, const Point<2> &c)
+      : a(a)
+      , b(b)
+      , c(c)
+    {}
+
+    void
+    constrain(const StepContext<2>      &context,
+              AffineConstraints<double> &lines) const override
+    {
+      // A rank that has a in a cell of its own knows b and c.
+      const GridSpace<2> &space = context.state.grid();
+      for (const Point<2> &x : {a, b, c})
+        if (node_at(space, x) == numbers::invalid_unsigned_int)
+          return;
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const auto dof = space.node_dof(node_at(space, a)) + d;
+          lines.add_line(dof);
+          for (const Point<2> &x : {b, c})
+            lines.add_entry(dof, space.node_dof(node_at(space, x)) + d, 0.5);
+        }
+    }
+
+    const Point<2> a, b, c;
+  };
+
+
+
+  /** @f$f_a = c\,(\Delta u_b - \Delta u_a)/\Delta t = -f_b@f$ */
+  struct Dashpot : TestTerm
+  {
+    Dashpot(const Point<2> &a, const Point<2> &b, const double c)
+      : a(a)
+      , b(b)
+      , c(c)
+    {}
+
+    /** The two nodes, if this rank owns the first. */
+    std::vector<unsigned int>
+    nodes(const GridSpace<2> &space) const
+    {
+      const unsigned int first = node_at(space, a);
+      if (first == numbers::invalid_unsigned_int ||
+          !space.locally_owned().is_element(space.node_dof(first)))
+        return {};
+      return {first, node_at(space, b)};
+    }
+
+    void
+    couple(const StepContext<2> &context,
+           const Couple         &couple_nodes) const override
+    {
+      const auto pair = nodes(context.state.grid());
+      if (!pair.empty())
+        couple_nodes(pair.data(), 2);
+    }
+
+    void
+    add(const StepContext<2> &context,
+        const bool            tangent,
+        GlobalSystem<2>      &system) const override
+    {
+      const auto pair = nodes(context.state.grid());
+      if (pair.empty())
+        return;
+      LocalSystem<2> local;
+      local.reinit(context.state, pair.data(), 2, tangent);
+      const double k = c / context.step_size();
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            local.force[2 * i + d] = k * (context.increments()[pair[1 - i]] -
+                                          context.increments()[pair[i]])[d];
+            local.matrix(2 * i + d, 2 * i + d) += k;
+            local.matrix(2 * i + d, 2 * (1 - i) + d) -= k;
+          }
+      system.add(local, tangent);
+    }
+
+    const Point<2> a, b;
+    const double   c;
+  };
+
+
+
+  /** A body whose nodes at x = 0 are moved, with terms that a test adds. */
+  struct HeldBody
+  {
+    explicit HeldBody(const StrainMeasure measure = StrainMeasure::small)
+      : scene(false, 2, measure)
+      , state(scene.space,
+              scene.points,
+              *scene.basis,
+              {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+              MeshAfterStep::reset,
+              measure)
+      , conditions(1)
+    {
+      conditions[0].name         = "wall";
+      conditions[0].region       = BoundingBox<2>({{0., 0.}, {0., 4.}});
+      conditions[0].component    = {{true, true}};
+      conditions[0].displacement = [](const Point<2> &x, const double t) {
+        return t * Tensor<1, 2>({0.05 * x[1], 0.02});
+      };
+      loads.body_forces.push_back({"weight",
+                                   [](const Point<2> &, const double t) {
+                                     return Tensor<1, 2>({0., -2 * t});
+                                   },
+                                   false,
+                                   {true}});
+    }
+
+    MechanicsSystem<2>
+    system()
+    {
+      return {state,
+              make_terms(boundaries, conditions, loads),
+              std::vector<std::string>{"block"}};
+    }
+
+    SmallScene<2>                    scene;
+    State<2>                         state;
+    std::vector<ImplicitBoundary<2>> boundaries;
+    std::vector<GridCondition<2>>    conditions;
+    Loads<2>                         loads;
+  };
+
+
+
+  class Measures : public testing::TestWithParam<StrainMeasure>
+  {};
+
+  INSTANTIATE_TEST_SUITE_P(SmallAndFinite,
+                           Measures,
+                           testing::Values(StrainMeasure::small,
+                                           StrainMeasure::finite));
+
+
+
+  TEST_P(Measures, ATiedNodeHandsItsForceToThoseItIsTiedTo)
+  {
+    // The second tie has a prescribed node in it.
+    const std::array<std::array<Point<2>, 3>, 2> ties{
+      {{{Point<2>(2, 2), Point<2>(1, 1), Point<2>(3, 2)}},
+       {{Point<2>(1, 3), Point<2>(0, 3), Point<2>(2, 3)}}}};
+
+    HeldBody           body(GetParam());
+    MechanicsSystem<2> tied = body.system();
+    for (const auto &[a, b, c] : ties)
+      tied.add(std::make_unique<Tie>(a, b, c));
+    tied.begin_step(0);
+    tied.set_target(1);
+    LinearSolver linear_solver(LinearSolverParameters(), 2);
+    LA::Vector   x;
+    const auto   report =
+      Newton(NewtonParameters()).solve(tied, linear_solver, x);
+    ASSERT_TRUE(report.converged()) << report.message;
+    EXPECT_LE(report.iterations, GetParam() == StrainMeasure::small ? 1u : 6u);
+    EXPECT_NO_THROW(tied.check_that_it_is_held(true));
+
+    // The same body without ties needs forces at the tied nodes; condensed by
+    // hand, they are in equilibrium.
+    MechanicsSystem<2> untied = body.system();
+    untied.begin_step(0);
+    untied.set_target(1);
+    untied.assemble(x, false);
+    const auto          u     = gather(x);
+    std::vector<double> r     = gather(untied.residual());
+    const double        scale = untied.force_scales()[0];
+    const auto          dof   = [&](const Point<2> &place) {
+      const auto  &space = body.scene.space;
+      unsigned int node  = node_at(space, place);
+      const double mine  = node == numbers::invalid_unsigned_int ?
+                                        -1. :
+                                        double(space.node_dof(node));
+      return static_cast<unsigned int>(
+        Utilities::MPI::max(mine, MPI_COMM_WORLD));
+    };
+    for (const auto &tie : ties)
+      {
+        const auto a = dof(tie[0]), b = dof(tie[1]), c = dof(tie[2]);
+        EXPECT_GT(std::hypot(r[a], r[a + 1]), 1e-3 * scale);
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            EXPECT_NEAR(u[a + d], 0.5 * (u[b + d] + u[c + d]), 1e-14);
+            if (tie[1][0] > 0)
+              r[b + d] += 0.5 * r[a + d];
+            r[c + d] += 0.5 * r[a + d];
+            r[a + d] = 0;
+          }
+      }
+    for (const double f : r)
+      EXPECT_NEAR(f, 0., 1e-8 * scale);
+  }
+
+
+
+  TEST(MechanicsSystem, ATermCouplesNodesThatShareNoCellAndKnowsTheTimeStep)
+  {
+    const Point<2>     a(1, 2), b(3, 2);
+    HeldBody           body;
+    MechanicsSystem<2> with = body.system(), without = body.system();
+    with.add(std::make_unique<Dashpot>(a, b, 70.));
+    double stiffness[2];
+    for (const double t_end : {1., 0.5})
+      {
+        with.begin_step(0);
+        without.begin_step(0);
+        with.set_target(t_end);
+        without.set_target(t_end);
+        LA::Vector x = body.scene.space.vector(), f = x, g = x;
+        for (unsigned int node = 0; node < body.scene.space.n_nodes(); ++node)
+          {
+            const auto dof = body.scene.space.node_dof(node);
+            if (body.scene.space.locally_owned().is_element(dof))
+              x(dof) = body.scene.space.node_position(node).distance(a) < 0.5;
+          }
+        x.compress(VectorOperation::insert);
+        with.assemble(x, false); // not linearised
+        with.assemble(x, true);
+        without.assemble(x, false);
+        without.assemble(x, true);
+        with.tangent()->vmult(f, x);
+        without.tangent()->vmult(g, x);
+        f -= g;
+        const auto   difference = gather(f);
+        const double largest =
+          *std::max_element(difference.begin(), difference.end());
+        const double smallest =
+          *std::min_element(difference.begin(), difference.end());
+        EXPECT_NEAR(largest, -smallest, 1e-9);
+        stiffness[t_end == 1.] = largest;
+        LA::Vector forces      = with.residual();
+        forces -= without.residual();
+        const auto of_residual = gather(forces);
+        for (unsigned int i = 0; i < of_residual.size(); ++i)
+          EXPECT_NEAR(of_residual[i], -difference[i], 1e-9);
+      }
+    EXPECT_NEAR(stiffness[1], 70., 1e-9);
+    EXPECT_NEAR(stiffness[0], 140., 1e-9);
+  }
+
+
+
+  /** Bodies in the middle of a mesh of 4 x 4 unit cells. */
+  struct Bodies
+  {
+    Bodies(const std::vector<std::pair<Point<2>, Point<2>>> &boxes,
+           const MeshAfterStep                               after_step)
+      : mesh(SmallScene<2>::mesh_parameters(), MPI_COMM_WORLD)
+      , space(mesh, 1)
+      , points(mesh,
+               SmallScene<2>::fields(
+                 false,
+                 StrainMeasure::finite,
+                 {std::make_shared<LinearElastic>(1000., 0.3, 1.)}))
+    {
+      std::vector<Body<2>>                         bodies;
+      std::vector<std::shared_ptr<const Material>> materials;
+      for (const auto &[lower, upper] : boxes)
+        {
+          bodies.push_back({"box",
+                            std::make_shared<ConvexShape<2>>(
+                              ConvexShape<2>::box(lower, upper))});
+          materials.push_back(
+            std::make_shared<LinearElastic>(10 * bodies.size(), 0., 1.));
+        }
+      seed_bodies(bodies, CellSeeder<2>(4, PointLayout::equal), points);
+      basis = std::make_unique<CellBasis<2, 1>>(space, points);
+      state = std::make_unique<State<2>>(
+        space, points, *basis, materials, after_step, StrainMeasure::finite);
+    }
+
+    /** A step in which every node x moves to x + @p move(x). */
+    void
+    step(const std::function<Tensor<1, 2>(const Point<2> &)> &move)
+    {
+      state->begin_step();
+      LA::Vector x = space.vector();
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        for (unsigned int d = 0; d < 2; ++d)
+          if (space.locally_owned().is_element(space.node_dof(node) + d))
+            x(space.node_dof(node) + d) = move(space.node_position(node))[d];
+      x.compress(VectorOperation::insert);
+      state->set_trial(x);
+      state->accept();
+      state->begin_step();
+    }
+
+    /** The stiffness of the cell around a place, if this rank owns it. */
+    double
+    shear_modulus_at(const Point<2> &x) const
+    {
+      CellMaterials<2> materials;
+      materials.update(*state);
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        if (cell->point_inside(x) && cell->is_locally_owned())
+          return Utilities::MPI::max(
+            materials.elastic_stiffness(cell->active_cell_index()).mu,
+            MPI_COMM_WORLD);
+      return Utilities::MPI::max(0., MPI_COMM_WORLD);
+    }
+
+    BackgroundMesh<2>         mesh;
+    GridSpace<2>              space;
+    PointSet<2>               points;
+    std::unique_ptr<Basis<2>> basis;
+    std::unique_ptr<State<2>> state;
+  };
+
+
+
+  TEST(FictitiousStiffness, KnowsEmptyPartsOnAMeshThatFollowsTheMaterial)
+  {
+    for (const bool full : {true, false})
+      {
+        Bodies bodies({{Point<2>(1, 1), Point<2>(full ? 3. : 2.5, 3)}},
+                      MeshAfterStep::follow_material);
+        bodies.step([](const Point<2> &x) {
+          return Tensor<1, 2>({-0.5 * x[0], 0.});
+        });
+        StepContext<2> context(*bodies.state);
+        context.cell_materials.update(*bodies.state);
+        FictitiousStiffness<2> term(0.1);
+        term.begin_step(context);
+        EXPECT_EQ(term.any_empty_part(context), !full);
+      }
+  }
+
+
+
+  TEST(CellMaterials, WeighsBodiesWithTheirVolumesWhereTheyAre)
+  {
+    Bodies bodies({{Point<2>(1, 1), Point<2>(2.25, 2)},
+                   {Point<2>(2.25, 1), Point<2>(3, 2)}},
+                  MeshAfterStep::reset);
+    bodies.state->begin_step();
+    EXPECT_NEAR(bodies.shear_modulus_at({1.5, 1.5}), 5., 1e-12);
+    EXPECT_NEAR(bodies.shear_modulus_at({2.5, 1.5}),
+                0.25 * 5. + 0.75 * 10.,
+                1e-12);
+    bodies.step([](const Point<2> &) { return Tensor<1, 2>({-0.25, 0.}); });
+    EXPECT_NEAR(bodies.shear_modulus_at({2.5, 1.5}), 10., 1e-12);
+  }
+} // namespace

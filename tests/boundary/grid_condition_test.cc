@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/core/exceptions.h>
+
+#include <moraine/boundary/condition_agreement.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../core/message.h"
+
+using namespace moraine;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  constexpr double t_start = 1, t_end = 1.5;
+
+  /** Two conditions on all nodes of a box of the size @p size. */
+  struct TwoConditions
+  {
+    TwoConditions(const double size)
+      : mesh(box(size), MPI_COMM_WORLD)
+      , space(mesh, 1)
+      , conditions(2)
+    {
+      std::vector<unsigned char> active(mesh.triangulation().n_active_cells(),
+                                        0);
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        active[cell->active_cell_index()] = cell->is_locally_owned();
+      space.set_active_cells(active);
+      for (unsigned int c = 0; c < 2; ++c)
+        {
+          conditions[c].name      = c == 0 ? "first" : "second";
+          conditions[c].component = {{true, true}};
+          conditions[c].region =
+            dealii::BoundingBox<2>({Point<2>(0, 0), Point<2>(size, size)});
+          conditions[c].displacement = [](const Point<2> &, const double) {
+            return Tensor<1, 2>();
+          };
+        }
+    }
+
+    static MeshParameters<2>
+    box(const double size)
+    {
+      MeshParameters<2> parameters;
+      parameters.upper_corner = Point<2>(size, size);
+      parameters.cells        = {4, 4};
+      return parameters;
+    }
+
+    std::string
+    complaint()
+    {
+      return message_of<InputError>(
+        [&] { check_agreement(conditions, space, t_start, t_end, 1); });
+    }
+
+    BackgroundMesh<2>             mesh;
+    GridSpace<2>                  space;
+    std::vector<GridCondition<2>> conditions;
+  };
+
+  std::function<Tensor<1, 2>(const Point<2> &, const double)>
+  along_x(const double rate)
+  {
+    return [rate](const Point<2> &x, const double t) {
+      return Tensor<1, 2>({rate * t * x[1], 0});
+    };
+  }
+} // namespace
+
+
+
+TEST(GridConditions, ThoseThatAgree)
+{
+  for (const double size : {1e-6, 1., 1e6})
+    {
+      TwoConditions two(size);
+      EXPECT_EQ(two.complaint(), "");
+      two.conditions[0].displacement = along_x(0.1);
+      two.conditions[1].displacement = along_x(0.1 * (1 + 1e-12));
+      EXPECT_EQ(two.complaint(), "");
+    }
+}
+
+
+
+TEST(GridConditions, ThoseThatDepartDuringAStep)
+{
+  for (const double size : {1e-6, 1., 1e6})
+    for (const double rate : {0., 0.101, 0.1 * (1 + 1e-6)})
+      {
+        TwoConditions two(size);
+        two.conditions[0].displacement = along_x(0.1);
+        two.conditions[1].displacement = along_x(rate);
+        const std::string message      = two.complaint();
+        EXPECT_EQ(message.find("'first' and "
+                               "'second' prescribe different x displacements "
+                               "at ("),
+                  0u)
+          << message;
+        EXPECT_NE(message.find("from t = 1 to t = 1.5"), std::string::npos);
+      }
+}
+
+
+
+TEST(GridConditions, ARotationAndWhatItsFormulaSays)
+{
+  constexpr double degree = dealii::numbers::PI / 180;
+  const Point<2>   centre(0.3, 0.2);
+  TwoConditions    two(1.);
+  two.conditions[0].motion = RigidMotion<2>(
+    {}, [](const double t) { return 10 * t; }, centre);
+  // what is at x at the start of the step
+  two.conditions[1].displacement = [&](const Point<2> &x, const double t) {
+    const double       angle = 10 * (t - t_start) * degree;
+    const Tensor<1, 2> r     = x - centre;
+    const Tensor<1, 2> turned(
+      {std::cos(angle) * r[0] - std::sin(angle) * r[1],
+       std::sin(angle) * r[0] + std::cos(angle) * r[1]});
+    return turned - r;
+  };
+  EXPECT_EQ(two.complaint(), "");
+  two.conditions[0].motion = RigidMotion<2>(
+    {}, [](const double t) { return 10.01 * t; }, centre);
+  EXPECT_NE(two.complaint(), "");
+}
+
+
+
+TEST(GridConditions, OneComponentEach)
+{
+  TwoConditions two(1.);
+  two.conditions[0].displacement = along_x(0.1);
+  two.conditions[0].component    = {{true, false}};
+  two.conditions[1].component    = {{false, true}};
+  EXPECT_EQ(two.complaint(), "");
+}

@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Runs mutated scenes: whatever is in a file, the program ends in order.
+
+    fuzz.py MORAINE [--seed 1] [--cases 100] [--first 0] [--keep DIR]
+
+Each case is a scene of prm/, shortened to two steps, with one to three changes:
+numbers, words, lines, sections, bytes, methods. It must end with 0, 1 or 2; say
+why in one line if that is not 0; get no signal; not be silent until its time is
+over (a scene that says what it simulates may take its time: it is stopped); and
+leave either no folder or one that is complete, with summary.json. A case follows
+from seed and number alone; --first N --cases 1 repeats it, --keep shows it.
+"""
+
+import argparse
+import json
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+root = pathlib.Path(__file__).resolve().parents[2]
+TIMEOUT = 30  # seconds
+
+# Too long until the first step ends, or studies: run one by one elsewhere.
+LONG = {"twist-10-fine", "tube-implicit", "tube-mesh", "slump-3d", "collapse",
+        "block-study", "hollow-sphere", "twist-3d", "stretch-3d"}
+
+NUMBERS = ["0", "-1", "1", "-0.5", "1e-300", "1e300", "1e9", "2147483648",
+           "4294967295", "nan", "inf", "-inf", "1e-8", "0.49999999", "0.5",
+           "7", "3.3", "1/0", "sqrt(-1)", "2*3", "$none", "1e", "--1", "0x10"]
+# Where a large number is a large computation, which is nobody's mistake.
+SIZES = ("Cell", "Points per direction", "Point grid", "Refinements",
+         "Arguments", "Extrusion", "Steps", "step")
+SMALL = [n for n in NUMBERS if n not in ("1e9", "1e-8", "7")]
+WORDS = ["", "text", "x", "t", "x;y", "0,0", "0;0;0;0", "rand()", "true",
+         "sin(50*x)*sin(50*y)", "x*", "(", "1/x", "log(x-1e9)", "{{1|2}}",
+         "{{", "0: 0, 1: 1", "1: 0, 0: 1", "a: b", "left", "../x", "é", "'",
+         '"', "|", "<b>", "$", "%s", "0 0; 1 0", "\\"]
+CHOICES = {
+    "Method/Method": ["finite element", "material point", "GIMP", "CPDI1",
+                      "CPDI2"],
+    "Method/Degree": ["1", "2"],
+    "Method/Points per direction": ["1", "3"],
+    "Method/Point layout": ["Gauss", "equally spaced"],
+    "Method/Strain": ["small", "finite"],
+    "Method/Mesh after step": ["reset", "keep", "follow material"],
+    "Method/Domain update": ["frozen", "stretch", "corners"],
+    "Method/Split domains": ["true"],
+    "Boundaries/*/Enforcement": ["weighted", "penalty", "skew Nitsche",
+                                 "symmetric Nitsche"],
+    "Boundaries/*/Constraint": ["fixed", "roller", "components"],
+    "Boundaries/*/Carry reaction": ["true", "false"],
+    "Boundaries/*/Flip": ["true"],
+    "Boundaries/*/Band width": ["1e-12", "1"],
+    "Solver/Solver": ["direct", "auto", "amg-cg", "ilu-gmres"],
+    "Solver/Line search": ["true", "false"],
+    "Materials/*/Model": ["linear elastic", "neo-Hookean", "von Mises"],
+    "Materials/*/Poisson ratio": ["0", "-0.9", "0.4999999"],
+    "Bodies/*/Shape": ["box", "disc", "ring", "mesh", "expression", "union"],
+    "Bodies/*/Rotation angle": ["10", "90", "1e6"],
+    "Loads/*/Type": ["body force", "gravity", "side traction", "point force",
+                     "surface traction", "force on points"],
+    "Mesh/Type": ["box", "generator", "file"],
+}
+
+
+def shortened(text):
+    text = re.sub(r"set Steps( *)= .*", r"set Steps\1= 2", text)
+    for key, value in (("Time/Smallest step", "0.25"),
+                       ("Time/Steps", "2"),
+                       ("Solver/Maximum iterations", "8")):
+        if not re.search(rf"set {key.split('/')[1]} *=", text):
+            text += setting(key, value)
+    return text
+
+
+def setting(path, value):
+    *sections, key = path.split("/")
+    return ("".join(f"subsection {s}\n" for s in sections) +
+            f"  set {key} = {value}\n" + "end\n" * len(sections))
+
+
+def with_choice(rng, text):
+    path = rng.choice(sorted(CHOICES))
+    value = rng.choice(CHOICES[path])
+    section, *middle, key = path.split("/")
+    if middle:
+        names = re.findall(rf"^subsection {section}\n\s+subsection (.*)$", text,
+                           re.M)
+        if not names:
+            return text
+        path = f"{section}/{rng.choice(names)}/{key}"
+    pattern = rf"(set {key} *=).*"
+    if re.search(pattern, text) and not middle:
+        return re.sub(pattern, rf"\1 {value}", text)
+    return text + setting(path, value)
+
+
+def replaced(rng, text, pattern, values):
+    """One match of the pattern replaced by one of values(line of the match)."""
+    found = list(re.finditer(pattern, text, re.M))
+    if not found:
+        return text
+    match = rng.choice(found)
+    begin = text.rfind("\n", 0, match.start()) + 1
+    line = text[begin:text.find("\n", match.end())]
+    return (text[:match.start()] + rng.choice(values(line)) +
+            text[match.end():])
+
+
+def mutated(rng, text):
+    """@p text with one change; odd bytes are characters 0 to 255."""
+    lines = text.splitlines(True)
+    i, j = rng.randrange(len(lines)), rng.randrange(len(lines))
+    kind = rng.randrange(14)
+    if kind <= 2:
+        return replaced(rng, text, r"(?<![A-Za-z])[-+]?\d+\.?\d*(e[-+]?\d+)?",
+                        lambda line: SMALL if any(s in line for s in SIZES)
+                        else NUMBERS)
+    if kind <= 4:
+        return replaced(rng, text, r"(?<== ).*$", lambda line: WORDS)
+    if kind <= 7:
+        return with_choice(rng, text)
+    if kind == 8:
+        del lines[i]
+    elif kind == 9:
+        lines.insert(i, lines[j])
+    elif kind == 10:
+        lines[i], lines[j] = lines[j], lines[i]
+    elif kind == 11:
+        at = rng.randrange(len(text))
+        return text[:at] + rng.choice(["", "\n", "end\n"])
+    elif kind == 12:
+        at = rng.randrange(len(text))
+        odd = [chr(rng.randrange(256)), "\0", "\xe9", "\x7f", "#", "\\\n", "$",
+               "set ", "subsection a\n", "=", "{{", "x" * 200000]
+        return text[:at] + rng.choice(odd) + text[at + rng.randrange(2):]
+    else:
+        at = rng.randrange(len(text))
+        letters = list(text)
+        letters[at] = rng.choice("abcxyz0189-+;,: ")
+        return "".join(letters)
+    return "".join(lines)
+
+
+def make_case(folder, seed, number):
+    """The scene of a case, in a folder with what scenes refer to."""
+    rng = random.Random(f"{seed} {number}")
+    scenes = [s for s in sorted((root / "prm").rglob("*.prm"))
+              if s.stem not in LONG and "studies" not in s.parts]
+    source = rng.choice(scenes)
+    for pattern in ("*.msh", "*.csv"):
+        for file in (root / "prm").rglob(pattern):
+            text = file.read_text()
+            if rng.random() < 0.1:
+                text = mutated(rng, text)
+            (folder / file.name).write_bytes(text.encode("latin-1", "replace"))
+    text = shortened(source.read_text())
+    for _ in range(rng.choice([1, 1, 1, 2, 3])):
+        text = mutated(rng, text) if text else text
+    scene = folder / "scene.prm"
+    utf8 = rng.random() < 0.5
+    scene.write_bytes(text.encode("utf-8" if utf8 else "latin-1", "replace"))
+    return source, scene
+
+
+def one_run(program, scene, output):
+    """Exit code, what was printed, and whether its time was over."""
+    process = subprocess.Popen(
+        [str(program), "run", str(scene), "--output", str(output)],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=scene.parent)
+    try:
+        out, err = process.communicate(timeout=TIMEOUT)
+        late = False
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGKILL)
+        out, err = process.communicate()
+        late = True
+    return (process.returncode, out.decode("utf-8", "replace"),
+            err.decode("utf-8", "replace"), late)
+
+
+def complaints_about_folder(output, code):
+    if not output.exists():
+        return ["no folder after a run that ended well"] if code == 0 else []
+    complaints = []
+    summary = output / "summary.json"
+    if not summary.exists():
+        return ["a folder without summary.json"]
+    try:
+        status = json.loads(summary.read_text())["status"]
+        if (status == "ok") != (code == 0):
+            complaints.append(f"status {status} with exit code {code}")
+    except (ValueError, KeyError) as problem:
+        complaints.append(f"summary.json: {problem}")
+    for file in output.rglob("*"):
+        if file.suffix == ".part":
+            complaints.append(f"half written: {file.name}")
+        elif file.suffix in (".vtu", ".pvd") and "</VTKFile>" not in \
+                file.read_text(errors="replace"):
+            complaints.append(f"not complete: {file.name}")
+    return complaints
+
+
+def complaints_about(program, scene, output):
+    code, out, err, late = one_run(program, scene, output)
+    if late:
+        return [] if "  steps " in out else [f"silent for {TIMEOUT} s"]
+    complaints = []
+    if code not in (0, 1, 2):
+        complaints.append(f"exit code {code}: {err.strip()[-300:]}")
+    messages = [line for line in err.splitlines() if line.strip()]
+    if code == 2 and len(messages) != 1:
+        complaints.append(f"{len(messages)} lines for exit code 2: {messages}")
+    if code == 1 and len(messages) > 1:
+        complaints.append(f"{len(messages)} lines for exit code 1: {messages}")
+    if code == 1 and not messages and "ended early: " not in out:
+        complaints.append("exit code 1 without a message")
+    if messages and len(messages[0]) > 3000:
+        complaints.append(f"a message of {len(messages[0])} characters")
+    return complaints + complaints_about_folder(output, code)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--seed", default="1")
+    parser.add_argument("--cases", type=int, default=100)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--keep", type=pathlib.Path)
+    arguments = parser.parse_args()
+    program = arguments.program.resolve()
+    n_bad = 0
+    for number in range(arguments.first, arguments.first + arguments.cases):
+        with tempfile.TemporaryDirectory(prefix="moraine-fuzz-") as name:
+            folder = pathlib.Path(name)
+            source, scene = make_case(folder, arguments.seed, number)
+            output = folder / "output"
+            complaints = complaints_about(program, scene, output)
+            if arguments.keep:
+                shutil.copytree(folder, arguments.keep, dirs_exist_ok=True)
+        if complaints:
+            n_bad += 1
+            print(f"case {number} of seed {arguments.seed} ({source.name}): "
+                  + "; ".join(complaints), flush=True)
+    print(f"{arguments.cases} cases, {n_bad} with complaints")
+    return 1 if n_bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+# ranks: 1 # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""The parameters.prm that a run leaves, with every key written out, is the
+scene again: of every scene that runs, 'check' says the same of both, and of
+some the run ends with the same summary."""
+
+import subprocess
+
+
+def written(scene, settings=()):
+    """parameters.prm of a run, which is ended when it has been written."""
+    target = folder / "begun" / scene.stem
+    words = [str(program), "run", str(scene), "--output", str(target)]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, cwd=folder)
+    output = ""
+    for line in process.stdout:
+        output += line
+        if line.startswith("  results in"):
+            break
+    process.kill()
+    process.communicate()
+    return target / "parameters.prm"
+
+
+def head(file):
+    return run(file, command="check").output
+
+
+def has_choices(scene):
+    return "{{" in scene.read_text()
+
+
+# This one takes a minute until it begins.
+slow = {"twist-10-fine"}
+scenes = [scene for scene in sorted((root / "prm").rglob("*.prm"))
+          if not has_choices(scene) and scene.stem not in slow]
+different = [scene.stem for scene in scenes if head(scene) != head(written(scene))]
+text("scenes, 50 or more", len(scenes) >= 50)
+text("scenes whose written parameters say something else",
+     ", ".join(different) or "none")
+
+
+def result_of(scene):
+    result = run(scene)
+    summary = dict(result.summary)
+    for key in ("wall_seconds", "timings", "peak_memory_mib", "scene"):
+        summary.pop(key, None)
+    return result, summary
+
+
+for name in ("cortis-2017/block-30", "verification/patch-random",
+             "verification/mesh-quads", "verification/loads",
+             "large-deformation/column-gimp"):
+    first, expected = result_of(f"prm/{name}.prm")
+    again, found = result_of(first.folder / "parameters.prm")
+    text(f"{name} again", "equal" if found == expected else
+         str([k for k in expected if found.get(k) != expected[k]]))
+
+# Every key has a value that stands for "not given".
+block = run("prm/cortis-2017/block-30.prm")
+text("from a cell size to a number of cells", run(
+    block.folder / "parameters.prm",
+    {"Mesh/Cell size": 0, "Mesh/Cells": "12, 12"},
+    command="check").output.splitlines()[-1].strip())

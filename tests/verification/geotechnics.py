@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+# debug: no
+"""Scenes of soil with default keys: a slope goes far beyond first yield; a pile
+that cannot be pushed on ends in order, with the place and what to change."""
+
+SLOPE, PILE = "prm/geotechnics/slope.prm", "prm/geotechnics/pile.prm"
+QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
+
+
+def slope(**settings):
+    return run(SLOPE, {"Mesh/Cell size": 1, **QUIET,
+                       **{f"Method/{k.replace('_', ' ')}": v
+                          for k, v in settings.items()}})
+
+
+held = slope(Empty_stiffness=1e-6)
+default = slope()
+elastic = run(SLOPE, {"Mesh/Cell size": 1, **QUIET,
+                      "Materials/clay/Model": "linear elastic",
+                      "Materials/clay/Shear yield stress": ""})
+for name, result in (("slope", default), ("elastic slope", elastic)):
+    text(f"{name}: status", result.summary["status"])
+    number(f"{name}: last time", result.history()[-1]["t"], 2)
+    weight = 2 * 9.81 * 2 * (40 * 4 + 8 * (10 + 26) / 2)
+    bound(f"{name}: reaction of the base over the weight - 1",
+          result.reactions["base"][1] / weight - 1, 1e-8)
+for key in ("u_x at crest", "u_y at crest", "u_x at toe", "u_y at toe"):
+    bound(f"slope: {key} over that with 1e-6 - 1",
+          default.probes[key] / held.probes[key] - 1, 0.02)
+number("slope before yield: largest change by 1e-6",
+       max(abs(a[key] / b[key] - 1)
+           for a, b in zip(default.history()[:10], held.history()[:10])
+           for key in ("u_y at crest", "u_x at toe")), 1)
+
+# Boxes overlap cells by no more than round-off in the third step.
+first = run(PILE, {**QUIET, "Time/End time": 0.1, "Time/Steps": 6}, expect=None)
+text("pile: exit code", first.code)
+text("pile: status", first.summary["status"])
