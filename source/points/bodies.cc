@@ -221,6 +221,21 @@ namespace moraine
 
 
 
+    /** Length, area or volume that two boxes have in common. */
+    template <int dim>
+    double
+    overlap_volume(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    {
+      double volume = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        volume *= std::max(0.,
+                           std::min(a.upper_bound(d), b.upper_bound(d)) -
+                             std::max(a.lower_bound(d), b.lower_bound(d)));
+      return volume;
+    }
+
+
+
     /**
      * Refuse points that do not fit into the memory, or have more ids than
      * there are.
@@ -231,15 +246,12 @@ namespace moraine
                            const CellSeeder<dim>        &seeder,
                            const Triangulation<dim>     &cells)
     {
-      const auto  box     = GridTools::compute_bounding_box(cells);
-      const auto &corners = box.get_boundary_points();
-      double      filled  = 0;
+      const auto box    = GridTools::compute_bounding_box(cells);
+      double     filled = 0;
       for (const Body<dim> &body : bodies)
         if (body.shape)
           filled +=
-            body.shape->clip(ConvexPolytope<dim>(corners.first, corners.second))
-              .volume /
-            box.volume();
+            overlap_volume(body.shape->bounding_box(), box) / box.volume();
       const double n_points =
         filled * cells.n_active_cells() * seeder.n_sub_cells();
       std::ostringstream what;

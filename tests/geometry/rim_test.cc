@@ -16,14 +16,12 @@ using namespace moraine_tests;
 
 namespace
 {
-  const double pi = numbers::PI;
-
   template <int dim>
   using ShapePtr = std::shared_ptr<const Shape<dim>>;
 
   template <int dim>
   ShapePtr<dim>
-  box(const Point<dim> &lower, const Point<dim> &upper)
+  box_shape(const Point<dim> &lower, const Point<dim> &upper)
   {
     return std::make_shared<ConvexShape<dim>>(
       ConvexShape<dim>::box(lower, upper));
@@ -45,9 +43,9 @@ namespace
 
   template <int dim>
   ShapePtr<dim>
-  combine(const typename CombinedShape<dim>::Operation operation,
-          const ShapePtr<dim>                         &a,
-          const ShapePtr<dim>                         &b)
+  combination(const typename CombinedShape<dim>::Operation operation,
+              const ShapePtr<dim>                         &a,
+              const ShapePtr<dim>                         &b)
   {
     return std::make_shared<CombinedShape<dim>>(
       operation, a, b, std::array<std::string, 2>{{"a", "b"}});
@@ -116,12 +114,12 @@ TEST(Rim, OfEveryShapeInTwoDimensions)
   const std::vector<Point<2>> l{
     {.31, .32}, {1.61, .32}, {1.61, .83}, {.74, .83}, {.74, 1.52}, {.31, 1.52}};
   const std::vector<Point<2>> backwards(l.rbegin(), l.rend());
-  const auto                  wide = box<2>({.21, .33}, {1.62, 1.04});
-  const auto                  tall = box<2>({.63, .12}, {1.11, 1.83});
+  const auto                  wide = box_shape<2>({.21, .33}, {1.62, 1.04});
+  const auto                  tall = box_shape<2>({.63, .12}, {1.11, 1.83});
   const auto   disc    = std::make_shared<RoundShape<2>>(Point<2>(1., 1.), .7);
   const auto   hole    = std::make_shared<RoundShape<2>>(Point<2>(1., 1.), .3);
-  const auto   quarter = box<2>({1., 1.}, {1.95, 1.95});
-  const auto   ring    = combine<2>(Operation::hollow_out, disc, hole);
+  const auto   quarter = box_shape<2>({1., 1.}, {1.95, 1.95});
+  const auto   ring    = combination<2>(Operation::hollow_out, disc, hole);
   const double exact   = 1e-12;
   expect_rims<2>(
     {{wide,
@@ -138,21 +136,25 @@ TEST(Rim, OfEveryShapeInTwoDimensions)
      {std::make_shared<PolygonShape<2>>(backwards),
       {{"", 5.}, {"1", .43}, {"2", .69}, {"4", .51}, {"5", 1.3}, {"6", 1.2}},
       exact},
-     {disc, {{"", 1.4 * pi}}, exact},
-     {ring, {{"", 2. * pi}, {"a", 1.4 * pi}, {"b", .6 * pi}}, exact},
-     {combine<2>(Operation::unite, wide, tall),
+     {disc, {{"", 1.4 * numbers::PI}}, exact},
+     {ring,
+      {{"", 2. * numbers::PI},
+       {"a", 1.4 * numbers::PI},
+       {"b", .6 * numbers::PI}},
+      exact},
+     {combination<2>(Operation::unite, wide, tall),
       {{"", 6.24}, {"a", 4.24 - .96}, {"b", 4.38 - 1.42}},
       exact},
-     {combine<2>(Operation::intersect, wide, tall),
+     {combination<2>(Operation::intersect, wide, tall),
       {{"", 2.38}, {"a", .96}, {"b", 1.42}, {"a/bottom", .48}, {"b/left", .71}},
       exact},
-     {combine<2>(Operation::subtract, wide, tall),
+     {combination<2>(Operation::subtract, wide, tall),
       {{"", 4.24 - .96 + 1.42}, {"a", 4.24 - .96}, {"b", 1.42}},
       exact},
-     {turned<2>(combine<2>(Operation::intersect, ring, quarter), 20.),
-      {{"", .5 * pi + .8},
-       {"a/a", .35 * pi},
-       {"a/b", .15 * pi},
+     {turned<2>(combination<2>(Operation::intersect, ring, quarter), 20.),
+      {{"", .5 * numbers::PI + .8},
+       {"a/a", .35 * numbers::PI},
+       {"a/b", .15 * numbers::PI},
        {"b/left", .4},
        {"b/bottom", .4}},
       exact}},
@@ -163,29 +165,29 @@ TEST(Rim, SharedByTwoOperandsIsCountedOnce)
 {
   // flush sides that look alike, and sides that touch from both sides
   using Operation  = CombinedShape<2>::Operation;
-  const auto left  = box<2>({.2, .4}, {.8, 1.2}),
-             right = box<2>({.8, .4}, {1.5, .9}),
-             over  = box<2>({.5, .4}, {1.5, .9});
-  expect_rims<2>({{combine<2>(Operation::unite, left, right),
+  const auto left  = box_shape<2>({.2, .4}, {.8, 1.2}),
+             right = box_shape<2>({.8, .4}, {1.5, .9}),
+             over  = box_shape<2>({.5, .4}, {1.5, .9});
+  expect_rims<2>({{combination<2>(Operation::unite, left, right),
                    {{"", 4.2}, {"a/right", .3}, {"a/bottom", .6}},
                    1e-12},
-                  {combine<2>(Operation::unite, left, over),
+                  {combination<2>(Operation::unite, left, over),
                    {{"", 4.2}, {"a/bottom", .6}, {"b/bottom", .7}},
                    1e-12},
-                  {combine<2>(Operation::intersect, left, over),
+                  {combination<2>(Operation::intersect, left, over),
                    {{"", 1.6}, {"a/bottom", .3}},
                    1e-12},
-                  {combine<2>(Operation::subtract, left, over),
+                  {combination<2>(Operation::subtract, left, over),
                    {{"", 2.8}, {"a/bottom", .3}, {"b/left", .5}},
                    1e-12},
-                  {combine<2>(Operation::subtract, left, right),
+                  {combination<2>(Operation::subtract, left, right),
                    {{"", 2.8}, {"a/right", .8}},
                    1e-12}},
                  10);
   using Operation3 = CombinedShape<3>::Operation;
-  expect_rims<3>({{combine<3>(Operation3::unite,
-                              box<3>({.2, .4, .1}, {.8, 1.2, .9}),
-                              box<3>({.8, .4, .1}, {1.5, .9, .9})),
+  expect_rims<3>({{combination<3>(Operation3::unite,
+                                  box_shape<3>({.2, .4, .1}, {.8, 1.2, .9}),
+                                  box_shape<3>({.8, .4, .1}, {1.5, .9, .9})),
                    {{"", 2. * (.48 + .35) + .8 * 4.2}, {"a/right", .3 * .8}},
                    1e-5}},
                  5);
@@ -197,8 +199,8 @@ TEST(Rim, OfStraightShapesInThreeDimensions)
   const std::vector<Point<2>> l{
     {.31, .32}, {1.61, .32}, {1.61, .83}, {.74, .83}, {.74, 1.52}, {.31, 1.52}};
   const double l_area = 1.3 * .51 + .43 * .69;
-  const auto   a      = box<3>({.21, .33, .42}, {1.62, 1.04, 1.51});
-  const auto   b      = box<3>({.63, .12, .23}, {1.11, 1.83, .97});
+  const auto   a      = box_shape<3>({.21, .33, .42}, {1.62, 1.04, 1.51});
+  const auto   b      = box_shape<3>({.63, .12, .23}, {1.11, 1.83, .97});
   const double a_area = 2. * (1.41 * .71 + 1.41 * 1.09 + .71 * 1.09);
   const double b_area = 2. * (.48 * 1.71 + .48 * .74 + 1.71 * .74);
   // b goes through a from front to back and ends inside it at the top
@@ -221,12 +223,12 @@ TEST(Rim, OfStraightShapesInThreeDimensions)
        {"bottom", l_area},
        {"top", l_area}},
       1e-12},
-     {combine<3>(Operation::subtract, a, b),
+     {combination<3>(Operation::subtract, a, b),
       {{"", a_area - a_in_b + b_in_a},
        {"a", a_area - a_in_b},
        {"b/top", .48 * .71}},
       1e-5},
-     {combine<3>(Operation::unite, a, b),
+     {combination<3>(Operation::unite, a, b),
       {{"", a_area - a_in_b + b_area - b_in_a}, {"b", b_area - b_in_a}},
       1e-5}},
     4);
@@ -244,23 +246,27 @@ TEST(Rim, OfRoundShapesInThreeDimensions)
                                                     Point<3>(1., 1., 1.62),
                                                     .6,
                                                     .35);
-  expect_rims<3>(
-    {{ball, {{"", 4. * pi * .49}}, 1e-4},
-     {combine<3>(Operation::hollow_out, ball, hole),
-      {{"", 4. * pi * .65}, {"a", 4. * pi * .49}, {"b", 4. * pi * .16}},
-      5e-4},
-     {cylinder, {{"bottom", pi * .36}, {"top", pi * .36}}, 1e-4},
-     {tube,
-      {{"bottom", pi * (.36 - .1225)}, {"top", pi * (.36 - .1225)}},
-      1e-4}},
-    10);
+  expect_rims<3>({{ball, {{"", 4. * numbers::PI * .49}}, 1e-4},
+                  {combination<3>(Operation::hollow_out, ball, hole),
+                   {{"", 4. * numbers::PI * .65},
+                    {"a", 4. * numbers::PI * .49},
+                    {"b", 4. * numbers::PI * .16}},
+                   5e-4},
+                  {cylinder,
+                   {{"bottom", numbers::PI * .36}, {"top", numbers::PI * .36}},
+                   1e-4},
+                  {tube,
+                   {{"bottom", numbers::PI * (.36 - .1225)},
+                    {"top", numbers::PI * (.36 - .1225)}},
+                   1e-4}},
+                 10);
   // the ends of the sides are exact on a regular mesh only
   const auto cells = box_cells<3>(12, 2., 0.);
   for (const auto &[shape, part, exact] :
        std::vector<std::tuple<ShapePtr<3>, std::string, double>>{
-         {cylinder, "side", 2. * pi * .6 * 1.31},
-         {tube, "outer", 2. * pi * .6 * 1.31},
-         {tube, "inner", 2. * pi * .35 * 1.31}})
+         {cylinder, "side", 2. * numbers::PI * .6 * 1.31},
+         {tube, "outer", 2. * numbers::PI * .6 * 1.31},
+         {tube, "inner", 2. * numbers::PI * .35 * 1.31}})
     EXPECT_NEAR(measure(all_pieces(*shape->rim(part), cells, 4)) / exact,
                 1.,
                 2e-4)
@@ -271,7 +277,9 @@ TEST(Rim, OfAnExpressionAndOfNone)
 {
   const ExpressionShape<2> disc("0.49 - (x-1)^2 - (y-1)^2", "here");
   const auto               cells = box_cells<2>(20, 2., 0.);
-  EXPECT_NEAR(measure(all_pieces(*disc.rim(), cells, 3)), 1.4 * pi, 1e-6);
+  EXPECT_NEAR(measure(all_pieces(*disc.rim(), cells, 3)),
+              1.4 * numbers::PI,
+              1e-6);
   EXPECT_TRUE(disc.parts().empty());
   EXPECT_FALSE(ConvexShape<2>::space().rim());
   const auto half = ConvexShape<2>::half_space({1., .3}, Point<2>(0., 2.));
@@ -280,12 +288,13 @@ TEST(Rim, OfAnExpressionAndOfNone)
 
 TEST(Rim, EndsWhereTheBodyEnds)
 {
-  const auto ring    = combine<2>(CombinedShape<2>::Operation::hollow_out,
-                               std::make_shared<RoundShape<2>>(Point<2>(), .7),
-                               std::make_shared<RoundShape<2>>(Point<2>(), .3));
-  const auto quarter = combine<2>(CombinedShape<2>::Operation::intersect,
-                                  ring,
-                                  box<2>({0., 0.}, {1., 1.}));
+  const auto ring =
+    combination<2>(CombinedShape<2>::Operation::hollow_out,
+                   std::make_shared<RoundShape<2>>(Point<2>(), .7),
+                   std::make_shared<RoundShape<2>>(Point<2>(), .3));
+  const auto quarter = combination<2>(CombinedShape<2>::Operation::intersect,
+                                      ring,
+                                      box_shape<2>({0., 0.}, {1., 1.}));
   EXPECT_EQ(
     quarter->parts(),
     (std::vector<std::string>{
