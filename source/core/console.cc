@@ -89,7 +89,10 @@ namespace moraine
   Console::Console(const MPI_Comm communicator)
     : Console(communicator, std::cout)
   {
-    terminal = tee != nullptr && isatty(STDOUT_FILENO) == 1;
+    // mpirun gives the program a terminal for stdout even if it has none itself,
+    // but not for stderr.
+    terminal = tee != nullptr && isatty(STDOUT_FILENO) == 1 &&
+               isatty(STDERR_FILENO) == 1;
   }
 
 

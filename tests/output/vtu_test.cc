@@ -77,30 +77,33 @@ namespace moraine
       EXPECT_EQ(text.substr(0, 5), "<?xml");
       EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
       const std::string open = "<DataArray";
-      for (std::size_t at = text.find(open); at != std::string::npos;
-           at             = text.find(open, at + 1))
+      std::size_t       at   = text.find(open);
+      while (at != std::string::npos)
         {
-                      const std::size_t end = text.find('>', at);
-                      const std::string tag = text.substr(at, end - at);
-                      if (attribute(tag, "type") != "Float32" ||
+          const std::size_t end = text.find('>', at);
+          const std::string tag = text.substr(at, end - at);
+          std::string       data =
+            text.substr(end + 1, text.find("</DataArray", end) - end - 1);
+          at = text.find(open, end);
+          if (attribute(tag, "type") != "Float32" ||
               attribute(tag, "format") != "binary")
             continue;
           const std::string name  = attribute(tag, "Name");
-                      Array            &array = arrays[name.empty() ? "position" : name];
-                      const std::string n     = attribute(tag, "NumberOfComponents");
-                      array.n_components      = n.empty() ? 1 : std::stoi(n);
-                      array.unit              = attribute(tag, "units");
-                      array.second_component  = attribute(tag, "ComponentName1");
-                      std::string data =
-                        text.substr(end + 1, text.find("</DataArray", end) - end - 1);
-                      const std::string key = "</InformationKey>";
-                      if (data.find(key) != std::string::npos)
+          const std::string n     = attribute(tag, "NumberOfComponents");
+          Array            &array = arrays[name.empty() ? "position" : name];
+          array.n_components      = n.empty() ? 1 : std::stoi(n);
+          array.unit              = attribute(tag, "units");
+          array.second_component  = attribute(tag, "ComponentName1");
+          const std::size_t key   = data.find("<InformationKey");
+          if (key != std::string::npos)
             {
-                          const std::string element = data.substr(0, data.find(key));
-                          EXPECT_EQ(attribute(element, "name"), "UNITS_LABEL");
-                          EXPECT_EQ(attribute(element, "location"), "vtkDataArray");
-                          array.unit_for_vtk = element.substr(element.find('>') + 1);
-                          data.erase(0, data.find(key) + key.size());
+              const std::size_t value   = data.find('>', key);
+              const std::string element = data.substr(key, value - key);
+              EXPECT_EQ(attribute(element, "name"), "UNITS_LABEL");
+              EXPECT_EQ(attribute(element, "location"), "vtkDataArray");
+              array.unit_for_vtk =
+                data.substr(value + 1, data.find('<', value) - value - 1);
+              data.erase(key);
             }
           data.erase(std::remove_if(data.begin(),
                                     data.end(),
@@ -108,13 +111,10 @@ namespace moraine
                                       return std::isspace(c) != 0;
                                     }),
                      data.end());
-                      if (!data.empty())
-            {
-                          const auto values = decode(data);
-                          array.values.insert(array.values.end(),
-                                  values.begin(),
-                                  values.end());
-            }
+          if (data.empty())
+            continue;
+          const auto values = decode(data);
+          array.values.insert(array.values.end(), values.begin(), values.end());
         }
       return arrays;
     }
