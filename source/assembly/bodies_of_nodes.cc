@@ -41,7 +41,7 @@ namespace moraine
     {
       std::vector<Tensor<1, dim>> touched(state.grid().n_nodes());
       StencilBlock<dim>           block;
-      for (unsigned int g = 0; g < state.point_basis().n_groups(); ++g)
+      for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
         {
           state.point_basis().evaluate(g, block);
           if (std::any_of(block.points,

@@ -133,7 +133,7 @@ namespace moraine
       std::ostringstream text;
       text << "point " << state.material_points().id(point) << " at ("
            << state.material_points().position(point) << ") "
-           << (trial.inverted(trial.first_fault()) ?
+           << (trial.inverted(trial.first_failure()) ?
                  "would be turned inside out" :
                  material.why_no_stress());
       return text.str();
@@ -242,9 +242,12 @@ namespace moraine
         add_stress_force(trial, block.n_nodes, local);
         const Material &material =
           state.material(points.body(block.points[begin]));
-        if (trial.first_fault() < trial.n_points() && local.failure.empty())
-          local.failure = why_no_stress(
-            state, trial, material, block.points[begin + trial.first_fault()]);
+        if (trial.first_failure() < trial.n_points() && local.failure.empty())
+          local.failure =
+            why_no_stress(state,
+                          trial,
+                          material,
+                          block.points[begin + trial.first_failure()]);
         if (!tangent || !local.failure.empty())
           continue;
         if (state.strain_measure() == StrainMeasure::small &&

@@ -105,7 +105,7 @@ namespace moraine
     {
       TimerOutput::Scope scope(timer, "stencils");
       // The first of this system need not be the first of the state.
-    context.couplings_changed = state.begin_step() || !sums.matrix();
+      context.couplings_changed = state.begin_step() || !sums.matrix();
     }
     context.t_start = context.t_end = t;
     context.cells_moved =
@@ -181,9 +181,9 @@ namespace moraine
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
         couple(space.cell_nodes(cell), space.nodes_per_cell());
-    for (unsigned int g = 0; g < state.point_basis().n_groups(); ++g)
+    for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
       {
-        const auto nodes = state.point_basis().group_nodes(g);
+        const auto nodes = state.point_basis().batch_nodes(g);
         if (nodes.size() != space.nodes_per_cell())
           couple(nodes.data(), nodes.size());
       }
@@ -292,7 +292,7 @@ namespace moraine
     StencilBlock<dim> block;
     LocalSystem<dim>  local;
     const Basis<dim> &basis = state.point_basis();
-    for (unsigned int g = 0; g < basis.n_groups(); ++g)
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
         local.reinit(state, block.nodes, block.n_nodes, tangent);
@@ -367,7 +367,7 @@ namespace moraine
 
   template <int dim>
   std::string
-  MechanicsSystem<dim>::fault() const
+  MechanicsSystem<dim>::failure() const
   {
     return first_of_ranks(local_failure, state.grid().communicator());
   }
@@ -417,7 +417,7 @@ namespace moraine
   {
     state.set_trial(x);
     const std::string of_domains =
-      first_of_ranks(state.point_basis().fault_of(state.nodal_increments()),
+      first_of_ranks(state.point_basis().failure_of(state.nodal_increments()),
                      state.grid().communicator());
     if (!of_domains.empty())
       return of_domains;

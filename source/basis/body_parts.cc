@@ -93,7 +93,7 @@ namespace moraine
       std::map<std::size_t, std::array<double, 4>>      moments_at;
       std::vector<std::pair<std::size_t, unsigned int>> home;
       StencilBlock<dim>                                 block;
-      for (unsigned int g = 0; g < basis.n_groups(); ++g)
+      for (unsigned int g = 0; g < basis.n_batches(); ++g)
         {
           basis.evaluate(g, block);
           for (unsigned int i = 0; i < block.n_points; ++i)

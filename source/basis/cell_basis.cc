@@ -22,22 +22,22 @@ namespace moraine
 
   template <int dim, int degree>
   bool
-  CellBasis<dim, degree>::group_points()
+  CellBasis<dim, degree>::batch_points()
   {
     constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
-    this->groups.clear();
-    this->group_node_list.clear();
+    this->batches.clear();
+    this->batch_node_list.clear();
     this->order.resize(this->points.n_local());
     std::iota(this->order.begin(), this->order.end(), 0u);
     for (const auto &in_cell : this->points.cells())
       {
-        this->groups.push_back(
+        this->batches.push_back(
           {in_cell.first,
            in_cell.last - in_cell.first,
-           static_cast<unsigned int>(this->group_node_list.size()),
+           static_cast<unsigned int>(this->batch_node_list.size()),
            n});
         const unsigned int *nodes = this->space.cell_nodes(in_cell.cell);
-        this->group_node_list.insert(this->group_node_list.end(),
+        this->batch_node_list.insert(this->batch_node_list.end(),
                                      nodes,
                                      nodes + n);
       }
@@ -49,15 +49,15 @@ namespace moraine
 
   template <int dim, int degree>
   void
-  CellBasis<dim, degree>::evaluate(const unsigned int group,
+  CellBasis<dim, degree>::evaluate(const unsigned int batch,
                                    StencilBlock<dim> &block) const
   {
     constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
-    const auto            &g = this->groups[group];
+    const auto            &g = this->batches[batch];
     block.reinit(g.n_points,
                  &this->order[g.first_point],
                  n,
-                 &this->group_node_list[g.first_node]);
+                 &this->batch_node_list[g.first_node]);
 
     Point<dim> X[n];
     for (unsigned int a = 0; a < n; ++a)

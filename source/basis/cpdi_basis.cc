@@ -63,7 +63,7 @@ namespace moraine
     gradient_weights.resize(n);
 
     n_far = 0;
-    std::string    fault;
+    std::string    failure;
     CellPatch<dim> patch(neighbours), far_patch(neighbours);
     for (const auto &in_cell : this->points.cells())
       {
@@ -90,8 +90,8 @@ namespace moraine
                       neighbours.nearest_cell(in_cell.cell, corners[c]));
                     if (!found(far_patch))
                       {
-                        fault = DomainTools::name_of(this->points, p) +
-                                ": no cell is near a corner of its domain";
+                        failure = DomainTools::name_of(this->points, p) +
+                                  ": no cell is near a corner of its domain";
                         continue;
                       }
                   }
@@ -103,7 +103,7 @@ namespace moraine
                     &gradient_weights[p * n_corners]);
           }
       }
-    DomainTools::throw_first(fault, this->space.communicator());
+    DomainTools::throw_first(failure, this->space.communicator());
   }
 
 
@@ -126,90 +126,90 @@ namespace moraine
 
   template <int dim>
   void
-  CpdiBasis<dim>::append_group(const CornerCells &cells)
+  CpdiBasis<dim>::append_batch(const CornerCells &cells)
   {
-    const unsigned int first_node = this->group_node_list.size();
+    const unsigned int first_node = this->batch_node_list.size();
     first_place.push_back(places_of_nodes.size());
     for (unsigned int i = 0; i < cells.n; ++i)
       {
         const unsigned int *nodes = this->space.cell_nodes(cells.cells[i]);
         for (unsigned int a = 0; a < n_corners; ++a)
           {
-            const auto begin = this->group_node_list.begin() + first_node;
+            const auto begin = this->batch_node_list.begin() + first_node;
             const auto place =
-              std::find(begin, this->group_node_list.end(), nodes[a]);
+              std::find(begin, this->batch_node_list.end(), nodes[a]);
             places_of_nodes.push_back(place - begin);
-            if (place == this->group_node_list.end())
-              this->group_node_list.push_back(nodes[a]);
+            if (place == this->batch_node_list.end())
+              this->batch_node_list.push_back(nodes[a]);
           }
       }
-    this->groups.push_back(
+    this->batches.push_back(
       {0,
        0,
        first_node,
-       static_cast<unsigned int>(this->group_node_list.size()) - first_node});
+       static_cast<unsigned int>(this->batch_node_list.size()) - first_node});
   }
 
 
 
   template <int dim>
   bool
-  CpdiBasis<dim>::group_points()
+  CpdiBasis<dim>::batch_points()
   {
     AssertDimension(corner_cells.size(), this->points.n_local() * n_corners);
     const std::vector<unsigned int> previous_nodes =
-      std::move(this->group_node_list);
-    this->groups.clear();
-    this->group_node_list.clear();
+      std::move(this->batch_node_list);
+    this->batches.clear();
+    this->batch_node_list.clear();
     this->order.clear();
     first_place.clear();
     places_of_nodes.clear();
-    cell_in_group.resize(corner_cells.size());
+    cell_in_batch.resize(corner_cells.size());
 
     std::vector<std::pair<CornerCells, unsigned int>> in_cell;
-    std::vector<CornerCells>                          of_groups;
+    std::vector<CornerCells>                          of_batches;
     for (const auto &cell : this->points.cells())
       {
         in_cell.clear();
         for (unsigned int p = cell.first; p < cell.last; ++p)
           in_cell.emplace_back(cells_of(p), p);
-        const unsigned int first_group = this->groups.size();
-        this->group_points_of_cell(in_cell,
-                                   of_groups,
+        const unsigned int first_batch = this->batches.size();
+        this->batch_points_of_cell(in_cell,
+                                   of_batches,
                                    [this](const CornerCells &cells) {
-                                     append_group(cells);
+                                     append_batch(cells);
                                    });
-        for (unsigned int i = 0; i < of_groups.size(); ++i)
+        for (unsigned int i = 0; i < of_batches.size(); ++i)
           {
-            const auto &group = this->groups[first_group + i];
-            const auto &cells = of_groups[i].cells;
-            for (unsigned int q = 0; q < group.n_points; ++q)
+            const auto &batch = this->batches[first_batch + i];
+            const auto &cells = of_batches[i].cells;
+            for (unsigned int q = 0; q < batch.n_points; ++q)
               {
                 const unsigned int first =
-                  this->order[group.first_point + q] * n_corners;
+                  this->order[batch.first_point + q] * n_corners;
                 for (unsigned int k = first; k < first + n_corners; ++k)
-                  cell_in_group[k] =
+                  cell_in_batch[k] =
                     std::find(cells.begin(), cells.end(), corner_cells[k]) -
                     cells.begin();
               }
           }
       }
-    return this->group_node_list != previous_nodes;
+    return this->batch_node_list != previous_nodes;
   }
 
 
 
   template <int dim>
   void
-  CpdiBasis<dim>::evaluate(const unsigned int group,
+  CpdiBasis<dim>::evaluate(const unsigned int batch,
                            StencilBlock<dim> &block) const
   {
-    const auto          &g      = this->groups[group];
-    const unsigned char *places = &places_of_nodes[first_place[group]];
+    const auto          &g      = this->batches[batch];
+    const unsigned char *places = &places_of_nodes[first_place[batch]];
     block.reinit(g.n_points,
                  &this->order[g.first_point],
                  g.n_nodes,
-                 &this->group_node_list[g.first_node]);
+                 &this->batch_node_list[g.first_node]);
     std::fill_n(block.values.begin(), g.n_points * g.n_nodes, 0.);
     std::fill_n(block.gradients.begin(),
                 g.n_points * g.n_nodes,
@@ -222,7 +222,7 @@ namespace moraine
           {
             const unsigned int   k     = block.points[p] * n_corners + c;
             const double        *N     = &corner_values[k * n_corners];
-            const unsigned char *place = places + cell_in_group[k] * n_corners;
+            const unsigned char *place = places + cell_in_batch[k] * n_corners;
             for (unsigned int a = 0; a < n_corners; ++a)
               {
                 S[place[a]] += function_weights[k] * N[a];
@@ -542,7 +542,7 @@ namespace moraine
 
   template <int dim>
   std::string
-  Cpdi2Basis<dim>::fault_of(
+  Cpdi2Basis<dim>::failure_of(
     const std::vector<Tensor<1, dim>> &nodal_increments) const
   {
     if (!finite_strain)

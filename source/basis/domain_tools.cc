@@ -197,7 +197,7 @@ namespace moraine
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             filled += points.volume(p);
           const double volume = average_weights<dim>(vertices, w, g);
-          // The Gauss points of a full cell askew have not the volumes of
+          // The Gauss points of a full skewed cell have not the volumes of
           // their sub-cells; only their sum is right.
           const bool is_full =
             in_cell.last - in_cell.first == seeder.n_sub_cells() &&

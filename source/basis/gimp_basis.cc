@@ -139,20 +139,20 @@ namespace moraine
   GimpBasis<dim>::mark_cells(std::vector<unsigned char> &active)
   {
     check_mesh(this->space);
-    std::string fault;
+    std::string failure;
     for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {
         if (const unsigned int d = too_long_edge(p); d < dim)
           {
-            if (fault.empty())
-              fault = DomainTools::name_of(this->points, p) +
-                      ": the half length of its box along " + "xyz"[d] +
-                      " is " +
-                      std::to_string(
-                        (this->points.values(p) + half_length_offset)[d] /
-                        grid().cell_size[d]) +
-                      " cell sizes, the limit of GIMP is 1; allowed: larger "
-                      "cells, or 'Split domains = true'";
+            if (failure.empty())
+              failure = DomainTools::name_of(this->points, p) +
+                        ": the half length of its box along " + "xyz"[d] +
+                        " is " +
+                        std::to_string(
+                          (this->points.values(p) + half_length_offset)[d] /
+                          grid().cell_size[d]) +
+                        " cell sizes, the limit of GIMP is 1; allowed: larger "
+                        "cells, or 'Split domains = true'";
             continue;
           }
         const Window window = window_of(p);
@@ -171,16 +171,16 @@ namespace moraine
             ++ijk[d];
           }
       }
-    DomainTools::throw_first(fault, this->space.communicator());
+    DomainTools::throw_first(failure, this->space.communicator());
   }
 
 
 
   template <int dim>
   void
-  GimpBasis<dim>::append_group(const Window &window)
+  GimpBasis<dim>::append_batch(const Window &window)
   {
-    const unsigned int          first_node = this->group_node_list.size();
+    const unsigned int          first_node = this->batch_node_list.size();
     std::array<unsigned int, 3> n_nodes{{1, 1, 1}};
     for (unsigned int d = 0; d < dim; ++d)
       n_nodes[d] = window.last[d] - window.first[d] + 2;
@@ -197,44 +197,44 @@ namespace moraine
                 cell[d] = std::min(window.first[d] + node[d], window.last[d]);
                 corner += (window.first[d] + node[d] - cell[d]) << d;
               }
-            this->group_node_list.push_back(
+            this->batch_node_list.push_back(
               this->space.cell_nodes(neighbours.box_cell(cell))[corner]);
           }
-    this->groups.push_back(
+    this->batches.push_back(
       {0,
        0,
        first_node,
-       static_cast<unsigned int>(this->group_node_list.size()) - first_node});
+       static_cast<unsigned int>(this->batch_node_list.size()) - first_node});
   }
 
 
 
   template <int dim>
   bool
-  GimpBasis<dim>::group_points()
+  GimpBasis<dim>::batch_points()
   {
     const std::vector<unsigned int> previous_nodes =
-      std::move(this->group_node_list);
-    this->groups.clear();
-    this->group_node_list.clear();
+      std::move(this->batch_node_list);
+    this->batches.clear();
+    this->batch_node_list.clear();
     this->order.clear();
     windows.clear();
 
     std::vector<std::pair<Window, unsigned int>> in_cell;
-    std::vector<Window>                          of_groups;
+    std::vector<Window>                          of_batches;
     for (const auto &cell : this->points.cells())
       {
         in_cell.clear();
         for (unsigned int p = cell.first; p < cell.last; ++p)
           in_cell.emplace_back(window_of(p), p);
-        this->group_points_of_cell(in_cell,
-                                   of_groups,
+        this->batch_points_of_cell(in_cell,
+                                   of_batches,
                                    [this](const Window &window) {
-                                     append_group(window);
+                                     append_batch(window);
                                    });
-        windows.insert(windows.end(), of_groups.begin(), of_groups.end());
+        windows.insert(windows.end(), of_batches.begin(), of_batches.end());
       }
-    return this->group_node_list != previous_nodes;
+    return this->batch_node_list != previous_nodes;
   }
 
 
@@ -291,16 +291,16 @@ namespace moraine
 
   template <int dim>
   void
-  GimpBasis<dim>::evaluate(const unsigned int group,
+  GimpBasis<dim>::evaluate(const unsigned int batch,
                            StencilBlock<dim> &block) const
   {
     const BoxGrid<dim> &grid   = this->grid();
-    const auto         &g      = this->groups[group];
-    const Window       &window = windows[group];
+    const auto         &g      = this->batches[batch];
+    const Window       &window = windows[batch];
     block.reinit(g.n_points,
                  &this->order[g.first_point],
                  g.n_nodes,
-                 &this->group_node_list[g.first_node]);
+                 &this->batch_node_list[g.first_node]);
 
     // l <= h, so a box overlaps at most three cells.
     constexpr unsigned int max_nodes = 4;
@@ -395,7 +395,7 @@ namespace moraine
 
   template <int dim>
   std::string
-  GimpBasis<dim>::fault_of(
+  GimpBasis<dim>::failure_of(
     const std::vector<Tensor<1, dim>> &nodal_increments) const
   {
     if (update != DomainUpdate::corners)

@@ -124,7 +124,7 @@ namespace moraine
   void
   ImplicitBoundary<dim>::begin_step(const GridSpace<dim> &space,
                                     const double          t,
-                                    const double          reach,
+                                    const double          search_tolerance,
                                     const bool            moves_points,
                                     const StrainMeasure   measure,
                                     const bool            cells_changed)
@@ -149,9 +149,9 @@ namespace moraine
         at_start.set_pose(motion.pose(t));
       }
     boundary_points.clear();
-    find_pieces(space, reach);
+    find_pieces(space, search_tolerance);
     evaluate_shapes(space);
-    if (how.carries_reaction)
+    if (how.carries_multiplier)
       take_over_nearest(space.communicator());
     kept_at_points = false;
     placed = has_pieces = true;
@@ -162,7 +162,7 @@ namespace moraine
   template <int dim>
   void
   ImplicitBoundary<dim>::find_pieces(const GridSpace<dim> &space,
-                                     const double          reach)
+                                     const double          search_tolerance)
   {
     const BoundingBox<dim> surface_box = at_start.bounding_box();
     for (const auto &cell :
@@ -178,7 +178,7 @@ namespace moraine
         if (overlap(box_of<dim>(vertices),
                     surface_box,
                     1e-9 * cell->diameter()))
-          add_pieces(space, cell, vertices, reach);
+          add_pieces(space, cell, vertices, search_tolerance);
       }
     std::stable_sort(boundary_points.begin(),
                      boundary_points.end(),
@@ -200,7 +200,7 @@ namespace moraine
     const GridSpace<dim>                        &space,
     const typename GridSpace<dim>::CellIterator &cell,
     const CellVertices<dim>                     &vertices,
-    const double                                 reach)
+    const double                                 search_tolerance)
   {
     std::vector<SurfacePoint<dim>> pieces;
     // The mesh as it was built decides, so that the points stay the same ones.
@@ -209,7 +209,8 @@ namespace moraine
                     pieces);
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        const auto owner = nearest_active_cell(space, cell, piece.x, reach);
+        const auto owner =
+          nearest_active_cell(space, cell, piece.x, search_tolerance);
         if (owner.state() != IteratorState::valid || !owner->is_locally_owned())
           continue;
         BoundaryPoint<dim> point;
@@ -306,7 +307,7 @@ namespace moraine
         point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
-        point.multiplier = how.carries_reaction ?
+        point.multiplier = how.carries_multiplier ?
                              turn * point.multiplier_at_start :
                              Tensor<1, dim>();
       }
@@ -359,13 +360,13 @@ namespace moraine
   ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
                                  const std::vector<Tensor<1, dim>> &violations)
   {
-    if (!how.carries_reaction)
+    if (!how.carries_multiplier)
       return;
     const Placement<dim> &pose = at_start.pose();
-    const Tensor<2, dim> into_frame =
+    const Tensor<2, dim>  into_frame =
       constraint.kind == Constraint<dim>::roller ?
-        transpose(pose.rotation()) :
-        Tensor<2, dim>(unit_symmetric_tensor<dim>());
+         transpose(pose.rotation()) :
+         Tensor<2, dim>(unit_symmetric_tensor<dim>());
     prepared.resize(boundary_points.size());
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
@@ -384,7 +385,7 @@ namespace moraine
   void
   ImplicitBoundary<dim>::keep() noexcept
   {
-    if (!how.carries_reaction)
+    if (!how.carries_multiplier)
       return;
     std::swap(carried, prepared);
     kept_at_points = true;

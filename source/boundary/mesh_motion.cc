@@ -9,7 +9,7 @@ namespace moraine
 
   template <int dim>
   Point<dim>
-  MeshMotion<dim>::Leader::map(const Point<dim> &x,
+  MeshMotion<dim>::Master::map(const Point<dim> &x,
                                const double      t_start,
                                const double      t_end) const
   {
@@ -22,15 +22,15 @@ namespace moraine
 
 
   template <int dim>
-  MeshMotion<dim>::MeshMotion(const Leader &leader)
-    : first(leader)
+  MeshMotion<dim>::MeshMotion(const Master &master)
+    : first(master)
   {}
 
 
 
   template <int dim>
-  MeshMotion<dim>::MeshMotion(const Leader &A,
-                              const Leader &B,
+  MeshMotion<dim>::MeshMotion(const Master &A,
+                              const Master &B,
                               const double  t_0)
     : first(A)
     , second(B)

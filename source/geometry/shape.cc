@@ -45,9 +45,9 @@ namespace moraine
   {
     const Point<dim> centre = cell.vertex_mean();
     const double     value  = level(centre);
-    const double     reach  = cell.radius(centre) - cell.tolerance();
-    return value >= reach ? Overlap::all :
-                            (value <= -reach ? Overlap::none : Overlap::part);
+    const double     radius = cell.radius(centre) - cell.tolerance();
+    return value >= radius ? Overlap::all :
+                             (value <= -radius ? Overlap::none : Overlap::part);
   }
 
   template <int dim>

@@ -31,7 +31,8 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedLoad<dim>::find_cells(const GridSpace<dim> &space, const double reach)
+  CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
+                               const double          search_tolerance)
   {
     typename GridSpace<dim>::CellIterator hint;
     for (Place &place : load_places)
@@ -44,8 +45,9 @@ namespace moraine
             .first;
         if (cell.state() == IteratorState::valid)
           {
-            hint             = cell;
-            const auto owner = nearest_active_cell(space, cell, place.x, reach);
+            hint = cell;
+            const auto owner =
+              nearest_active_cell(space, cell, place.x, search_tolerance);
             if (owner.state() == IteratorState::valid)
               {
                 if (owner->is_locally_owned())

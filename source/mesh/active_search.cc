@@ -86,7 +86,7 @@ namespace moraine
   nearest_active_cell(const GridSpace<dim>                        &space,
                       const typename GridSpace<dim>::CellIterator &cell,
                       const Point<dim>                            &x,
-                      const double                                 reach)
+                      const double search_tolerance)
   {
     if (space.is_active(cell))
       return cell;
@@ -95,14 +95,14 @@ namespace moraine
       space.mesh().search_cache().get_vertex_to_cell_map();
     typename GridSpace<dim>::CellIterator owner =
       space.mesh().triangulation().end();
-    double nearest = reach;
+    double nearest = search_tolerance;
     for (const unsigned int v : cell->vertex_indices())
       for (const auto &neighbour : cells_at_vertex[cell->vertex_index(v)])
         if (space.is_active(neighbour) &&
             distance_to(neighbour->bounding_box(), x) < nearest)
           {
             const double distance = distance_to(vertices_of<dim>(neighbour), x);
-            if (distance < nearest - 1e-9 * reach)
+            if (distance < nearest - 1e-9 * search_tolerance)
               {
                 nearest = distance;
                 owner   = neighbour;

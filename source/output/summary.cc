@@ -30,18 +30,18 @@ namespace moraine
       json["status"] = summary.status;
       if (!summary.message.empty())
         json["message"] = summary.message;
-      json["version"]           = summary.version;
-      json["dimension"]         = summary.dimension;
-      json["ranks"]             = summary.ranks;
-      json["cells"]             = summary.sizes.cells;
-      json["active_cells"]      = summary.sizes.active_cells;
-      json["unknowns"]          = summary.sizes.unknowns;
-      json["points"]            = summary.sizes.points;
-      json["steps"]             = summary.steps;
-      json["rejected_steps"]    = summary.rejected_steps;
-      json["jumps"]             = summary.jumps;
-      json["newton_iterations"] = summary.newton_iterations;
-      json["linear_iterations"] = summary.linear_iterations;
+      json["version"]                = summary.version;
+      json["dimension"]              = summary.dimension;
+      json["ranks"]                  = summary.ranks;
+      json["cells"]                  = summary.sizes.cells;
+      json["active_cells"]           = summary.sizes.active_cells;
+      json["unknowns"]               = summary.sizes.unknowns;
+      json["points"]                 = summary.sizes.points;
+      json["steps"]                  = summary.steps;
+      json["rejected_steps"]         = summary.rejected_steps;
+      json["pseudo_transient_steps"] = summary.n_pseudo_transient;
+      json["newton_iterations"]      = summary.newton_iterations;
+      json["linear_iterations"]      = summary.linear_iterations;
       if (summary.condition_number)
         json["condition_number"] = *summary.condition_number;
       json["bytes_per_point"] = summary.sizes.bytes_per_point;

@@ -84,7 +84,8 @@ namespace moraine
     archive.distribute(returned,
                        {Utilities::MPI::this_mpi_process(
                          background.triangulation().get_communicator())});
-    archive.write(returned + "/count", std::vector<unsigned int>{put_back});
+    archive.write(returned + "/count",
+                  std::vector<unsigned int>{returned_points});
   }
 
 
@@ -145,7 +146,7 @@ namespace moraine
     handler.update_cached_numbers();
     lost_points.clear();
     const auto &counts = archive.integers(returned + "/count");
-    put_back           = std::accumulate(counts.begin(), counts.end(), 0u);
+    returned_points    = std::accumulate(counts.begin(), counts.end(), 0u);
     number_points();
   }
 

@@ -210,8 +210,9 @@ namespace moraine
                 place = *inside;
                 found = GridTools::find_active_cell_around_point(
                   background.search_cache(), place);
-                put_back += found.first.state() == IteratorState::valid &&
-                            found.first->is_locally_owned();
+                returned_points +=
+                  found.first.state() == IteratorState::valid &&
+                  found.first->is_locally_owned();
               }
           const auto &[cell, reference] = found;
           if (cell.state() != IteratorState::valid)
@@ -248,10 +249,10 @@ namespace moraine
   std::optional<Point<dim>>
   PointSet<dim>::place_for(const Point<dim> &x) const
   {
-    if (put_back_distance == 0)
+    if (return_tolerance == 0)
       return {};
     const auto               &cache   = background.search_cache();
-    double                    nearest = put_back_distance;
+    double                    nearest = return_tolerance;
     std::optional<Point<dim>> place;
     const auto                near = boost::geometry::index::nearest(x, 1);
     for (auto vertex = cache.get_used_vertices_rtree().qbegin(near);

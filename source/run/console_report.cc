@@ -167,11 +167,12 @@ namespace moraine
   void
   ConsoleReport<dim>::step_accepted(const AcceptedStep<dim> &step)
   {
-    if (step.jump)
+    if (step.pseudo_transient)
       {
         std::ostringstream text;
         text << std::setprecision(8) << "no way on from t = " << step.t_start
-             << "; came to rest at an equilibrium " << *step.jump << " away";
+             << "; came to rest at an equilibrium " << *step.pseudo_transient
+             << " away";
         note(text.str());
       }
     print_step(step, scene.output.residuals, console.stream());
@@ -266,11 +267,11 @@ namespace moraine
               ""));
     has_far_domains = has_far_domains || n_far > 0;
     const auto n_back =
-      Utilities::MPI::sum(model.points->n_put_back(), communicator);
-    if (n_back > n_put_back)
-      note(std::to_string(n_back - n_put_back) +
-           " points that ended outside the mesh were put back onto its edge");
-    n_put_back = n_back;
+      Utilities::MPI::sum(model.points->n_returned(), communicator);
+    if (n_back > n_returned)
+      note(std::to_string(n_back - n_returned) +
+           " points that ended outside the mesh were returned to its edge");
+    n_returned = n_back;
   }
 
 
@@ -285,8 +286,10 @@ namespace moraine
     console.set_quiet(false);
     console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
             << " rejected, "
-            << (summary.jumps > 0 ? std::to_string(summary.jumps) + " jumps, " :
-                                    "")
+            << (summary.n_pseudo_transient > 0 ?
+                  std::to_string(summary.n_pseudo_transient) +
+                    " pseudo-transient, " :
+                  "")
             << summary.newton_iterations << " Newton iterations, "
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
             << std::setprecision(4) << summary.peak_memory_mib

@@ -284,15 +284,15 @@ namespace moraine
       "once and go on, for bodies that are meant to come apart.",
       patterns::selection({"stop", "note"}));
     prm.add_parameter(
-      "Put back",
-      put_back,
+      "Return tolerance",
+      return_tolerance,
       "Points that end outside the mesh, but by no more than this many cell "
-      "sizes, are put back onto its edge, and the run says so. 0: a point "
+      "sizes, are returned to its edge, and the run says so. 0: a point "
       "outside ends the run. For coarse meshes that turn with a curved wall.",
       patterns::non_negative());
     prm.add_parameter(
-      "Empty stiffness",
-      empty_stiffness,
+      "Fictitious stiffness",
+      fictitious_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
       "of the material's. It acts on the increment of a step and holds nodes "
       "that too few points touch. 0: none, until a matrix is singular or a "

@@ -112,7 +112,7 @@ namespace moraine
     system          = std::make_unique<MechanicsSystem<dim>>(
       *state,
       make_terms(
-        boundaries, grid_conditions, loads, scene.method.empty_stiffness),
+        boundaries, grid_conditions, loads, scene.method.fictitious_stiffness),
       body_names,
       &timer);
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
@@ -145,7 +145,8 @@ namespace moraine
     request_columns(bodies, fields);
     points       = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes = seed_bodies(bodies, method.make_seeder(parameters), *points);
-    points->allow_put_back(parameters.put_back * mesh->cell_size());
+    points->set_return_tolerance(parameters.return_tolerance *
+                                 mesh->cell_size());
     basis = method.make_basis({parameters, *space, *points, bodies});
     basis->initialise_points(*points);
   }

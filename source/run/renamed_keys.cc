@@ -26,7 +26,9 @@ namespace moraine
        "",
        "'Enforcement = augmented Lagrangian' carries it, 'weighted' and "
        "'penalty' do not"},
-      {"Solver", "Limit points", "jump", "'pseudo-transient'"}};
+      {"Solver", "Limit points", "jump", "'pseudo-transient'"},
+      {"Method", "Put back", "", "'Return tolerance'"},
+      {"Method", "Empty stiffness", "", "'Fictitious stiffness'"}};
   } // namespace
 
 

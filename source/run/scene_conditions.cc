@@ -258,8 +258,8 @@ namespace moraine
 
 
     template <int dim>
-    typename MeshMotion<dim>::Leader
-    leader_called(const std::string                        &name,
+    typename MeshMotion<dim>::Master
+    master_called(const std::string                        &name,
                   const std::string                        &key,
                   const BackgroundMesh<dim>                &mesh,
                   const std::vector<ImplicitBoundary<dim>> &boundaries,
@@ -309,15 +309,15 @@ namespace moraine
                    const std::vector<GridCondition<dim>>    &conditions)
   {
     const MeshMotionParameters &parameters = scene.mesh_motion;
-    const auto leader = [&](const std::string &name, const std::string &key) {
-      return leader_called<dim>(name, key, mesh, boundaries, conditions);
+    const auto master = [&](const std::string &name, const std::string &key) {
+      return master_called<dim>(name, key, mesh, boundaries, conditions);
     };
     if (!parameters.follow.empty())
-      return MeshMotion<dim>(leader(parameters.follow, "Follow"));
+      return MeshMotion<dim>(master(parameters.follow, "Follow"));
     if (parameters.stretch.empty())
       return {};
-    const auto A = leader(parameters.stretch[0], "Stretch between");
-    const auto B = leader(parameters.stretch[1], "Stretch between");
+    const auto A = master(parameters.stretch[0], "Stretch between");
+    const auto B = master(parameters.stretch[1], "Stretch between");
     if (!(A.place.distance(B.place) > 1e-9 * mesh.cell_size()))
       reject("Mesh motion",
              "Stretch between",

@@ -104,7 +104,7 @@ namespace moraine
       summary.sizes.points          = model.points->n_global();
       summary.steps                 = driver.time().n_accepted();
       summary.rejected_steps        = driver.time().n_rejected();
-      summary.jumps                 = counts.jumps;
+      summary.n_pseudo_transient    = counts.n_pseudo_transient;
       summary.newton_iterations     = counts.newton_iterations;
       summary.linear_iterations     = counts.linear_iterations;
       summary.condition_number      = counts.condition_number;

@@ -23,7 +23,10 @@ namespace moraine
   namespace
   {
     /** Tried in turn to hold nodes that too few points touch. */
-    constexpr double automatic_empty_stiffness[] = {1e-10, 1e-8, 1e-6, 1e-4};
+    constexpr double automatic_fictitious_stiffness[] = {1e-10,
+                                                         1e-8,
+                                                         1e-6,
+                                                         1e-4};
 
     /** After that many rejections in a row, shorter steps are no cure. */
     constexpr unsigned int rejections_before_support = 2;
@@ -92,16 +95,16 @@ namespace moraine
         time_control.next();
         LA::Vector   x;
         NewtonReport report = solve(x);
-        const bool   jumps  = may_jump(report);
-        if (jumps)
-          report = jump(report, x);
+        const bool   passes = may_pass_limit_point(report);
+        if (passes)
+          report = pseudo_transient(report, x);
         sums.condition_number =
           std::max(sums.condition_number, report.condition_number);
         std::string reason = reason_to_reject(report, x);
         if (reason.empty() && may_support_more())
           reason = point_that_leaves(x);
         if (reason.empty())
-          return accept(report, x, jumps);
+          return accept(report, x, passes);
         ++n_rejections;
         reject(report, reason, n_rejections);
       }
@@ -138,7 +141,7 @@ namespace moraine
 
   template <int dim>
   bool
-  StepDriver<dim>::may_jump(const NewtonReport &report) const
+  StepDriver<dim>::may_pass_limit_point(const NewtonReport &report) const
   {
     return !report.converged() && !time_control.can_cut() &&
            report.status != NewtonStatus::linear_solver_failed &&
@@ -149,12 +152,14 @@ namespace moraine
 
   template <int dim>
   NewtonReport
-  StepDriver<dim>::jump(const NewtonReport &failed, LA::Vector &x)
+  StepDriver<dim>::pseudo_transient(const NewtonReport &failed, LA::Vector &x)
   {
-    NewtonReport report = newton.jump(*model.system, *model.linear_solver, x);
+    NewtonReport report =
+      newton.pseudo_transient(*model.system, *model.linear_solver, x);
     count(report);
     if (!report.converged())
-      report.message = failed.message + "; no jump: " + report.message;
+      report.message =
+        failed.message + "; pseudo-transient continuation: " + report.message;
     return report;
   }
 
@@ -175,7 +180,7 @@ namespace moraine
   void
   StepDriver<dim>::accept(const NewtonReport &report,
                           const LA::Vector   &x,
-                          const bool          jumped)
+                          const bool          was_pseudo_transient)
   {
     if (model.mesh_motion.moves())
       model.mesh->check_motion([&](const Point<dim> &X) {
@@ -199,9 +204,9 @@ namespace moraine
     first_step = false;
 
     std::optional<double> distance;
-    if (jumped)
+    if (was_pseudo_transient)
       {
-        ++sums.jumps;
+        ++sums.n_pseudo_transient;
         double largest = 0;
         for (const auto &u : increments)
           largest = std::max(largest, u.norm());
@@ -255,10 +260,10 @@ namespace moraine
                                     const LA::Vector   &x)
   {
     if (report.status == NewtonStatus::linear_solver_failed &&
-        method.empty_stiffness == 0 && !support)
+        method.fictitious_stiffness == 0 && !support)
       return report.message +
              " (nodes that too few points touch can be the cause; "
-             "'Empty stiffness = 1e-6' in section 'Method' holds them)";
+             "'Fictitious stiffness = 1e-6' in section 'Method' holds them)";
     if (report.status == NewtonStatus::diverged ||
         report.status == NewtonStatus::too_many_iterations)
       return report.message + place_of_imbalance(*model.space,
@@ -278,8 +283,8 @@ namespace moraine
   bool
   StepDriver<dim>::may_support_more() const
   {
-    return support &&
-           sums.n_empty_stiffness < std::size(automatic_empty_stiffness);
+    return support && sums.n_fictitious_stiffness <
+                        std::size(automatic_fictitious_stiffness);
   }
 
 
@@ -288,11 +293,13 @@ namespace moraine
   bool
   StepDriver<dim>::hold_empty_parts(const std::string &reason)
   {
-    if (method.empty_stiffness > 0 ||
-        sums.n_empty_stiffness == std::size(automatic_empty_stiffness))
+    if (method.fictitious_stiffness > 0 ||
+        sums.n_fictitious_stiffness ==
+          std::size(automatic_fictitious_stiffness))
       return false;
     MechanicsSystem<dim> &system = *model.system;
-    const double fraction = automatic_empty_stiffness[sums.n_empty_stiffness];
+    const double          fraction =
+      automatic_fictitious_stiffness[sums.n_fictitious_stiffness];
     if (support)
       support->set_fraction(fraction);
     else
@@ -308,13 +315,13 @@ namespace moraine
         support = term.get();
         system.add(std::move(term));
       }
-    ++sums.n_empty_stiffness;
+    ++sums.n_fictitious_stiffness;
     std::ostringstream text;
     text << reason
          << ": probably too few points touch some nodes; from here on empty "
             "parts of cells have "
          << fraction
-         << " of the material's stiffness (Method / Empty stiffness)";
+         << " of the material's stiffness (Method / Fictitious stiffness)";
     tell(text.str());
     return true;
   }

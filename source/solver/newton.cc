@@ -205,8 +205,8 @@ namespace moraine
     std::string
     Iteration::cause(const std::string &otherwise) const
     {
-      const std::string fault = system.fault();
-      return fault.empty() ? otherwise : fault;
+      const std::string failure = system.failure();
+      return failure.empty() ? otherwise : failure;
     }
 
 
@@ -442,9 +442,9 @@ namespace moraine
 
 
   NewtonReport
-  Newton::jump(NonlinearSystem &system,
-               LinearSolver    &linear_solver,
-               LA::Vector      &x)
+  Newton::pseudo_transient(NonlinearSystem &system,
+                           LinearSolver    &linear_solver,
+                           LA::Vector      &x)
   {
     system.start_over();
     NewtonReport report = come_to_rest(parameters, system, linear_solver, x);

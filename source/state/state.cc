@@ -100,7 +100,7 @@ namespace moraine
           space.mesh().triangulation().n_active_cells(), 0);
         basis.mark_cells(active);
         changed    = space.set_active_cells(std::move(active));
-        changed    = basis.group_points() || changed;
+        changed    = basis.batch_points() || changed;
         first_step = false;
       }
     reject();
@@ -163,7 +163,7 @@ namespace moraine
     TrialPoints<dim>            trial_points;
     std::vector<Tensor<1, dim>> moves(points.n_local());
     std::vector<Tensor<2, dim>> gradients(points.n_local());
-    for (unsigned int g = 0; g < basis.n_groups(); ++g)
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
         nodal.resize(block.n_nodes);
@@ -232,7 +232,7 @@ namespace moraine
   {
     std::vector<Tensor<1, dim>> increments(points.n_local());
     StencilBlock<dim>           block;
-    for (unsigned int g = 0; g < basis.n_groups(); ++g)
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)

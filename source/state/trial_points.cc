@@ -156,7 +156,7 @@ namespace moraine
         points[i].stress      = set.stress_field()(set.values(p)) +
                            C * symmetric_part(points[i].gradient);
       }
-    fault = points.size();
+    failure = points.size();
   }
 
 
@@ -263,12 +263,12 @@ namespace moraine
         answers[i].internal = internal.data() + i * n_internal;
       }
     material.respond(state.step_time(), make_array_view(answers));
-    fault = points.size();
+    failure = points.size();
     for (unsigned int i = points.size(); i-- > 0;)
       {
         points[i].stress = points[i].principal.tensor(answers[i].stress);
         if (!std::isfinite(answers[i].stress[0]))
-          fault = i;
+          failure = i;
       }
   }
 
@@ -314,13 +314,13 @@ namespace moraine
     material.respond(state.step_time(),
                      measure,
                      make_array_view(tensor_answers));
-    fault = points.size();
+    failure = points.size();
     for (unsigned int i = points.size(); i-- > 0;)
       {
         points[i].stress = tensor_answers[i].stress;
         if (!(points[i].J_increment > 0) ||
             !std::isfinite(points[i].stress[0][0]))
-          fault = i;
+          failure = i;
       }
   }
 

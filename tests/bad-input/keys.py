@@ -33,6 +33,9 @@ refused("unknown section", base + "subsection Weather\n  set Rain = 1\nend\n")
 refused("key of another section", with_line("set Steps = 3"))
 refused("key of an earlier version", settings={
     "Boundaries/left/Carry reaction": "false"})
+for key, value in (("Method/Put back", "0.1"), ("Method/Empty stiffness", "1e-6"),
+                   ("Solver/Limit points", "jump")):
+    refused("key of an earlier version", settings={key: value})
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))

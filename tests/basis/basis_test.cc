@@ -22,7 +22,7 @@ namespace
       scene.mesh.triangulation().n_active_cells(), 0);
     scene.basis->mark_cells(active);
     scene.space.set_active_cells(std::move(active));
-    scene.basis->group_points();
+    scene.basis->batch_points();
   }
 
 
@@ -39,7 +39,7 @@ namespace
     prepare(scene);
     std::vector<unsigned int> seen(scene.points.n_local(), 0);
     StencilBlock<dim>         block;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)
@@ -116,7 +116,7 @@ namespace
     prepare(scene);
     StencilBlock<2> block;
     unsigned int    compared = 0;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)

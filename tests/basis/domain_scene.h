@@ -177,7 +177,7 @@ namespace moraine
                                         0);
       basis->mark_cells(active);
       space.set_active_cells(std::move(active));
-      basis->group_points();
+      basis->batch_points();
     }
 
     /** Values at the nodes of a displacement given as a function. */
@@ -198,7 +198,7 @@ namespace moraine
       std::vector<dealii::Tensor<1, dim>> increments(points.n_local());
       std::vector<dealii::Tensor<2, dim>> gradients(points.n_local());
       StencilBlock<dim>                   block;
-      for (unsigned int g = 0; g < basis->n_groups(); ++g)
+      for (unsigned int g = 0; g < basis->n_batches(); ++g)
         {
           basis->evaluate(g, block);
           for (unsigned int p = 0; p < block.n_points; ++p)
@@ -245,8 +245,7 @@ namespace moraine
     {
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
-          double *values =
-            points.values(p) + offset("deformation_gradient");
+          double *values = points.values(p) + offset("deformation_gradient");
           dealii::Tensor<2, dim> F, increment = gradients[p];
           for (unsigned int i = 0; i < dim; ++i)
             {

@@ -115,7 +115,7 @@ namespace
       disturb(scene, disturbance);
     std::vector<unsigned int> seen(scene.points.n_local(), 0);
     StencilBlock<dim>         block;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)
@@ -199,7 +199,7 @@ namespace
              std::pair<double, Tensor<1, dim>>>
                       all;
     StencilBlock<dim> block;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)
@@ -430,7 +430,7 @@ namespace
       {
         const auto nodal = scene.nodal(
           [&](const Point<dim> &x) { return smooth_move<dim>(x, step); });
-        EXPECT_EQ(scene.basis->fault_of(nodal), "");
+        EXPECT_EQ(scene.basis->failure_of(nodal), "");
         scene.accept(nodal);
       }
 
@@ -484,7 +484,7 @@ namespace
 
   TEST(Domains, Cpdi2TakesTheVolumesOfSubCells)
   {
-    // Gauss points of cells askew: weight times Jacobian is not the volume.
+    // Gauss points of skewed cells: weight times Jacobian is not the volume.
     DomainSceneOptions options;
     options.distorted = true;
     options.layout    = PointLayout::gauss;
@@ -560,7 +560,7 @@ namespace
     const DomainScene<dim>      scene(options);
     std::vector<Tensor<1, dim>> sums(scene.space.n_nodes());
     StencilBlock<dim>           block;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)
@@ -737,7 +737,7 @@ namespace
 
 
 
-  TEST(Domains, FaultNamesAPoint)
+  TEST(Domains, FailureNamesAPoint)
   {
     DomainSceneOptions options;
     options.lower = 1;
@@ -748,24 +748,24 @@ namespace
         DomainScene<2> scene(options);
         const auto     still =
           scene.nodal([](const Point<2> &) { return Tensor<1, 2>(); });
-        EXPECT_EQ(scene.basis->fault_of(still), "");
+        EXPECT_EQ(scene.basis->failure_of(still), "");
         // A turn by more than 90 degrees for GIMP, a reflection for CPDI2.
         const Tensor<2, 2> F = method == Method::cpdi2 ?
                                  tensor<2>(-1, 0, 0, 1) :
                                  tensor<2>(-0.6, -0.8, 0.8, -0.6);
-        const std::string  fault =
-          scene.basis->fault_of(scene.nodal([&](const Point<2> &x) {
+        const std::string  failure =
+          scene.basis->failure_of(scene.nodal([&](const Point<2> &x) {
             return F * (x - Point<2>(2, 2)) - (x - Point<2>(2, 2));
           }));
         if (scene.points.n_local() > 0)
           {
-            EXPECT_EQ(fault.rfind("point " +
-                                    std::to_string(scene.points.id(0)) +
-                                    " at (",
-                                  0),
+            EXPECT_EQ(failure.rfind("point " +
+                                      std::to_string(scene.points.id(0)) +
+                                      " at (",
+                                    0),
                       0u)
-              << fault;
-            EXPECT_NE(fault.find("its"), std::string::npos);
+              << failure;
+            EXPECT_NE(failure.find("its"), std::string::npos);
           }
       }
   }
@@ -787,7 +787,7 @@ namespace
     const unsigned int active = scene.space.n_active_cells();
     scene.accept(scene.nodal([](const Point<dim> &x) { return 1e-9 * x; }));
     EXPECT_EQ(scene.space.n_active_cells(), active);
-    EXPECT_EQ(scene.basis->fault_of(scene.nodal(
+    EXPECT_EQ(scene.basis->failure_of(scene.nodal(
                 [](const Point<dim> &) { return Tensor<1, dim>(); })),
               "");
     scene.accept(scene.nodal([](const Point<dim> &x) { return 0.25 * x; }));
@@ -1034,7 +1034,7 @@ namespace
     scene.prepare();
     unsigned int    n_long = 0;
     StencilBlock<2> block;
-    for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+    for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
       {
         scene.basis->evaluate(g, block);
         for (unsigned int p = 0; p < block.n_points; ++p)
@@ -1125,7 +1125,7 @@ namespace
                   0u);
         // Linear functions are reproduced, wherever the corners are.
         StencilBlock<2> block;
-        for (unsigned int g = 0; g < scene.basis->n_groups(); ++g)
+        for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
           {
             scene.basis->evaluate(g, block);
             for (unsigned int p = 0; p < block.n_points; ++p)

@@ -159,11 +159,11 @@ TEST(Archive, IdsOfTwoNumbersAreOrderedByTheFirst)
 {
   Archive archive;
   archive.distribute("surface", {own_rank(), 1u, own_rank(), 0u}, 2);
-  archive.write("surface/gap",
+  archive.write("surface/violation",
                 std::vector<double>{10. * own_rank() + 1, 10. * own_rank()});
   const Archive whole = archive.gathered(comm);
   for (unsigned int i = 0; own_rank() == 0 && i < 2 * rank_count(); ++i)
-    EXPECT_EQ(whole.numbers("surface/gap")[i], 10. * (i / 2) + i % 2);
+    EXPECT_EQ(whole.numbers("surface/violation")[i], 10. * (i / 2) + i % 2);
 }
 
 

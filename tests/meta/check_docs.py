@@ -73,7 +73,7 @@ GOOD = {
     "tests/steps/step-1.output": "1 2\n",
     "doc/steps/step-1/results.md": "```\n1 2\n```\n",
 }
-FAULTS = [
+DEFECTS = [
     {"doc/b.md": "[c](c.md)\n"},
     {"doc/figures/c.png": "picture\n"},
     {"doc/verification/ring.md": "# Ring\n"},
@@ -82,4 +82,4 @@ FAULTS = [
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

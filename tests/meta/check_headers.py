@@ -46,7 +46,7 @@ GOOD = {
     "source/core/b.cc": "int b;\n",
     "source/precompiled.h": "",
 }
-FAULTS = [
+DEFECTS = [
     {"include/moraine/core/b.h": GUARDED},
     {"include/moraine/core/b.h": "#pragma once\n"},
     {"source/core/a.cc": "#include <moraine/core/b.h>\n"},
@@ -56,4 +56,4 @@ FAULTS = [
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

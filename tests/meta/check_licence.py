@@ -40,7 +40,7 @@ GOOD = {
     "CMakeLists.txt": HEAD,
     "build/CMakeLists.txt": "",
 }
-FAULTS = [
+DEFECTS = [
     {"source/core/b.cc": "int a;\n"},
     {"include/moraine/core/b.h": "\n\n\n\n" + HEAD},
     {"tests/a.py": f"# {LICENCE}\n"},
@@ -49,4 +49,4 @@ FAULTS = [
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

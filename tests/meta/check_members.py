@@ -94,7 +94,7 @@ GOOD = {
     "source/a/functions.cc": class_with(
         20, "std::function<int(const A &, B)> f{N};"),
 }
-FAULTS = [
+DEFECTS = [
     {"include/moraine/a/c.h": class_with(21)},
     {"source/a/c.cc": class_with(21, "const A<dim> &a{N};")},
     {"source/a/c.cc": class_with(21, "std::function<int(A, B)> f{N};")},
@@ -105,4 +105,4 @@ FAULTS = [
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

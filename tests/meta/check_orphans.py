@@ -30,11 +30,11 @@ GOOD = {
     "prm/a/block-30.prm": "set A = 1\n",
     "tests/CMakeLists.txt": "add_scene(a/block-0.prm)\nadd_scene(a/block-30)\n",
 }
-FAULTS = [
+DEFECTS = [
     {"prm/a/block-3.prm": "set A = 1\n"},
     {"prm/lost.prm": "set A = 1\n"},
     {"tests/CMakeLists.txt": "add_scene(a/block-0.prm)\n"},
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

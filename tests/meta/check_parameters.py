@@ -37,14 +37,14 @@ def self_check(written):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "doc").mkdir()
-        for planted, fault in ((written, False),
+        for planted, defect in ((written, False),
                                ({**written, name: changed}, True),
                                ({**written, name: None}, True)):
             for file, text in planted.items():
                 (root / file).unlink(missing_ok=True)
                 if text is not None:
                     (root / file).write_text(text)
-            if bool(differences(root, written)) != fault:
+            if bool(differences(root, written)) != defect:
                 sys.exit("the self-check failed")
 
 

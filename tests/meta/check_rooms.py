@@ -95,7 +95,7 @@ GOOD = {
     "source/precompiled.h": "#include <deal.II/base/tensor.h>\n",
     "tests/core/a_test.cc": "#include <moraine/run/a.h>\n",
 }
-FAULTS = [
+DEFECTS = [
     {"include/moraine/mesh/c.h": "#include <moraine/run/b.h>\n"},
     {"source/mesh/c.cc": "#  include \"moraine/solver/b.h\"\n"},
     {"source/core/c.cc": "#include <moraine/mesh/a.h>\n"},
@@ -115,4 +115,4 @@ FAULTS = [
 ]
 
 if __name__ == "__main__":
-    sys.exit(meta.run(check, GOOD, FAULTS))
+    sys.exit(meta.run(check, GOOD, DEFECTS))

@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Moraine authors
 
 """Shared by the meta tests: a command line that checks the repository, and a
-self-check that plants a fault in a copy of nothing and must find it."""
+self-check that plants a defect in a copy of nothing and must find it."""
 
 import pathlib
 import sys
@@ -30,13 +30,13 @@ def plant(root, content):
         path.write_text(text)
 
 
-def run(check, good, faults):
+def run(check, good, defects):
     """
     check(root) returns a list of complaints. First the self-check: a tree with
-    the files of `good` must give none, and each of `faults`, planted on top of
+    the files of `good` must give none, and each of `defects`, planted on top of
     it, must give one. Then the repository named on the command line.
     """
-    for planted in [{}] + faults:
+    for planted in [{}] + defects:
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             plant(root, good)
@@ -48,5 +48,5 @@ def run(check, good, faults):
     complaints = check(pathlib.Path(sys.argv[1]).resolve())
     for complaint in complaints:
         print(complaint)
-    print(f"{len(faults)} planted faults found; {len(complaints)} complaints")
+    print(f"{len(defects)} planted defects found; {len(complaints)} complaints")
     return 1 if complaints else 0

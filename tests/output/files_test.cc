@@ -237,7 +237,7 @@ namespace moraine
   "points": 5000000000,
   "steps": 0,
   "rejected_steps": 0,
-  "jumps": 0,
+  "pseudo_transient_steps": 0,
   "newton_iterations": 0,
   "linear_iterations": 0,
   "bytes_per_point": 0,

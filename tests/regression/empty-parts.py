@@ -28,7 +28,7 @@ text("also where none is needed", effect in run(scene).summary["effects"])
 for epsilon, limit in ((1e-8, 1e-6), (1e-4, 1e-5)):
     bound(f"largest change of displacements with {epsilon:g}",
           largest_difference(on_its_own,
-                             run(scene, {**at, "Method/Empty stiffness":
+                             run(scene, {**at, "Method/Fictitious stiffness":
                                          epsilon})), limit)
 
 unloaded = run(scene, {**at, "Loads/weight/Value": "0; -0.1",

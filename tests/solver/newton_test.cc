@@ -574,19 +574,19 @@ namespace
   }
 
   Outcome
-  jump(NonlinearSystem &system)
+  pseudo_transient(NonlinearSystem &system)
   {
     LinearSolver linear_solver(LinearSolverParameters(), 2);
     LA::Vector   x;
     Outcome      outcome;
-    outcome.report    = Newton({}).jump(system, linear_solver, x);
+    outcome.report    = Newton({}).pseudo_transient(system, linear_solver, x);
     outcome.x         = SmallSystem::everywhere(x);
     outcome.n_set_ups = linear_solver.n_set_ups();
     return outcome;
   }
 } // namespace
 
-TEST(Newton, JumpsWhereThePathEnds)
+TEST(Newton, PseudoTransientWhereThePathEnds)
 {
   // Beyond 2 / sqrt(27) = 0.3849 there is no equilibrium with x < 0.
   SmallSystem near_the_end = snap_through(0.3848);
@@ -594,7 +594,7 @@ TEST(Newton, JumpsWhereThePathEnds)
   SmallSystem system = snap_through(0.39);
   EXPECT_FALSE(solve(system).report.converged());
   SmallSystem again   = snap_through(0.39);
-  const auto  outcome = jump(again);
+  const auto  outcome = pseudo_transient(again);
   EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
   const double x = outcome.x[0];
   EXPECT_GT(x, 1.);
@@ -603,17 +603,17 @@ TEST(Newton, JumpsWhereThePathEnds)
   EXPECT_LT(outcome.report.iterations, 60u);
 }
 
-TEST(Newton, AJumpEndsAtTheNearestRest)
+TEST(Newton, PseudoTransientEndsAtTheNearestRest)
 {
   // An equilibrium on the way is where a viscous body stops.
   SmallSystem system  = snap_through(0.3);
-  const auto  outcome = jump(system);
+  const auto  outcome = pseudo_transient(system);
   EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
   EXPECT_LT(outcome.x[0], -1. / std::sqrt(3.));
   EXPECT_NEAR(std::pow(outcome.x[0], 3) - outcome.x[0], 0.3, 1e-8);
 }
 
-TEST(Newton, AJumpSaysWhenThereIsNoRest)
+TEST(Newton, PseudoTransientSaysWhenThereIsNoRest)
 {
   // A load of twice what the spring can carry, however far it goes.
   SmallSystem system(
@@ -624,20 +624,21 @@ TEST(Newton, AJumpSaysWhenThereIsNoRest)
     [](const Values &x) {
       return two_by_two(0.5 * std::cos(x[0]), 0., 0., 1.);
     });
-  const auto outcome = jump(system);
+  const auto outcome = pseudo_transient(system);
   EXPECT_FALSE(outcome.report.converged());
   EXPECT_NE(outcome.report.message.find("at rest"), std::string::npos)
     << outcome.report.message;
 
   SmallSystem undefined = not_a_number();
-  EXPECT_EQ(jump(undefined).report.status, NewtonStatus::not_a_number);
+  EXPECT_EQ(pseudo_transient(undefined).report.status,
+            NewtonStatus::not_a_number);
 }
 
-TEST(Newton, AJumpAugmentsToo)
+TEST(Newton, PseudoTransientAugmentsToo)
 {
   double     multiplier = 0.;
   Augmented  system(0.5, multiplier);
-  const auto outcome = jump(system);
+  const auto outcome = pseudo_transient(system);
   EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
   EXPECT_NEAR(outcome.x[1], 0.1, 1e-13);
 }
@@ -654,12 +655,12 @@ TEST(Newton, NoTangentNoConditionNumber)
   EXPECT_FALSE(newton.solve(free, linear_solver, x).condition_number);
 }
 
-TEST(Newton, AJumpForgetsMultipliersThatFailed)
+TEST(Newton, PseudoTransientForgetsMultipliersThatFailed)
 {
   const auto residuals = [](const double left_by_failure) {
     double     multiplier = left_by_failure;
     Augmented  system(0.5, multiplier);
-    const auto outcome = jump(system);
+    const auto outcome = pseudo_transient(system);
     EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
     return outcome.report.residuals;
   };

@@ -23,7 +23,7 @@ for h in CELL_SIZES:
     n, d = round(4 / h), h / 4
     places |= place(f"toe {n}", 8 - d, d) | place(f"top {n}", d, 8 - d)
 fe = run(SCENE, {"Method/Method": "finite element", "Method/Degree": 2,
-                 "Method/Empty stiffness": 0, "Mesh/Cell size": 1,
+                 "Method/Fictitious stiffness": 0, "Mesh/Cell size": 1,
                  "Output/Points": "false", "Output/Mesh": "false", **places})
 text("FE Q2, h = 1: status", fe.summary["status"])
 bound("FE Q2, h = 1: Newton iterations", fe.summary["newton_iterations"], 200)
@@ -51,7 +51,7 @@ for name, h, settings in cases:
           result.reactions["base"][1] / WEIGHT - 1, 1e-8)
 
 # What little the empty parts of cells need at the toe is found by the run.
-result = run(SCENE, {"Mesh/Cell size": 1, "Method/Empty stiffness": 0,
+result = run(SCENE, {"Mesh/Cell size": 1, "Method/Fictitious stiffness": 0,
                      "Method/Domain update": "stretch",
                      "Output/Points": "false", "Output/Mesh": "false"},
              expect=None)

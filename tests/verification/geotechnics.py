@@ -14,7 +14,7 @@ def slope(**settings):
                           for k, v in settings.items()}})
 
 
-held = slope(Empty_stiffness=1e-6)
+held = slope(Fictitious_stiffness=1e-6)
 default = slope()
 elastic = run(SLOPE, {"Mesh/Cell size": 1, **QUIET,
                       "Materials/clay/Model": "linear elastic",

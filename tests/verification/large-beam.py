@@ -16,7 +16,7 @@ def tip(result):
 def beam(**settings):
     keys = {"h": "Mesh/Cell size", "n": "Method/Points per direction",
             "method": "Method/Method", "degree": "Method/Degree",
-            "empty": "Method/Empty stiffness", "load": "Loads/end/Type"}
+            "empty": "Method/Fictitious stiffness", "load": "Loads/end/Type"}
     return run(SCENE, {"Output/Points": "false", "Output/Mesh": "false",
                        **{keys[k]: v for k, v in settings.items()}})
 

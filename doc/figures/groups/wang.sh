@@ -43,13 +43,13 @@ for method in fe mpm cpdi1 cpdi2; do
   run "twist-80-$method" "wang-2018/twist-80-$method" "${quiet[@]}"
   for n in 1 2; do
     run "twist-80-$method-$n" "wang-2018/twist-80-$method" "Mesh/Refinements = $n" \
-      "Method/Put back = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
+      "Method/Return tolerance = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
   done
   run "ellipse-$method" "wang-2018/ellipse-$method"
 done
 # With 2² points the fine cells along the hole run out of points.
 run twist-80-mpm-3 wang-2018/twist-80-mpm "Mesh/Refinements = 2" "Method/Points per direction = 3" \
-  "Method/Put back = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
+  "Method/Return tolerance = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
 run shear wang-2018/shear
 
 # curves of four methods over the angle: torque and force of the hole over E

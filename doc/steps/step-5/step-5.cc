@@ -158,7 +158,7 @@ twist(const Method method)
   // moved. The nodes of finite elements go with the material anyway.
   if (!is_finite_element)
     {
-      typename MeshMotion<dim>::Leader hole;
+      typename MeshMotion<dim>::Master hole;
       hole.motion = conditions[0].motion;
       system.move_mesh_by(MeshMotion<dim>(hole), mesh);
     }

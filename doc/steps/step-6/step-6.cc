@@ -88,7 +88,7 @@ make_conditions(const Plate plate, const BackgroundMesh<dim> &mesh)
 MeshMotion<dim>
 make_mesh_motion()
 {
-  typename MeshMotion<dim>::Leader wall, plate;
+  typename MeshMotion<dim>::Master wall, plate;
   wall.place         = Point<dim>(0, height / 2);
   plate.place        = Point<dim>(length, height / 2);
   plate.displacement = [](const double t) {

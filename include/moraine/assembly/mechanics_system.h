@@ -126,7 +126,7 @@ namespace moraine
     }
 
     std::string
-    fault() const override;
+    failure() const override;
 
     void
     initial_guess(LA::Vector &x) const override;

@@ -37,7 +37,7 @@ namespace moraine
   class Term
   {
   public:
-    /** Takes groups of nodes that are coupled with each other. */
+    /** Takes batches of nodes that are coupled with each other. */
     using Couple =
       std::function<void(const unsigned int *nodes, const unsigned int n)>;
 

@@ -17,8 +17,8 @@ namespace moraine
 {
   /**
    * Turns a point into the nodes it touches with @f$N@f$ and @f$\nabla N@f$.
-   * Points of a cell that touch the same cells, or some of them, form a group;
-   * a group is evaluated at once, so that what is outside the loop over its
+   * Points of a cell that touch the same cells, or some of them, form a batch;
+   * a batch is evaluated at once, so that what is outside the loop over its
    * points costs little.
    */
   template <int dim>
@@ -47,39 +47,39 @@ namespace moraine
     mark_cells(std::vector<unsigned char> &active);
 
     /**
-     * Group the points, after they were found and the cells mark_cells()
+     * Batch the points, after they were found and the cells mark_cells()
      * flagged were activated.
      * @return whether the nodes that occur together changed, so that the
      * sparsity pattern has to follow.
      */
     virtual bool
-    group_points() = 0;
+    batch_points() = 0;
 
     unsigned int
-    n_groups() const
+    n_batches() const
     {
-      return groups.size();
+      return batches.size();
     }
 
-    /** The nodes of a group, without evaluating anything. */
+    /** The nodes of a batch, without evaluating anything. */
     dealii::ArrayView<const unsigned int>
-    group_nodes(const unsigned int group) const
+    batch_nodes(const unsigned int batch) const
     {
-      return {&group_node_list[groups[group].first_node],
-              groups[group].n_nodes};
+      return {&batch_node_list[batches[batch].first_node],
+              batches[batch].n_nodes};
     }
 
-    /** Fill @p block with the stencils of group @p group. */
+    /** Fill @p block with the stencils of batch @p batch. */
     virtual void
-    evaluate(const unsigned int group, StencilBlock<dim> &block) const = 0;
+    evaluate(const unsigned int batch, StencilBlock<dim> &block) const = 0;
 
     /**
      * Why the step that moves nodes by @p nodal_increments cannot be accepted,
      * naming the point of this rank (a domain that turns inside out), or "".
      */
     virtual std::string
-    fault_of([[maybe_unused]] const std::vector<dealii::Tensor<1, dim>>
-               &nodal_increments) const
+    failure_of([[maybe_unused]] const std::vector<dealii::Tensor<1, dim>>
+                 &nodal_increments) const
     {
       return "";
     }
@@ -141,26 +141,26 @@ namespace moraine
     }
 
   protected:
-    struct Group
+    struct Batch
     {
       unsigned int first_point; ///< in order
       unsigned int n_points;
-      unsigned int first_node; ///< in group_node_list
+      unsigned int first_node; ///< in batch_node_list
       unsigned int n_nodes;
     };
 
     /**
-     * Group the points of a cell by the cells they touch: a point whose cells
-     * are all among those of a group joins it, for more zeros in a stencil cost
+     * Batch the points of a cell by the cells they touch: a point whose cells
+     * are all among those of a batch joins it, for more zeros in a stencil cost
      * less than another scatter. @p in_cell holds the cells (n_cells(),
      * contains(), <) and the number of each point, and is sorted; append(cells)
-     * adds a group with its nodes and no points. On return @p cells_of_groups
-     * are those of the new groups.
+     * adds a batch with its nodes and no points. On return @p cells_of_batches
+     * are those of the new batches.
      */
     template <typename Cells, typename Append>
     void
-    group_points_of_cell(std::vector<std::pair<Cells, unsigned int>> &in_cell,
-                         std::vector<Cells> &cells_of_groups,
+    batch_points_of_cell(std::vector<std::pair<Cells, unsigned int>> &in_cell,
+                         std::vector<Cells> &cells_of_batches,
                          const Append       &append)
     {
       std::sort(in_cell.begin(),
@@ -170,42 +170,42 @@ namespace moraine
                                      n_b = b.first.n_cells();
                   return n_a != n_b ? n_a > n_b : a < b;
                 });
-      const unsigned int first_group = groups.size();
-      cells_of_groups.clear();
-      group_of.clear();
+      const unsigned int first_batch = batches.size();
+      cells_of_batches.clear();
+      batch_of.clear();
       for (const auto &[cells, p] : in_cell)
         {
           unsigned int g = 0;
-          while (g < cells_of_groups.size() &&
-                 !cells_of_groups[g].contains(cells))
+          while (g < cells_of_batches.size() &&
+                 !cells_of_batches[g].contains(cells))
             ++g;
-          if (g == cells_of_groups.size())
+          if (g == cells_of_batches.size())
             {
-              cells_of_groups.push_back(cells);
+              cells_of_batches.push_back(cells);
               append(cells);
             }
-          group_of.push_back(g);
+          batch_of.push_back(g);
         }
-      for (unsigned int g = 0; g < cells_of_groups.size(); ++g)
+      for (unsigned int g = 0; g < cells_of_batches.size(); ++g)
         {
-          groups[first_group + g].first_point = order.size();
+          batches[first_batch + g].first_point = order.size();
           for (unsigned int k = 0; k < in_cell.size(); ++k)
-            if (group_of[k] == g)
+            if (batch_of[k] == g)
               order.push_back(in_cell[k].second);
-          groups[first_group + g].n_points =
-            order.size() - groups[first_group + g].first_point;
+          batches[first_batch + g].n_points =
+            order.size() - batches[first_batch + g].first_point;
         }
     }
 
     const GridSpace<dim> &space;
     const PointSet<dim>  &points;
 
-    std::vector<Group>        groups;
+    std::vector<Batch>        batches;
     std::vector<unsigned int> order;
-    std::vector<unsigned int> group_node_list;
+    std::vector<unsigned int> batch_node_list;
 
   private:
-    std::vector<unsigned int> group_of; ///< of group_points_of_cell()
+    std::vector<unsigned int> batch_of; ///< of batch_points_of_cell()
   };
 
 
@@ -222,10 +222,10 @@ namespace moraine
     using Basis<dim>::Basis;
 
     bool
-    group_points() override;
+    batch_points() override;
 
     void
-    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+    evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
   };
 } // namespace moraine
 

@@ -28,7 +28,7 @@ namespace moraine
    * them is empty falls into parts and carries no force across (numerical
    * fracture).
    *
-   * Call it after Basis::group_points(). Collective, the same on all ranks.
+   * Call it after Basis::batch_points(). Collective, the same on all ranks.
    */
   template <int dim>
   std::vector<std::vector<BodyPart<dim>>>

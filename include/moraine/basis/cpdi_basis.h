@@ -42,10 +42,10 @@ namespace moraine
     mark_cells(std::vector<unsigned char> &active) override;
 
     bool
-    group_points() override;
+    batch_points() override;
 
     void
-    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+    evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
     bool
     has_domains() const override
@@ -133,7 +133,7 @@ namespace moraine
     cells_of(const unsigned int p) const;
 
     void
-    append_group(const CornerCells &cells);
+    append_batch(const CornerCells &cells);
 
     const CellSeeder<dim>               seeder;
     const std::string                   name;
@@ -148,11 +148,11 @@ namespace moraine
     std::vector<double>                 corner_values; ///< n_corners for each
     std::vector<double>                 function_weights;
     std::vector<dealii::Tensor<1, dim>> gradient_weights;
-    /** Place of the corner's cell among those of the group. */
-    std::vector<unsigned char> cell_in_group;
-    /** Where the nodes of the cells of a group stand among its nodes. */
+    /** Place of the corner's cell among those of the batch. */
+    std::vector<unsigned char> cell_in_batch;
+    /** Where the nodes of the cells of a batch stand among its nodes. */
     std::vector<unsigned char> places_of_nodes;
-    std::vector<unsigned int>  first_place; ///< of a group
+    std::vector<unsigned int>  first_place; ///< of a batch
   };
 
 
@@ -255,7 +255,7 @@ namespace moraine
 
     /**
      * DomainTools::initial_domains(). Volumes become those of the domains
-     * (they differ for Gauss points of full cells that are askew; the sum over
+     * (they differ for Gauss points of full cells that are skewed; the sum over
      * a cell is the same), but for sub-cells that a body cuts.
      */
     void
@@ -263,7 +263,7 @@ namespace moraine
 
     /** A domain would turn inside out: its volume would not be positive. */
     std::string
-    fault_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
+    failure_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
       const override;
 
     void

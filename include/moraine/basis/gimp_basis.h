@@ -91,14 +91,14 @@ namespace moraine
     mark_cells(std::vector<unsigned char> &active) override;
 
     bool
-    group_points() override;
+    batch_points() override;
 
     void
-    evaluate(const unsigned int group, StencilBlock<dim> &block) const override;
+    evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
     /** If corners are tracked: a half length would not be positive. */
     std::string
-    fault_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
+    failure_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
       const override;
 
     void
@@ -184,7 +184,7 @@ namespace moraine
     window_of(const unsigned int point) const;
 
     void
-    append_group(const Window &window);
+    append_batch(const Window &window);
 
     const CellNeighbours<dim> neighbours;
     const unsigned int        points_per_direction;

@@ -11,7 +11,7 @@
 namespace moraine
 {
   /**
-   * How a group of points that touch the same nodes sees the mesh:
+   * How a batch of points that touch the same nodes sees the mesh:
    * @f$N_a(x_p)@f$ and @f$\nabla N_a(x_p)@f$ for each point and node. Assembly
    * sees nothing else of a method.
    */

@@ -35,13 +35,13 @@ namespace moraine
    */
   struct Enforcement
   {
-    double      w_constrained;    ///< @f$w_c@f$
-    double      w_free;           ///< @f$w_f@f$
-    double      adjoint_sign;     ///< @f$s@f$
-    double      stiffness_factor; ///< @f$c_3 h@f$
-    bool        carries_reaction; ///< between steps
-    bool        augments;         ///< within a step, until the constraint holds
-    std::string name;             ///< as scenes call it
+    double      w_constrained;      ///< @f$w_c@f$
+    double      w_free;             ///< @f$w_f@f$
+    double      adjoint_sign;       ///< @f$s@f$
+    double      stiffness_factor;   ///< @f$c_3 h@f$
+    bool        carries_multiplier; ///< between steps
+    bool        augments; ///< within a step, until the constraint holds
+    std::string name;     ///< as scenes call it
   };
 
   /**

@@ -100,10 +100,10 @@ namespace moraine
    * What it carries is written by keep() alone; points and their values are
    * derived from that by begin_step() and set_target().
    *
-   * A piece in a cell without unknowns that lies within @p reach of an active
-   * cell belongs to the nearest one and sees its functions continued over the
-   * edge, because the material represented by points close to the edge reaches
-   * over it.
+   * A piece in a cell without unknowns that lies within @p search_tolerance of
+   * an active cell belongs to the nearest one and sees its functions continued
+   * over the edge, because the material represented by points close to the edge
+   * reaches over it.
    *
    * A roller on a curved wall asks that the surface points end on the wall,
    * @f$\phi_{n+1}(x + \Delta u) = 0@f$, if the points move at all; linear
@@ -128,15 +128,16 @@ namespace moraine
 
     /**
      * Place the surface at time @p t and find its pieces. Those outside active
-     * cells count up to a distance @p reach. If the points do not move (@p
-     * moves_points is false, small displacement), the surface stays where it
-     * was at first and its motion is prescribed there. @p cells_changed says
-     * that pieces must be found again even if the surface stands still.
+     * cells count up to a distance @p search_tolerance. If the points do not
+     * move (@p moves_points is false, small displacement), the surface stays
+     * where it was at first and its motion is prescribed there. @p
+     * cells_changed says that pieces must be found again even if the surface
+     * stands still.
      */
     void
     begin_step(const GridSpace<dim> &space,
                const double          t,
-               const double          reach,
+               const double          search_tolerance,
                const bool            moves_points,
                const StrainMeasure   measure,
                const bool            cells_changed);
@@ -256,13 +257,13 @@ namespace moraine
 
   private:
     void
-    find_pieces(const GridSpace<dim> &space, const double reach);
+    find_pieces(const GridSpace<dim> &space, const double search_tolerance);
 
     void
     add_pieces(const GridSpace<dim>                        &space,
                const typename GridSpace<dim>::CellIterator &cell,
                const CellVertices<dim>                     &vertices,
-               const double                                 reach);
+               const double                                 search_tolerance);
 
     /** Evaluate the functions of active cell @p cell_index at every point. */
     void

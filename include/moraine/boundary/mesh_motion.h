@@ -22,7 +22,7 @@ namespace moraine
   {
   public:
     /** A boundary that the mesh goes with. */
-    struct Leader
+    struct Master
     {
       /** In the middle of the boundary at the start. */
       dealii::Point<dim> place;
@@ -40,8 +40,8 @@ namespace moraine
     /** No motion. */
     MeshMotion() = default;
 
-    /** Go with @p leader. */
-    explicit MeshMotion(const Leader &leader);
+    /** Go with @p master. */
+    explicit MeshMotion(const Master &master);
 
     /**
      * Places are those at @p t_0. Stretch along the line between the places of
@@ -49,7 +49,7 @@ namespace moraine
      * @f$x \leftarrow x + (1-s)\, d_A + s\, d_B@f$ with
      * @f$s = (x - x_A)\cdot e\,/\,(x_B - x_A)\cdot e@f$.
      */
-    MeshMotion(const Leader &A, const Leader &B, const double t_0);
+    MeshMotion(const Master &A, const Master &B, const double t_0);
 
     bool
     moves() const
@@ -64,8 +64,8 @@ namespace moraine
         const double              t_end) const;
 
   private:
-    std::optional<Leader>  first;
-    std::optional<Leader>  second;
+    std::optional<Master>  first;
+    std::optional<Master>  second;
     double                 t_0 = 0;
     dealii::Tensor<1, dim> direction;
   };

@@ -73,7 +73,7 @@ namespace moraine
      * first time, ComputationError later.
      */
     void
-    find_cells(const GridSpace<dim> &space, const double reach);
+    find_cells(const GridSpace<dim> &space, const double search_tolerance);
 
     /** Find where the trial increments carry the places. Collective. */
     void

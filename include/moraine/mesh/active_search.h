@@ -11,16 +11,16 @@ namespace moraine
   /**
    * The active cell whose functions serve a place @p x that lies in @p cell:
    * the cell itself, or else the nearest active one around it that is not
-   * further than @p reach, because the material that points close to an edge
-   * stand for reaches over it. Returns end() if there is none. All ranks get
-   * the same answer.
+   * further than @p search_tolerance, because the material that points close to
+   * an edge stand for reaches over it. Returns end() if there is none. All
+   * ranks get the same answer.
    */
   template <int dim>
   typename GridSpace<dim>::CellIterator
   nearest_active_cell(const GridSpace<dim>                        &space,
                       const typename GridSpace<dim>::CellIterator &cell,
                       const dealii::Point<dim>                    &x,
-                      const double                                 reach);
+                      const double search_tolerance);
 
   /**
    * Shape functions of an active cell this rank knows at the place @p x, also

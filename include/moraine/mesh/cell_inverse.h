@@ -14,7 +14,7 @@
 namespace moraine
 {
   /**
-   * The way back from places in and near one cell to its unit box, for many
+   * The inverse map from places in and near one cell to its unit box, for many
    * places. With @f$\eta = \xi - \tfrac12@f$ the multilinear map is
    * @f$x = \sum_m c_m \prod_{d \in m} \eta_d@f$, a sum over all sets m of
    * directions: means and differences of the vertices make the @f$c_m@f$ once,

@@ -11,9 +11,10 @@
 namespace moraine
 {
   /**
-   * deal.II's MappingQ1 with a faster way back to the unit cell, CellInverse,
-   * which is most of what the search for points does on cells that are no
-   * parallelograms. Where that finds nothing, MappingQ1 has the last word.
+   * deal.II's MappingQ1 with a faster inverse map to the unit cell,
+   * CellInverse, which is most of what the search for points does on cells that
+   * are no parallelograms. Where that finds nothing, MappingQ1 has the last
+   * word.
    */
   template <int dim>
   class StraightMapping : public dealii::MappingQ1<dim>

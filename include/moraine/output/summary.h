@@ -40,10 +40,10 @@ namespace moraine
     Sizes        sizes;
     unsigned int steps          = 0;
     unsigned int rejected_steps = 0;
-    /** Steps that ended by Newton::jump(). */
-    unsigned int jumps             = 0;
-    unsigned int newton_iterations = 0;
-    unsigned int linear_iterations = 0;
+    /** Steps that ended by Newton::pseudo_transient(). */
+    unsigned int n_pseudo_transient = 0;
+    unsigned int newton_iterations  = 0;
+    unsigned int linear_iterations  = 0;
     /** Left out if not asked for. */
     std::optional<double> condition_number;
     double                peak_memory_mib = 0;

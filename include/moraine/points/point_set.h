@@ -96,23 +96,23 @@ namespace moraine
 
     /**
      * Let points that end outside the mesh, but not further than @p distance
-     * from it, be put back onto its edge by find_cells() instead of ending the
+     * from it, be returned to its edge by find_cells() instead of ending the
      * run.
      */
     void
-    allow_put_back(const double distance)
+    set_return_tolerance(const double distance)
     {
-      put_back_distance = distance;
+      return_tolerance = distance;
     }
 
-    /** Number of points of this rank that find_cells() put back so far. */
+    /** Number of points of this rank that find_cells() returned so far. */
     unsigned int
-    n_put_back() const
+    n_returned() const
     {
-      return put_back;
+      return returned_points;
     }
 
-    /** The place in the mesh that @p x outside of it is put back to, if any. */
+    /** The place in the mesh that @p x outside of it is returned to, if any. */
     std::optional<dealii::Point<dim>>
     place_for(const dealii::Point<dim> &x) const;
 
@@ -288,8 +288,8 @@ namespace moraine
     std::vector<CellPoints>                        cell_points;
     std::vector<CellIterator>                      cells_of_copies;
     std::vector<LostPoint>                         lost_points;
-    double                                         put_back_distance = 0;
-    unsigned int                                   put_back          = 0;
+    double                                         return_tolerance = 0;
+    unsigned int                                   returned_points  = 0;
   };
 } // namespace moraine
 

@@ -52,7 +52,7 @@ namespace moraine
    * integrates gradients, in full cells; equal sub-cells have their centroids.
    *
    * In 3D the gradients of trilinear shape functions hold products of two
-   * coordinates as well. A sub-cell that a straight-sided body cuts askew has
+   * coordinates as well. A sub-cell that a straight-sided body cuts obliquely has
    * three points of equal volume there, with its centroid as their mean, that
    * integrate these too; where no such triangle lies in the body (next to
    * re-entrant edges) it has one.

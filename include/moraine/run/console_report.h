@@ -79,7 +79,7 @@ namespace moraine
     const RunOptions  options;
     Console          &console;
     dealii::Timer     since_start;
-    unsigned int      n_put_back      = 0;
+    unsigned int      n_returned      = 0;
     bool              has_far_domains = false;
   };
 } // namespace moraine

@@ -33,11 +33,11 @@ namespace moraine
     std::string  point_layout         = "equally spaced";
     std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
-    double       empty_stiffness      = 0.;
+    double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";
     std::string  separation           = "stop";
-    double       put_back             = 0.;
+    double       return_tolerance     = 0.;
 
     void
     add_parameters(dealii::ParameterHandler &prm);

@@ -16,9 +16,9 @@ namespace moraine
   /** What the steps of a run took so far, rejected ones included. */
   struct RunCounts
   {
-    unsigned int          newton_iterations = 0;
-    unsigned int          linear_iterations = 0;
-    unsigned int          jumps             = 0;
+    unsigned int          newton_iterations  = 0;
+    unsigned int          linear_iterations  = 0;
+    unsigned int          n_pseudo_transient = 0;
     std::optional<double> condition_number;
     /** What solved the last linear system. */
     std::string linear_solver;
@@ -26,7 +26,7 @@ namespace moraine
      * Values of the stiffness of empty parts that were tried, because a matrix
      * was singular or steps failed.
      */
-    unsigned int n_empty_stiffness = 0;
+    unsigned int n_fictitious_stiffness = 0;
     /** What may make results less than they look. */
     std::vector<std::string> warnings;
   };
@@ -41,8 +41,8 @@ namespace moraine
     const std::vector<BoundaryReport<dim>> &reports;
     /** Of the nodes. */
     const std::vector<dealii::Tensor<1, dim>> &increments;
-    /** Largest increment of a step that ended by Newton::jump(). */
-    std::optional<double> jump;
+    /** Largest increment of a step that ended by Newton::pseudo_transient(). */
+    std::optional<double> pseudo_transient;
   };
 
   /**

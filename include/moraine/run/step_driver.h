@@ -69,13 +69,14 @@ namespace moraine
     NewtonReport
     solve(LA::Vector &x);
 
-    /** The same by Newton::jump() after a solution that @p failed. */
+    /** The same by Newton::pseudo_transient() after a solution that @p failed.
+     */
     NewtonReport
-    jump(const NewtonReport &failed, LA::Vector &x);
+    pseudo_transient(const NewtonReport &failed, LA::Vector &x);
 
-    /** Whether a step that cannot be cut may jump. */
+    /** Whether a step that cannot be cut may be continued in pseudo-time. */
     bool
-    may_jump(const NewtonReport &report) const;
+    may_pass_limit_point(const NewtonReport &report) const;
 
     /** Add what a solve took to the sums. */
     void
@@ -110,7 +111,9 @@ namespace moraine
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
 
     void
-    accept(const NewtonReport &report, const LA::Vector &x, const bool jumped);
+    accept(const NewtonReport &report,
+           const LA::Vector   &x,
+           const bool          was_pseudo_transient);
 
     /**
      * After the @p n_rejections-th rejection in a row: shorten the next trial,

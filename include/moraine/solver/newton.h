@@ -135,7 +135,9 @@ namespace moraine
      * solution that failed leaves its multipliers.
      */
     NewtonReport
-    jump(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
+    pseudo_transient(NonlinearSystem &system,
+                     LinearSolver    &linear_solver,
+                     LA::Vector      &x);
 
     using Watcher = std::function<void(const NewtonIteration &)>;
 

@@ -57,7 +57,7 @@ namespace moraine
      * Why the residual of the last assemble() is not finite, or "". Collective.
      */
     virtual std::string
-    fault() const
+    failure() const
     {
       return "";
     }

@@ -50,7 +50,7 @@ namespace moraine
           const StrainMeasure measure = StrainMeasure::small);
 
     /**
-     * Bring cells, unknowns and groups up to date with the points.
+     * Bring cells, unknowns and batches up to date with the points.
      * @return whether the coupling of unknowns changed. Collective.
      */
     bool

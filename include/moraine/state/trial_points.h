@@ -129,9 +129,9 @@ namespace moraine
     /** The first of the points without a stress; n_points() if there is none.
      */
     unsigned int
-    first_fault() const
+    first_failure() const
     {
-      return fault;
+      return failure;
     }
 
     unsigned int
@@ -201,7 +201,7 @@ namespace moraine
     bool                                isotropic       = true;
     unsigned int                        n_nodes         = 0;
     unsigned int                        n_internal      = 0;
-    unsigned int                        fault           = 0;
+    unsigned int                        failure         = 0;
     const dealii::Tensor<1, dim>       *block_gradients = nullptr;
     const dealii::Tensor<1, dim>       *moved_gradients = nullptr;
     std::vector<dealii::Tensor<1, dim>> moved;
