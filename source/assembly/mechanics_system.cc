@@ -67,9 +67,13 @@ namespace moraine
   MechanicsSystem<dim>::move_mesh_by(const MeshMotion<dim> &motion,
                                      BackgroundMesh<dim>   &mesh)
   {
-    mesh_motion        = motion;
-    moving_mesh        = &mesh;
     context.mesh_moves = motion.moves();
+    if (motion.moves())
+      move_mesh = [this, motion, &mesh]() {
+        mesh.move_vertices([&](const Point<dim> &X) {
+          return motion.map(X, context.t_start, context.t_end);
+        });
+      };
   }
 
 
@@ -113,6 +117,32 @@ namespace moraine
       state.mesh_after_step() == MeshAfterStep::follow_material;
     context.search_tolerance = point_size(state);
     context.cell_materials.update(state);
+    try
+      {
+        begin_terms();
+      }
+    catch (...)
+      {
+        // What is new by now is not told again.
+        sums.clear();
+        throw;
+      }
+    if (context.couplings_changed)
+      {
+        if (before_new_tangent)
+          before_new_tangent();
+        set_up_unknowns();
+      }
+    else if (context.cells_moved)
+      rigid_modes = rigid_modes_of(state.grid());
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::begin_terms()
+  {
     bool new_couplings = context.couplings_changed;
     for (const auto &term : terms)
       {
@@ -123,14 +153,6 @@ namespace moraine
       }
     context.couplings_changed =
       Utilities::MPI::logical_or(new_couplings, state.grid().communicator());
-    if (context.couplings_changed)
-      {
-        if (before_new_tangent)
-          before_new_tangent();
-        set_up_unknowns();
-      }
-    else if (context.cells_moved)
-      rigid_modes = rigid_modes_of(state.grid());
   }
 
 
@@ -470,14 +492,7 @@ namespace moraine
       term->prepare(context, unbalanced);
     {
       TimerOutput::Scope scope(timer, "update and search");
-      if (mesh_motion.moves())
-        state.accept([this]() {
-          moving_mesh->move_vertices([this](const Point<dim> &X) {
-            return mesh_motion.map(X, context.t_start, context.t_end);
-          });
-        });
-      else
-        state.accept();
+      state.accept(move_mesh);
     }
     for (const auto &term : terms)
       term->keep();

@@ -229,17 +229,17 @@ namespace moraine
   void
   ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &space)
   {
-    n_nodes = space.nodes_per_cell();
-    values.resize(boundary_points.size() * n_nodes);
-    gradients.resize(boundary_points.size() * n_nodes);
+    shapes.n_nodes = space.nodes_per_cell();
+    shapes.values.resize(boundary_points.size() * shapes.n_nodes);
+    shapes.gradients.resize(boundary_points.size() * shapes.n_nodes);
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
         const auto &point = boundary_points[q];
         moraine::evaluate_shapes(space,
                                  point.cell,
                                  point.x,
-                                 &values[q * n_nodes],
-                                 &gradients[q * n_nodes]);
+                                 &shapes.values[q * shapes.n_nodes],
+                                 &shapes.gradients[q * shapes.n_nodes]);
       }
   }
 

@@ -14,10 +14,18 @@ namespace moraine
 
 
   void
+  SimulationState::add_record(StatePart &part)
+  {
+    records.push_back(&part);
+  }
+
+
+
+  void
   SimulationState::keep(const std::function<void()> &commit)
   {
     accepted.emplace();
-    write(*accepted);
+    write(parts, *accepted);
     commit();
     accepted.reset();
   }
@@ -28,7 +36,7 @@ namespace moraine
   SimulationState::undo()
   {
     if (accepted)
-      read(*accepted);
+      read(parts, *accepted);
     accepted.reset();
     for (StatePart *part : parts)
       part->undo();
@@ -39,6 +47,25 @@ namespace moraine
   void
   SimulationState::write(Archive &archive) const
   {
+    write(parts, archive);
+    write(records, archive);
+  }
+
+
+
+  void
+  SimulationState::read(const Archive &archive)
+  {
+    read(parts, archive);
+    read(records, archive);
+  }
+
+
+
+  void
+  SimulationState::write(const std::vector<StatePart *> &parts,
+                         Archive                        &archive)
+  {
     for (const StatePart *part : parts)
       part->write(archive);
   }
@@ -46,7 +73,8 @@ namespace moraine
 
 
   void
-  SimulationState::read(const Archive &archive)
+  SimulationState::read(const std::vector<StatePart *> &parts,
+                        const Archive                  &archive)
   {
     for (StatePart *part : parts)
       part->read(archive);

@@ -31,8 +31,8 @@ namespace moraine
       if (!summary.message.empty())
         json["message"] = summary.message;
       json["version"]                = summary.version;
-      json["dimension"]              = summary.dimension;
-      json["ranks"]                  = summary.ranks;
+      json["dimension"]              = summary.sizes.dimension;
+      json["ranks"]                  = summary.sizes.ranks;
       json["cells"]                  = summary.sizes.cells;
       json["active_cells"]           = summary.sizes.active_cells;
       json["unknowns"]               = summary.sizes.unknowns;

@@ -52,6 +52,38 @@ namespace moraine
 
   template <int dim>
   void
+  ResultFiles<dim>::write(Archive &archive) const
+  {
+    archive.write("output/n_vtu_written", n_vtu_written);
+    archive.write("output/t_written", t_written);
+    archive.write("output/t_accepted", t_accepted);
+    history.write(archive);
+    points_pvd.write(archive);
+    mesh_pvd.write(archive);
+    if (domains_pvd)
+      domains_pvd->write(archive);
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::read(const Archive &archive)
+  {
+    n_vtu_written = archive.integer("output/n_vtu_written");
+    t_written     = archive.number("output/t_written");
+    t_accepted    = archive.number("output/t_accepted");
+    history.read(archive);
+    points_pvd.read(archive);
+    mesh_pvd.read(archive);
+    if (domains_pvd)
+      domains_pvd->read(archive);
+  }
+
+
+
+  template <int dim>
+  void
   ResultFiles<dim>::step_accepted(const AcceptedStep<dim> &step)
   {
     TimerOutput::Scope scope(timer, "output");

@@ -95,9 +95,9 @@ namespace moraine
       const MPI_Comm   communicator = model.space->communicator();
       const RunCounts &counts       = driver.counts();
       Summary          summary;
-      summary.version     = version;
-      summary.dimension   = dim;
-      summary.ranks       = Utilities::MPI::n_mpi_processes(communicator);
+      summary.version         = version;
+      summary.sizes.dimension = dim;
+      summary.sizes.ranks     = Utilities::MPI::n_mpi_processes(communicator);
       summary.sizes.cells = model.mesh->triangulation().n_global_active_cells();
       summary.sizes.active_cells    = model.space->n_active_cells();
       summary.sizes.unknowns        = model.space->n_dofs();
@@ -167,11 +167,11 @@ namespace moraine
             if (!directory)
               return;
             Summary summary;
-            summary.status    = "failed";
-            summary.message   = what;
-            summary.version   = version;
-            summary.dimension = dim;
-            summary.ranks     = Utilities::MPI::n_mpi_processes(communicator);
+            summary.status          = "failed";
+            summary.message         = what;
+            summary.version         = version;
+            summary.sizes.dimension = dim;
+            summary.sizes.ranks = Utilities::MPI::n_mpi_processes(communicator);
             summary.write(directory->file("summary.json"), communicator);
           }
         catch (const InputError &)

@@ -55,8 +55,17 @@ namespace moraine
     if (model.mesh_motion.moves() ||
         model.state->mesh_after_step() == MeshAfterStep::follow_material)
       lasting.add(*model.space);
+    for (auto &boundary : model.boundaries)
+      lasting.add(boundary);
+    for (auto &load : model.loads.carried)
+      lasting.add(load);
+    for (auto &load : model.loads.on_points)
+      lasting.add(load);
     lasting.add(*model.probes);
     lasting.add(time_control);
+    for (RunObserver<dim> *observer : observers)
+      if (StatePart *record = observer->record())
+        lasting.add_record(*record);
   }
 
 

@@ -94,7 +94,7 @@ namespace moraine
         number("condition_number", *summary.condition_number);
       number("bytes_per_point", summary.sizes.bytes_per_point);
       number("peak_memory_mib", summary.peak_memory_mib);
-      number("ranks", summary.ranks);
+      number("ranks", summary.sizes.ranks);
       cells.emplace_back("version", summary.version);
       return cells;
     }

@@ -215,16 +215,16 @@ namespace moraine
   {
     const Folder folder;
     Summary      summary;
-    summary.version        = "1.0";
-    summary.dimension      = 2;
-    summary.sizes.points   = 5000000000;
-    summary.timings        = {{"solve", 0.5}, {"assembly", 0.25}};
-    summary.effects        = {"internal force"};
-    summary.linear_solvers = {"direct"};
-    summary.errors         = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
-    summary.probes         = {{"u_x at A", 0.125}};
-    summary.reactions      = {{"left", {1., -2.}}};
-    const std::string path = folder.file("summary.json");
+    summary.version         = "1.0";
+    summary.sizes.dimension = 2;
+    summary.sizes.points    = 5000000000;
+    summary.timings         = {{"solve", 0.5}, {"assembly", 0.25}};
+    summary.effects         = {"internal force"};
+    summary.linear_solvers  = {"direct"};
+    summary.errors          = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
+    summary.probes          = {{"u_x at A", 0.125}};
+    summary.reactions       = {{"left", {1., -2.}}};
+    const std::string path  = folder.file("summary.json");
     summary.write(path, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), R"({
   "status": "ok",

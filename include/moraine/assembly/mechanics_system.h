@@ -182,6 +182,10 @@ namespace moraine
     augment(const LA::Vector &x) override;
 
   private:
+    /** Let every term begin a step and learn whether couplings are new. */
+    void
+    begin_terms();
+
     void
     set_up_unknowns();
 
@@ -224,8 +228,7 @@ namespace moraine
     LA::Vector              assembled_at;
     bool                    assembled  = false;
     bool                    predicting = false;
-    MeshMotion<dim>         mesh_motion;
-    BackgroundMesh<dim>    *moving_mesh = nullptr;
+    std::function<void()>   move_mesh; ///< if it moves
     std::string             local_failure;
     std::vector<LA::Vector> rigid_modes;
     ForceScale              scale;

@@ -246,16 +246,24 @@ namespace moraine
     const double *
     N(const unsigned int q) const
     {
-      return &values[q * n_nodes];
+      return &shapes.values[q * shapes.n_nodes];
     }
 
     const dealii::Tensor<1, dim> *
     grad_N(const unsigned int q) const
     {
-      return &gradients[q * n_nodes];
+      return &shapes.gradients[q * shapes.n_nodes];
     }
 
   private:
+    /** Functions of the nodes of each point's cell, point by point. */
+    struct Shapes
+    {
+      unsigned int                        n_nodes = 0; ///< of a cell
+      std::vector<double>                 values;
+      std::vector<dealii::Tensor<1, dim>> gradients;
+    };
+
     void
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);
 
@@ -278,28 +286,26 @@ namespace moraine
     void
     take_over_nearest(const MPI_Comm &communicator);
 
-    const std::string                   boundary_name;
-    MovedSurface<dim>                   at_start;
-    MovedSurface<dim>                   at_end;
-    const RigidMotion<dim>              motion;
-    const Displacement                  displacement;
-    const Constraint<dim>               constraint;
-    const Enforcement                   how;
-    const double                        limit;
-    double                              t_start           = 0;
-    double                              t_placed          = 0;
-    bool                                placed            = false;
-    bool                                has_pieces        = false;
-    bool                                moves_with_points = true;
-    bool                                projects          = false;
-    bool                                turns_multiplier  = false;
-    unsigned int                        n_nodes           = 0;
-    std::vector<CarriedPlace<dim>>      carried;
-    std::vector<CarriedPlace<dim>>      prepared;
-    bool                                kept_at_points = false;
-    std::vector<BoundaryPoint<dim>>     boundary_points;
-    std::vector<double>                 values;
-    std::vector<dealii::Tensor<1, dim>> gradients;
+    const std::string               boundary_name;
+    MovedSurface<dim>               at_start;
+    MovedSurface<dim>               at_end;
+    const RigidMotion<dim>          motion;
+    const Displacement              displacement;
+    const Constraint<dim>           constraint;
+    const Enforcement               how;
+    const double                    limit;
+    double                          t_start           = 0;
+    double                          t_placed          = 0;
+    bool                            placed            = false;
+    bool                            has_pieces        = false;
+    bool                            moves_with_points = true;
+    bool                            projects          = false;
+    bool                            turns_multiplier  = false;
+    std::vector<CarriedPlace<dim>>  carried;
+    std::vector<CarriedPlace<dim>>  prepared;
+    bool                            kept_at_points = false;
+    std::vector<BoundaryPoint<dim>> boundary_points;
+    Shapes                          shapes;
   };
 } // namespace moraine
 

@@ -67,6 +67,11 @@ namespace moraine
     void
     add(StatePart &part);
 
+    /** The same for what is only written after a step was accepted, such as
+     * lists of output: keep() and undo() leave it alone. */
+    void
+    add_record(StatePart &part);
+
     /**
      * The one place in which a step is accepted: @p commit writes the state of
      * all parts. If it throws, undo() has to follow.
@@ -88,7 +93,14 @@ namespace moraine
     read(const Archive &archive);
 
   private:
+    static void
+    write(const std::vector<StatePart *> &parts, Archive &archive);
+
+    static void
+    read(const std::vector<StatePart *> &parts, const Archive &archive);
+
     std::vector<StatePart *> parts;
+    std::vector<StatePart *> records;
     /** What was accepted, while keep() is not done. */
     std::optional<Archive> accepted;
   };

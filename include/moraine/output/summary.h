@@ -20,9 +20,11 @@ namespace moraine
     template <class T>
     using List = std::vector<std::pair<std::string, T>>;
 
-    /** How large the scene is. */
+    /** How large the scene and the run are. */
     struct Sizes
     {
+      unsigned int  dimension       = 0;
+      unsigned int  ranks           = 1;
       std::uint64_t cells           = 0;
       std::uint64_t active_cells    = 0;
       std::uint64_t unknowns        = 0;
@@ -35,8 +37,6 @@ namespace moraine
     /** What went wrong; left out if nothing did. */
     std::string  message;
     std::string  version;
-    unsigned int dimension = 0;
-    unsigned int ranks     = 1;
     Sizes        sizes;
     unsigned int steps          = 0;
     unsigned int rejected_steps = 0;

@@ -20,7 +20,7 @@ namespace moraine
    * summary.json.
    */
   template <int dim>
-  class ResultFiles : public RunObserver<dim>
+  class ResultFiles : public RunObserver<dim>, public StatePart
   {
   public:
     /** @p timer gets the time of writing. */
@@ -28,6 +28,20 @@ namespace moraine
                 const Model<dim>      &model,
                 const OutputDirectory &directory,
                 dealii::TimerOutput   &timer);
+
+    StatePart *
+    record() override
+    {
+      return this;
+    }
+
+    /** Data sets in the group "output". */
+    void
+    write(Archive &archive) const override;
+
+    /** Writes the lists of files and the history of the archive. Collective. */
+    void
+    read(const Archive &archive) override;
 
     void
     run_begins() override;

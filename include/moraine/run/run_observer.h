@@ -56,6 +56,14 @@ namespace moraine
   public:
     virtual ~RunObserver() = default;
 
+    /** What it has written so far, from which it can go on; nullptr: nothing.
+     * It lives as long as the observer. */
+    virtual StatePart *
+    record()
+    {
+      return nullptr;
+    }
+
     virtual void
     run_begins()
     {}

@@ -41,6 +41,13 @@ namespace moraine
       lasting.undo();
     }
 
+    /** The last accepted state and what observers recorded. Collective. */
+    void
+    write(Archive &archive) const
+    {
+      lasting.write(archive);
+    }
+
     const TimeControl &
     time() const
     {
