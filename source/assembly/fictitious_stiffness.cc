@@ -68,6 +68,8 @@ namespace moraine
   std::vector<Effect>
   FictitiousStiffness<dim>::effects(const StepContext<dim> &) const
   {
+    if (fraction == 0)
+      return {};
     std::ostringstream text;
     text << "of empty parts of cells, " << fraction << " of the material's";
     return {{"stiffness of empty parts", "stiffness", text.str()}};

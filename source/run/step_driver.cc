@@ -211,6 +211,8 @@ namespace moraine
       time_control.accept(report.iterations);
     });
     first_step = false;
+    if (support)
+      accepted_fraction = support->stiffness_fraction();
 
     std::optional<double> distance;
     if (was_pseudo_transient)
@@ -241,7 +243,9 @@ namespace moraine
     // should be singular, and nodes run away however short the step.
     const bool supported =
       model.state->mesh_after_step() == MeshAfterStep::reset &&
-      n_rejections == rejections_before_support && hold_empty_parts(reason);
+      n_rejections == rejections_before_support &&
+      (hold_empty_parts(reason) ||
+       (!report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)
       {
@@ -331,6 +335,22 @@ namespace moraine
             "parts of cells have "
          << fraction
          << " of the material's stiffness (Method / Fictitious stiffness)";
+    tell(text.str());
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::take_back_support()
+  {
+    if (!support || support->stiffness_fraction() == accepted_fraction)
+      return false;
+    support->set_fraction(accepted_fraction);
+    std::ostringstream text;
+    text << "the stiffness of empty parts of cells is no cure, it is "
+         << accepted_fraction << " of the material's again";
     tell(text.str());
     return true;
   }

@@ -21,7 +21,7 @@ namespace moraine
   class FictitiousStiffness : public Term<dim>
   {
   public:
-    /** @p fraction > 0. */
+    /** @p fraction >= 0. */
     explicit FictitiousStiffness(const double fraction);
 
     /** From the next trial on. */
@@ -29,6 +29,12 @@ namespace moraine
     set_fraction(const double new_fraction)
     {
       fraction = new_fraction;
+    }
+
+    double
+    stiffness_fraction() const
+    {
+      return fraction;
     }
 
     std::vector<Effect>

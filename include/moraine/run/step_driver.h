@@ -98,6 +98,14 @@ namespace moraine
     bool
     hold_empty_parts(const std::string &reason);
 
+    /**
+     * No stiffness of empty parts let the step end: go back to the one that
+     * the last accepted step had.
+     * @return whether that is another.
+     */
+    bool
+    take_back_support();
+
     /** Whether empty parts have a stiffness that may still be raised. */
     bool
     may_support_more() const;
@@ -149,8 +157,9 @@ namespace moraine
     std::vector<BoundaryReport<dim>>      last_reports;
     std::vector<unsigned int>             n_parts; ///< of each body
     /** Of empty parts of cells, since they were too little without. */
-    FictitiousStiffness<dim> *support    = nullptr;
-    bool                      first_step = true;
+    FictitiousStiffness<dim> *support           = nullptr;
+    double                    accepted_fraction = 0; ///< of the last step
+    bool                      first_step        = true;
   };
 } // namespace moraine
 
