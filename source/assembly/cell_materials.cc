@@ -22,6 +22,17 @@ namespace moraine
     std::vector<double> volumes;
     for (const auto &in_cell : points.cells())
       {
+        const unsigned int cell  = in_cell.cell->active_cell_index();
+        const unsigned int first = points.body(in_cell.first);
+        unsigned int       same  = in_cell.first;
+        while (same < in_cell.last && points.body(same) == first)
+          ++same;
+        if (same == in_cell.last)
+          {
+            body_of_cell[cell] = first;
+            stiffness[cell]    = state.material(first).elastic_stiffness();
+            continue;
+          }
         volumes.clear();
         for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
           {
@@ -31,14 +42,9 @@ namespace moraine
           }
         const double volume =
           std::accumulate(volumes.begin(), volumes.end(), 0.);
-        const unsigned int cell = in_cell.cell->active_cell_index();
         const auto largest = std::max_element(volumes.begin(), volumes.end());
         body_of_cell[cell] = largest - volumes.begin();
-        stiffness[cell] =
-          state.material(body_of_cell[cell]).elastic_stiffness();
-        if (*largest == volume)
-          continue;
-        stiffness[cell] = {0., 0.};
+        stiffness[cell]    = {0., 0.};
         for (unsigned int body = 0; body < volumes.size(); ++body)
           if (volumes[body] > 0)
             {

@@ -39,23 +39,25 @@ namespace moraine
 
 
 
-    /** Where v goes in the components of sym(e_i x v): the row of B^T. */
+    /** Numbers of the Voigt components of a symmetric tensor's entries. */
     template <int dim>
-    std::array<double, n_voigt<dim>>
-    strain_of(const unsigned int i, const Tensor<1, dim> &v)
+    constexpr std::array<std::array<unsigned int, dim>, dim>
+    voigt_numbers()
     {
       if constexpr (dim == 2)
-        return i == 0 ? std::array<double, 3>{{v[0], 0, v[1]}} :
-                        std::array<double, 3>{{0, v[1], v[0]}};
+        return {{{{0, 2}}, {{2, 1}}}};
       else
-        return i == 0 ? std::array<double, 6>{{v[0], 0, 0, v[1], v[2], 0}} :
-               i == 1 ? std::array<double, 6>{{0, v[1], 0, v[0], 0, v[2]}} :
-                        std::array<double, 6>{{0, 0, v[2], 0, v[0], v[1]}};
+        return {{{{0, 3, 4}}, {{3, 1, 5}}, {{4, 5, 2}}}};
     }
 
 
 
-    /** Add the tangent of one point to the upper triangle of node pairs. */
+    /**
+     * Add the tangent of one point to the upper triangle of node pairs,
+     * @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
+     * @f$D_{a,ijk} = w\, (c_{iljk}\, g_{a,l} + \delta_{ij}\, \tau_{kl}\,
+     * g_{a,l})@f$.
+     */
     template <int dim>
     void
     add_tangent(const VoigtMatrix<dim>      &c,
@@ -65,43 +67,44 @@ namespace moraine
                 const unsigned int           n_nodes,
                 FullMatrix<double>          &matrix)
     {
-      constexpr unsigned int                 n = n_voigt<dim>;
-      std::array<std::array<double, n>, dim> B_a, c_B_a;
-      Tensor<1, dim>                         tau_g;
+      constexpr unsigned int n     = n_voigt<dim>;
+      constexpr auto         voigt = voigt_numbers<dim>();
+      double                 D[dim][dim][dim];
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           for (unsigned int i = 0; i < dim; ++i)
             {
-              B_a[i] = strain_of<dim>(i, g[a]);
+              std::array<double, n> c_g;
               for (unsigned int I = 0; I < n; ++I)
                 {
-                  double sum = 0;
-                  for (unsigned int J = 0; J < n; ++J)
-                    sum += c[J][I] * B_a[i][J];
-                  c_B_a[i][I] = w * sum;
+                  c_g[I] = 0;
+                  for (unsigned int l = 0; l < dim; ++l)
+                    c_g[I] += w * c[voigt[i][l]][I] * g[a][l];
                 }
+              for (unsigned int j = 0; j < dim; ++j)
+                for (unsigned int k = 0; k < dim; ++k)
+                  D[i][j][k] = c_g[voigt[j][k]];
             }
           if (tau)
-            for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int k = 0; k < dim; ++k)
               {
-                tau_g[i] = 0;
-                for (unsigned int j = 0; j < dim; ++j)
-                  tau_g[i] += w * (*tau)[i][j] * g[a][j];
+                double tau_g = 0;
+                for (unsigned int l = 0; l < dim; ++l)
+                  tau_g += w * (*tau)[k][l] * g[a][l];
+                for (unsigned int i = 0; i < dim; ++i)
+                  D[i][i][k] += tau_g;
               }
-          for (unsigned int b = a; b < n_nodes; ++b)
+          for (unsigned int i = 0; i < dim; ++i)
             {
-              const double initial = tau ? tau_g * g[b] : 0.;
-              for (unsigned int j = 0; j < dim; ++j)
-                {
-                  const auto B_b = strain_of<dim>(j, g[b]);
-                  for (unsigned int i = 0; i < dim; ++i)
-                    {
-                      double sum = i == j ? initial : 0.;
-                      for (unsigned int I = 0; I < n; ++I)
-                        sum += c_B_a[i][I] * B_b[I];
-                      matrix(dim * a + i, dim * b + j) += sum;
-                    }
-                }
+              double *row = &matrix(dim * a + i, 0);
+              for (unsigned int b = a; b < n_nodes; ++b)
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    double sum = 0;
+                    for (unsigned int k = 0; k < dim; ++k)
+                      sum += D[i][j][k] * g[b][k];
+                    row[dim * b + j] += sum;
+                  }
             }
         }
     }

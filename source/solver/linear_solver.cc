@@ -90,6 +90,12 @@ namespace moraine
       data.smoother_type = symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
       data.set_parameters(list, modes, matrix);
       list.set("ML output", 0);
+      // ML adds this number to the diagonal on the coarsest level: 1e-12,
+      // whatever the unit of stiffness, unless told. It does not find the key
+      // in its own table of valid ones.
+      list.set("ML validate parameter list", false);
+      list.set("coarse: add to diag",
+               std::numeric_limits<double>::epsilon() * matrix.linfty_norm());
       if (near_null_space.empty())
         return;
 

@@ -169,13 +169,9 @@ def compare(name, make, dim, settings, units=UNITS):
             worst = max(worst, max(abs(x - y) for x, y in zip(a, b)) / largest)
         if found[2] != reference[2]:
             same = False
-    # Multigrid has thresholds of its own: it takes more or fewer iterations.
-    if settings["Solver/Solver"] == "direct":
-        text(f"{name}, steps, iterations, points, cells",
-             "the same" if same else "NO")
-        bound(f"{name}, scaled results", worst, 1e-9)
-    else:
-        bound(f"{name}, scaled results", worst, 1e-6)
+    text(f"{name}, steps, iterations, points, cells",
+         "the same" if same else "NO")
+    bound(f"{name}, scaled results", worst, 1e-9)
     at_least(f"{name}, Newton iterations", reference[2][2], 1)
     return reference
 
