@@ -6,6 +6,7 @@
 #include <moraine/core/console.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
+#include <moraine/core/memory.h>
 #include <moraine/core/nearest.h>
 #include <moraine/core/version.h>
 #include <moraine/run/located.h>
@@ -417,7 +418,7 @@ namespace moraine
     };
     try
       {
-        return dispatch(arguments);
+        return with_memory([&]() { return dispatch(arguments); });
       }
     catch (const InputError &error)
       {

@@ -212,7 +212,7 @@ namespace moraine
       std::string status = "ok", message;
       try
         {
-          if (!driver.run())
+          if (!with_memory([&]() { return driver.run(); }))
             {
               status  = "interrupted";
               message = "stopped by the user after the last accepted step";
@@ -261,15 +261,18 @@ namespace moraine
     std::unique_ptr<ConsoleReport<dim>> report;
     try
       {
-        scene = std::make_unique<Scene<dim>>(input);
-        folder.prepare();
-        folder.keep_input(input, scene->parameters(), console);
-        model = std::make_unique<Model<dim>>(*scene, communicator, times.parts);
-        report = std::make_unique<ConsoleReport<dim>>(*scene,
-                                                      *model,
-                                                      options,
-                                                      console);
-        report->describe(begin_first_step(*scene, *model));
+        with_memory([&]() {
+          scene = std::make_unique<Scene<dim>>(input);
+          folder.prepare();
+          folder.keep_input(input, scene->parameters(), console);
+          model =
+            std::make_unique<Model<dim>>(*scene, communicator, times.parts);
+          report = std::make_unique<ConsoleReport<dim>>(*scene,
+                                                        *model,
+                                                        options,
+                                                        console);
+          report->describe(begin_first_step(*scene, *model));
+        });
       }
     catch (const InputError &error)
       {

@@ -23,6 +23,12 @@ namespace moraine
      */
     constexpr double same_time = 1e-9;
 
+    /**
+     * Multipliers take more iterations than an easy step has, whatever the
+     * size: what forced a cut is behind after that many steps without one.
+     */
+    constexpr unsigned int enough_in_a_row = 5;
+
 
 
     std::string
@@ -97,9 +103,13 @@ namespace moraine
     if (on_step_end)
       ++completed_steps;
     ++accepted;
-    if (iterations <= parameters.easy_iterations)
-      size =
-        std::min(size * parameters.growth, one_step * parameters.largest_step);
+    in_a_row = rejected > rejected_before ? 1 : in_a_row + 1;
+    if (iterations <= parameters.easy_iterations || in_a_row == enough_in_a_row)
+      {
+        size     = std::min(size * parameters.growth,
+                        one_step * parameters.largest_step);
+        in_a_row = 0;
+      }
     accepted_size   = size;
     rejected_before = rejected;
   }
@@ -116,6 +126,7 @@ namespace moraine
     archive.write("time/completed_steps", completed_steps);
     archive.write("time/accepted", accepted);
     archive.write("time/rejected", rejected_before);
+    archive.write("time/in_a_row", in_a_row);
   }
 
 
@@ -131,6 +142,7 @@ namespace moraine
     accepted        = archive.integer("time/accepted");
     rejected        = archive.integer("time/rejected");
     rejected_before = rejected;
+    in_a_row        = archive.integer("time/in_a_row");
     undo();
   }
 
@@ -264,10 +276,12 @@ namespace moraine
                       largest_step,
                       "as a fraction of one step; the size tried first",
                       Patterns::Double(1e-9, 1.));
-    prm.add_parameter("Growth",
-                      growth,
-                      "factor on the size after an easy step",
-                      Patterns::Double(1.));
+    prm.add_parameter(
+      "Growth",
+      growth,
+      "factor on the size after an easy step, and after five in a row "
+      "without a cut",
+      Patterns::Double(1.));
     prm.add_parameter("Cut",
                       cut,
                       "factor on the size after a failed step",

@@ -93,6 +93,25 @@ TEST(TimeControl, GrowsBackAfterEasySteps)
   EXPECT_EQ(time.n_rejected(), 2u);
 }
 
+TEST(TimeControl, GrowsBackAfterFiveHardSteps)
+{
+  TimeControl time(steps(2, 2.));
+  time.next();
+  for (unsigned int n = 0; n < 4; ++n)
+    {
+      EXPECT_TRUE(time.reject("test"));
+      time.next();
+    }
+  for (unsigned int n = 1; n <= 5; ++n)
+    {
+      EXPECT_NEAR(time.trial_time(), n / 16., 1e-14);
+      time.accept(100);
+      time.next();
+    }
+  // twice the size; 11/16 are left to the end of the step
+  EXPECT_NEAR(time.trial_time() - time.time(), 11. / 96, 1e-14);
+}
+
 TEST(TimeControl, CutsTheStepThatFailed)
 {
   // The last part before a stop may be shorter than the size; a cut must

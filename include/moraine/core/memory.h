@@ -4,8 +4,11 @@
 #ifndef moraine_core_memory_h
 #define moraine_core_memory_h
 
+#include <moraine/core/exceptions.h>
+
 #include <mpi.h>
 
+#include <new>
 #include <string>
 
 namespace moraine
@@ -42,6 +45,27 @@ namespace moraine
    * is. */
   void
   require_memory(const double bytes, const std::string &what);
+
+  /**
+   * Do @p what. Memory that the system does not give becomes a
+   * ComputationError with a message for the user.
+   */
+  template <class Function>
+  auto
+  with_memory(const Function &what)
+  {
+    try
+      {
+        return what();
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw ComputationError(
+          "not enough memory: the system refused more; larger cells, fewer "
+          "points per direction or an iterative solver (key 'Solver' in "
+          "section 'Solver') need less");
+      }
+  }
 } // namespace moraine
 
 #endif

@@ -87,7 +87,10 @@ namespace moraine
     void
     next();
 
-    /** The trial time becomes the time; the size may grow. */
+    /**
+     * The trial time becomes the time. The size grows after an easy step, and
+     * after several in a row without a cut, however hard.
+     */
     void
     accept(const unsigned int iterations);
 
@@ -169,6 +172,7 @@ namespace moraine
     unsigned int         accepted        = 0;
     unsigned int         rejected        = 0;
     unsigned int         rejected_before = 0; ///< the last accepted step
+    unsigned int         in_a_row        = 0; ///< accepted at one size
     std::string          text;
   };
 
