@@ -10,26 +10,23 @@ namespace moraine
 {
   using namespace dealii;
 
+  template <int dim>
+  Tensor<1, dim>
+  central_gradient(const LevelFunction<dim> &level,
+                   const Point<dim>         &x,
+                   const double              step)
+  {
+    Tensor<1, dim> slope;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Tensor<1, dim> shift = step * Point<dim>::unit_vector(d);
+        slope[d] = (level(x + shift) - level(x - shift)) / (2. * step);
+      }
+    return slope;
+  }
+
   namespace
   {
-    template <int dim>
-    using Pieces = std::vector<SignedPiece<dim>>;
-
-    template <int dim>
-    Tensor<1, dim>
-    gradient(const LevelFunction<dim> &level,
-             const Point<dim>         &x,
-             const double              step)
-    {
-      Tensor<1, dim> slope;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Tensor<1, dim> shift = step * Point<dim>::unit_vector(d);
-          slope[d] = (level(x + shift) - level(x - shift)) / (2. * step);
-        }
-      return slope;
-    }
-
     // A level function in a polytope and its linear part at a point.
     template <int dim>
     struct LinearPart
@@ -40,7 +37,7 @@ namespace moraine
                  const double               size)
         : x(x)
         , value(level(x))
-        , slope(gradient(level, x, 1e-3 * size))
+        , slope(central_gradient(level, x, 1e-3 * size))
       {
         lowest = highest = value;
         for (const auto &vertex : cell.vertices())
@@ -66,7 +63,7 @@ namespace moraine
       Point<dim>
       zero() const
       {
-        return x - value / slope.norm_square() * slope;
+        return linear_zero<dim>(x, value, slope);
       }
 
       Point<dim>     x;
@@ -109,7 +106,7 @@ namespace moraine
       CurveCutter(const LevelFunction<dim> &level,
                   const bool                is_distance,
                   const double              sign,
-                  Pieces<dim>              &pieces)
+                  SignedPieces<dim>        &pieces)
         : level(level)
         , is_distance(is_distance)
         , sign(sign)
@@ -179,7 +176,7 @@ namespace moraine
           {
             const double mean = mean_on_cut<dim>(face, level);
             part              = cell;
-            part.clip(foot - mean / slope.norm_square() * slope, slope);
+            part.clip(linear_zero<dim>(foot, mean, slope), slope);
           }
         if (!part.empty())
           pieces.push_back({sign, part});
@@ -188,7 +185,7 @@ namespace moraine
       const LevelFunction<dim> &level;
       const bool                is_distance;
       const double              sign;
-      Pieces<dim>              &pieces;
+      SignedPieces<dim>        &pieces;
     };
   } // namespace
 
@@ -198,7 +195,7 @@ namespace moraine
                     const bool                 is_distance,
                     const ConvexPolytope<dim> &cell,
                     const double               sign,
-                    Pieces<dim>               &pieces)
+                    SignedPieces<dim>         &pieces)
   {
     constexpr unsigned int depth = (dim == 2 ? 10 : 6);
     CurveCutter<dim>(level, is_distance, sign, pieces).add(cell, dim * depth);
@@ -213,14 +210,17 @@ namespace moraine
     return LinearPart<dim>(level, cell, middle, cell.radius(middle)).overlap();
   }
 
-#define INSTANTIATE(dim)                                          \
-  template void    add_curved_pieces(const LevelFunction<dim> &,  \
-                                     const bool,                  \
-                                     const ConvexPolytope<dim> &, \
-                                     const double,                \
-                                     Pieces<dim> &);              \
-  template Overlap overlap_by_values(const LevelFunction<dim> &,  \
-                                     const ConvexPolytope<dim> &);
+#define INSTANTIATE(dim)                                                 \
+  template Tensor<1, dim> central_gradient(const LevelFunction<dim> &,   \
+                                           const Point<dim> &,           \
+                                           const double);                \
+  template void           add_curved_pieces(const LevelFunction<dim> &,  \
+                                            const bool,                  \
+                                            const ConvexPolytope<dim> &, \
+                                            const double,                \
+                                            SignedPieces<dim> &);        \
+  template Overlap        overlap_by_values(const LevelFunction<dim> &,  \
+                                            const ConvexPolytope<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/curved_surfaces.h>
-
 #include <moraine/core/exceptions.h>
 
 #include <moraine/geometry/cell_cut.h>
+#include <moraine/geometry/curve_subdivision.h>
+#include <moraine/geometry/shapes.h>
+#include <moraine/geometry/surfaces.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -19,197 +20,6 @@
 namespace moraine
 {
   using namespace dealii;
-
-  Arc::Arc(const Point<2>  &centre,
-           const double     radius,
-           const bool       body_inside,
-           const double     start_angle,
-           const double     end_angle,
-           const Extent<2> &extent)
-    : centre(centre)
-    , radius(radius)
-    , sign(body_inside ? 1. : -1.)
-    , start(start_angle * numbers::PI / 180.)
-    , sweep((end_angle - start_angle) * numbers::PI / 180.)
-    , extent(extent)
-  {
-    if (!(radius > 0.) || !std::isfinite(radius))
-      throw InputError("a radius must be positive, found " +
-                       std::to_string(radius));
-    if (!(end_angle > start_angle) || end_angle > start_angle + 360.)
-      throw InputError("an arc must end after its start and within 360 degrees "
-                       "of it, found " +
-                       std::to_string(start_angle) + " to " +
-                       std::to_string(end_angle));
-    std::vector<Point<2>> extremes{at_angle(0.), at_angle(sweep)};
-    for (int quarter = std::ceil(2. * start / numbers::PI);
-         quarter * numbers::PI / 2. < start + sweep;
-         ++quarter)
-      extremes.push_back(at_angle(quarter * numbers::PI / 2. - start));
-    box = BoundingBox<2>(extremes);
-  }
-
-  double
-  Arc::from_start(const double angle) const
-  {
-    constexpr double turn = 2. * numbers::PI;
-    return angle - start - turn * std::floor((angle - start) / turn);
-  }
-
-  Point<2>
-  Arc::at_angle(const double from_start) const
-  {
-    return centre + radius * Point<2>(std::cos(start + from_start),
-                                      std::sin(start + from_start));
-  }
-
-  Tensor<1, 2>
-  Arc::normal_at(const Point<2> &x) const
-  {
-    return sign * unit_or_any<2>(x - centre);
-  }
-
-  NearestPoint<2>
-  Arc::nearest(const Point<2> &x) const
-  {
-    const Tensor<1, 2> arm       = x - centre;
-    const double       level     = sign * (radius - arm.norm());
-    const Tensor<1, 2> normal    = normal_at(x);
-    const double       angle     = from_start(std::atan2(arm[1], arm[0]));
-    constexpr double   tolerance = 1e-10;
-    return {level,
-            normal,
-            (angle <= sweep + tolerance ||
-             angle >= 2. * numbers::PI - tolerance) &&
-              extent.contains(x + level * normal, normal)};
-  }
-
-  namespace
-  {
-    /**
-     * The line of a cell's edge as a circle sees it: points of the circle
-     * within
-     * @p half_angle of the direction @p middle lie on the cell's side if
-     * @p cell_within, else on the other. Computed from the ends in an order
-     * that neighbours share, so both see the same angles, even where it grazes.
-     */
-    struct EdgeOnCircle
-    {
-      double middle, half_angle;
-      bool   cell_within;
-      /** Crossings on the edge or so near that they may be. */
-      std::vector<double> breaks;
-    };
-
-    EdgeOnCircle
-    edge_on_circle(Point<2>        a,
-                   Point<2>        b,
-                   const Point<2> &centre,
-                   const double    radius)
-    {
-      EdgeOnCircle edge;
-      edge.cell_within =
-        std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
-      if (!edge.cell_within)
-        std::swap(a, b);
-      const double       length = a.distance(b);
-      const Tensor<1, 2> t      = (b - a) / length;
-      const Tensor<1, 2> left   = Point<2>(-t[1], t[0]);
-      const double       height = (centre - a) * left;
-      // (R − h)(R + h) keeps the digits of a grazing line
-      const double half_chord =
-        std::sqrt(std::max(0., (radius - height) * (radius + height)));
-      edge.middle = std::atan2(left[1], left[0]);
-      // a line that does not cross leaves every angle on one side, ±π too
-      edge.half_angle = half_chord > 0. ? std::atan2(half_chord, -height) :
-                        height > 0.     ? 4. :
-                                          0.;
-      if (half_chord > 0.)
-        for (const double side : {-1., 1.})
-          {
-            const double abscissa = (centre - a) * t - side * half_chord;
-            // one break too many does no harm, one too few does
-            if (abscissa >= -1e-3 * length && abscissa <= 1.001 * length)
-              edge.breaks.push_back(edge.middle + side * edge.half_angle);
-          }
-      return edge;
-    }
-
-    bool
-    contains(const std::vector<EdgeOnCircle> &edges, const double angle)
-    {
-      return std::all_of(edges.begin(), edges.end(), [angle](const auto &edge) {
-        const double off =
-          std::remainder(angle - edge.middle, 2. * numbers::PI);
-        return (std::abs(off) < edge.half_angle) == edge.cell_within;
-      });
-    }
-  } // namespace
-
-  void
-  Arc::pieces(const CellVertices<2>        &cell,
-              const unsigned int            n_gauss,
-              std::vector<SurfacePoint<2>> &out) const
-  {
-    if (!may_touch<2>(cell, box))
-      return;
-    constexpr unsigned int    cycle[5] = {0, 1, 3, 2, 0};
-    std::vector<EdgeOnCircle> edges;
-    std::vector<double>       breaks{0., sweep};
-    for (unsigned int e = 0; e < 4; ++e)
-      {
-        edges.push_back(
-          edge_on_circle(cell[cycle[e]], cell[cycle[e + 1]], centre, radius));
-        for (const double angle : edges.back().breaks)
-          if (from_start(angle) < sweep)
-            breaks.push_back(from_start(angle));
-      }
-    std::sort(breaks.begin(), breaks.end());
-
-    const double tolerance = 1e-9 * cell_size<2>(cell);
-    for (unsigned int i = 0; i + 1 < breaks.size();)
-      {
-        unsigned int j = i + 1;
-        while (j < breaks.size() &&
-               contains(edges, start + .5 * (breaks[j - 1] + breaks[j])))
-          ++j;
-        const Stretch piece{breaks[i], breaks[j - 1]};
-        i = j;
-        if (piece.to - piece.from > 4e-15)
-          for (const Stretch &part :
-               extent.stretches(piece, tolerance, [this](const double angle) {
-                 const Point<2> x = at_angle(angle);
-                 return std::make_pair(x, normal_at(x));
-               }))
-            add_points(part.from, part.to, n_gauss, out);
-      }
-  }
-
-  void
-  Arc::add_points(const double                  from,
-                  const double                  to,
-                  const unsigned int            n_gauss,
-                  std::vector<SurfacePoint<2>> &out) const
-  {
-    const QGauss<1>    gauss(n_gauss);
-    const double       angle = to - from;
-    const unsigned int n =
-      std::max(1., std::ceil(angle / (numbers::PI / 4.) - 1e-9));
-    for (unsigned int part = 0; part < n; ++part)
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        {
-          const auto x =
-            at_angle(from + (part + gauss.point(q)[0]) * angle / n);
-          out.push_back(
-            {x, normal_at(x), gauss.weight(q) * radius * angle / n});
-        }
-  }
-
-  BoundingBox<2>
-  Arc::bounding_box() const
-  {
-    return box;
-  }
 
   namespace
   {
@@ -381,86 +191,296 @@ namespace moraine
       const double            tolerance;
       const Extent<dim>      &extent;
     };
+
+    template <int dim>
+    class SmoothFace : public Surface<dim>
+    {
+    public:
+      SmoothFace(const std::shared_ptr<const SmoothShape<dim>> &shape,
+                 const bool                                     body_inside,
+                 const Extent<dim>                             &extent)
+        : Surface<dim>(intersection(shape->bounding_box(), extent.box), true)
+        , shape(shape)
+        , sign(body_inside ? 1. : -1.)
+        , extent(extent)
+      {}
+
+      NearestPoint<dim>
+      nearest(const Point<dim> &x) const override
+      {
+        NearestPoint<dim> point = shape->nearest(x);
+        point.level *= sign;
+        point.normal *= sign;
+        point.in_extent =
+          extent.contains(x + point.level * point.normal, point.normal);
+        return point;
+      }
+
+      void
+      pieces(const CellVertices<dim>        &cell,
+             const unsigned int              n_gauss,
+             std::vector<SurfacePoint<dim>> &out) const override
+      {
+        if (!may_touch<dim>(cell, this->box))
+          return;
+        const CellMap<dim> map(cell);
+        const double       size = cell_size<dim>(cell);
+        BoxesWithin<dim>   within(*shape, map, size, extent);
+        within.add(create_unit_bounding_box<dim>(), 4);
+        if (within.boxes.empty())
+          return;
+        // a surface that follows a face is moved into the body, to be found
+        // once
+        const double shift =
+          1e-10 * size *
+          shape->gradient(map.place(within.boxes[0].center()), size).norm();
+        const ReferenceLevelSet<dim> level_set(*shape, sign, map, size, shift);
+        const hp::QCollection<1>     gauss((QGauss<1>(n_gauss)));
+        NonMatching::QuadratureGenerator<dim> generator(gauss);
+        for (const auto &part : within.boxes)
+          {
+            generator.generate(level_set, part);
+            const auto &rule = generator.get_surface_quadrature();
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                const Tensor<2, dim> J = map.jacobian(rule.point(q));
+                Point<dim>           x = map.place(rule.point(q));
+                Tensor<1, dim>       g = shape->gradient(x, size);
+                x = linear_zero<dim>(x, shape->value(x), g);
+                g = shape->gradient(x, size);
+                const Tensor<1, dim> normal = -sign / g.norm() * g;
+                if (!extent.contains(x, normal))
+                  continue;
+                const double stretch =
+                  determinant(J) *
+                  (transpose(invert(J)) * rule.normal_vector(q)).norm();
+                out.push_back({x, normal, rule.weight(q) * stretch});
+              }
+          }
+      }
+
+    protected:
+      std::shared_ptr<const SmoothShape<dim>> shape;
+      double                                  sign;
+      Extent<dim>                             extent;
+    };
+
+    /**
+     * The line of a cell's edge as a circle sees it: points of the circle
+     * within
+     * @p half_angle of the direction @p middle lie on the cell's side if
+     * @p cell_within, else on the other. Computed from the ends in an order
+     * that neighbours share, so both see the same angles, even where it grazes.
+     */
+    struct EdgeOnCircle
+    {
+      double middle, half_angle;
+      bool   cell_within;
+      /** Crossings on the edge or so near that they may be. */
+      std::vector<double> breaks;
+    };
+
+    EdgeOnCircle
+    edge_on_circle(Point<2>        a,
+                   Point<2>        b,
+                   const Point<2> &centre,
+                   const double    radius)
+    {
+      EdgeOnCircle edge;
+      edge.cell_within =
+        std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
+      if (!edge.cell_within)
+        std::swap(a, b);
+      const double       length = a.distance(b);
+      const Tensor<1, 2> t      = (b - a) / length;
+      const Tensor<1, 2> left   = Point<2>(-t[1], t[0]);
+      const double       height = (centre - a) * left;
+      // (R − h)(R + h) keeps the digits of a grazing line
+      const double half_chord =
+        std::sqrt(std::max(0., (radius - height) * (radius + height)));
+      edge.middle = std::atan2(left[1], left[0]);
+      // a line that does not cross leaves every angle on one side, ±π too
+      edge.half_angle = half_chord > 0. ? std::atan2(half_chord, -height) :
+                        height > 0.     ? 4. :
+                                          0.;
+      if (half_chord > 0.)
+        for (const double side : {-1., 1.})
+          {
+            const double abscissa = (centre - a) * t - side * half_chord;
+            // one break too many does no harm, one too few does
+            if (abscissa >= -1e-3 * length && abscissa <= 1.001 * length)
+              edge.breaks.push_back(edge.middle + side * edge.half_angle);
+          }
+      return edge;
+    }
+
+    bool
+    contains(const std::vector<EdgeOnCircle> &edges, const double angle)
+    {
+      return std::all_of(edges.begin(), edges.end(), [angle](const auto &edge) {
+        const double off =
+          std::remainder(angle - edge.middle, 2. * numbers::PI);
+        return (std::abs(off) < edge.half_angle) == edge.cell_within;
+      });
+    }
+
+    class Arc : public SmoothFace<2>
+    {
+    public:
+      Arc(const Point<2>  &centre,
+          const double     radius,
+          const bool       body_inside,
+          const double     start_angle,
+          const double     end_angle,
+          const Extent<2> &extent)
+        : SmoothFace<2>(make_ball<2>(centre, radius), body_inside, extent)
+        , centre(centre)
+        , radius(radius)
+        , start(start_angle * numbers::PI / 180.)
+        , sweep((end_angle - start_angle) * numbers::PI / 180.)
+      {
+        if (!(end_angle > start_angle) || end_angle > start_angle + 360.)
+          throw InputError(
+            "an arc must end after its start and within 360 degrees "
+            "of it, found " +
+            std::to_string(start_angle) + " to " + std::to_string(end_angle));
+        std::vector<Point<2>> extremes{at_angle(0.), at_angle(sweep)};
+        for (int quarter = std::ceil(2. * start / numbers::PI);
+             quarter * numbers::PI / 2. < start + sweep;
+             ++quarter)
+          extremes.push_back(at_angle(quarter * numbers::PI / 2. - start));
+        this->box = intersection(BoundingBox<2>(extremes), extent.box);
+      }
+
+      NearestPoint<2>
+      nearest(const Point<2> &x) const override
+      {
+        constexpr double   tolerance = 1e-10;
+        NearestPoint<2>    point     = SmoothFace<2>::nearest(x);
+        const Tensor<1, 2> arm       = x - centre;
+        const double       angle     = from_start(std::atan2(arm[1], arm[0]));
+        point.in_extent =
+          point.in_extent &&
+          (angle <= sweep + tolerance || angle >= 2. * numbers::PI - tolerance);
+        return point;
+      }
+
+      void
+      pieces(const CellVertices<2>        &cell,
+             const unsigned int            n_gauss,
+             std::vector<SurfacePoint<2>> &out) const override
+      {
+        if (!may_touch<2>(cell, box))
+          return;
+        constexpr unsigned int    cycle[5] = {0, 1, 3, 2, 0};
+        std::vector<EdgeOnCircle> edges;
+        std::vector<double>       breaks{0., sweep};
+        for (unsigned int e = 0; e < 4; ++e)
+          {
+            edges.push_back(edge_on_circle(
+              cell[cycle[e]], cell[cycle[e + 1]], centre, radius));
+            for (const double angle : edges.back().breaks)
+              if (from_start(angle) < sweep)
+                breaks.push_back(from_start(angle));
+          }
+        std::sort(breaks.begin(), breaks.end());
+
+        const double tolerance = 1e-9 * cell_size<2>(cell);
+        for (unsigned int i = 0; i + 1 < breaks.size();)
+          {
+            unsigned int j = i + 1;
+            while (j < breaks.size() &&
+                   contains(edges, start + .5 * (breaks[j - 1] + breaks[j])))
+              ++j;
+            const Stretch piece{breaks[i], breaks[j - 1]};
+            i = j;
+            if (piece.to - piece.from > 4e-15)
+              for (const Stretch &part : extent.stretches(
+                     piece, tolerance, [this](const double angle) {
+                       const Point<2> x = at_angle(angle);
+                       return std::make_pair(x, normal_at(x));
+                     }))
+                add_points(part.from, part.to, n_gauss, out);
+          }
+      }
+
+    private:
+      /** An angle as seen from the start of the arc, in [0, 2π). */
+      double
+      from_start(const double angle) const
+      {
+        constexpr double turn = 2. * numbers::PI;
+        return angle - start - turn * std::floor((angle - start) / turn);
+      }
+
+      Point<2>
+      at_angle(const double from_start) const
+      {
+        return centre + radius * Point<2>(std::cos(start + from_start),
+                                          std::sin(start + from_start));
+      }
+
+      Tensor<1, 2>
+      normal_at(const Point<2> &x) const
+      {
+        return sign * unit_or_any<2>(x - centre);
+      }
+
+      /** Gauss points of the stretch between two angles from the start. */
+      void
+      add_points(const double                  from,
+                 const double                  to,
+                 const unsigned int            n_gauss,
+                 std::vector<SurfacePoint<2>> &out) const
+      {
+        const QGauss<1>    gauss(n_gauss);
+        const double       angle = to - from;
+        const unsigned int n =
+          std::max(1., std::ceil(angle / (numbers::PI / 4.) - 1e-9));
+        for (unsigned int part = 0; part < n; ++part)
+          for (unsigned int q = 0; q < gauss.size(); ++q)
+            {
+              const auto x =
+                at_angle(from + (part + gauss.point(q)[0]) * angle / n);
+              out.push_back(
+                {x, normal_at(x), gauss.weight(q) * radius * angle / n});
+            }
+      }
+
+      Point<2> centre;
+      double   radius;
+      double   start;
+      double   sweep;
+    };
   } // namespace
 
   template <int dim>
-  LevelSetSurface<dim>::LevelSetSurface(
-    const std::shared_ptr<const SmoothShape<dim>> &shape,
-    const bool                                     body_inside,
-    const Extent<dim>                             &extent,
-    const BoundingBox<dim>                        &box)
-    : shape(shape)
-    , body_inside(body_inside)
-    , extent(extent)
-    , box(box)
-  {}
-
-  template <int dim>
-  NearestPoint<dim>
-  LevelSetSurface<dim>::nearest(const Point<dim> &x) const
+  SurfacePointer<dim>
+  make_smooth_face(const std::shared_ptr<const SmoothShape<dim>> &shape,
+                   const bool                                     body_inside,
+                   const Extent<dim>                             &extent)
   {
-    NearestPoint<dim> point = shape->nearest(x);
-    if (!body_inside)
-      {
-        point.level *= -1.;
-        point.normal *= -1.;
-      }
-    point.in_extent =
-      extent.contains(x + point.level * point.normal, point.normal);
-    return point;
+    return std::make_shared<SmoothFace<dim>>(shape, body_inside, extent);
   }
 
-  template <int dim>
-  void
-  LevelSetSurface<dim>::pieces(const CellVertices<dim>        &cell,
-                               const unsigned int              n_gauss,
-                               std::vector<SurfacePoint<dim>> &out) const
+  SurfacePointer<2>
+  make_arc(const Point<2>  &centre,
+           const double     radius,
+           const bool       body_inside,
+           const double     start_angle,
+           const double     end_angle,
+           const Extent<2> &extent)
   {
-    if (!may_touch<dim>(cell, box))
-      return;
-    const CellMap<dim> map(cell);
-    const double       size = cell_size<dim>(cell);
-    BoxesWithin<dim>   within(*shape, map, size, extent);
-    within.add(create_unit_bounding_box<dim>(), 4);
-    if (within.boxes.empty())
-      return;
-    const double sign = body_inside ? 1. : -1.;
-    // a surface that follows a face is moved into the body, to be found once
-    const double shift =
-      1e-10 * size *
-      shape->gradient(map.place(within.boxes[0].center()), size).norm();
-    const ReferenceLevelSet<dim> level_set(*shape, sign, map, size, shift);
-    const hp::QCollection<1>     gauss((QGauss<1>(n_gauss)));
-    NonMatching::QuadratureGenerator<dim> generator(gauss);
-    for (const auto &part : within.boxes)
-      {
-        generator.generate(level_set, part);
-        const auto &rule = generator.get_surface_quadrature();
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const Tensor<2, dim> J = map.jacobian(rule.point(q));
-            Point<dim>           x = map.place(rule.point(q));
-            Tensor<1, dim>       g = shape->gradient(x, size);
-            x -= shape->value(x) / g.norm_square() * g;
-            g                           = shape->gradient(x, size);
-            const Tensor<1, dim> normal = -sign / g.norm() * g;
-            if (!extent.contains(x, normal))
-              continue;
-            const double stretch =
-              determinant(J) *
-              (transpose(invert(J)) * rule.normal_vector(q)).norm();
-            out.push_back({x, normal, rule.weight(q) * stretch});
-          }
-      }
+    return std::make_shared<Arc>(
+      centre, radius, body_inside, start_angle, end_angle, extent);
   }
 
-  template <int dim>
-  BoundingBox<dim>
-  LevelSetSurface<dim>::bounding_box() const
-  {
-    return box;
-  }
-
-  template class LevelSetSurface<2>;
-  template class LevelSetSurface<3>;
+#define INSTANTIATE(dim)                             \
+  template SurfacePointer<dim> make_smooth_face(     \
+    const std::shared_ptr<const SmoothShape<dim>> &, \
+    const bool,                                      \
+    const Extent<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

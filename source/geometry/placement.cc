@@ -27,6 +27,20 @@ namespace moraine
   }
 
   template <int dim>
+  BoundingBox<dim>
+  intersection(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+  {
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::max(a.lower_bound(d), b.lower_bound(d));
+        upper[d] =
+          std::max(lower[d], std::min(a.upper_bound(d), b.upper_bound(d)));
+      }
+    return BoundingBox<dim>(std::make_pair(lower, upper));
+  }
+
+  template <int dim>
   bool
   is_finite(const BoundingBox<dim> &box)
   {
@@ -64,20 +78,6 @@ namespace moraine
   }
 
   template <int dim>
-  Point<dim>
-  Placement<dim>::map(const Point<dim> &X) const
-  {
-    return centre + translation + matrix * (X - centre);
-  }
-
-  template <int dim>
-  Point<dim>
-  Placement<dim>::inverse(const Point<dim> &x) const
-  {
-    return centre + (x - centre - translation) * matrix;
-  }
-
-  template <int dim>
   Placement<dim>
   Placement<dim>::inverse() const
   {
@@ -86,20 +86,6 @@ namespace moraine
     result.translation = -translation;
     result.matrix      = transpose(matrix);
     return result;
-  }
-
-  template <int dim>
-  Tensor<1, dim>
-  Placement<dim>::rotate(const Tensor<1, dim> &v) const
-  {
-    return matrix * v;
-  }
-
-  template <int dim>
-  const Tensor<2, dim> &
-  Placement<dim>::rotation() const
-  {
-    return matrix;
   }
 
   template <int dim>
@@ -186,16 +172,14 @@ namespace moraine
       return axis * cross_product_3d(arm, f);
   }
 
-  template BoundingBox<2>
-  unlimited_box();
-  template BoundingBox<3>
-  unlimited_box();
-  template bool
-  is_finite(const BoundingBox<2> &);
-  template bool
-  is_finite(const BoundingBox<3> &);
-  template class Placement<2>;
-  template class Placement<3>;
-  template class RigidMotion<2>;
-  template class RigidMotion<3>;
+#define INSTANTIATE(dim)                                            \
+  template BoundingBox<dim> unlimited_box();                        \
+  template BoundingBox<dim> intersection(const BoundingBox<dim> &,  \
+                                         const BoundingBox<dim> &); \
+  template bool             is_finite(const BoundingBox<dim> &);    \
+  template class Placement<dim>;                                    \
+  template class RigidMotion<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -3,16 +3,11 @@
 
 #include <moraine/geometry/shape.h>
 
+#include <moraine/geometry/curve_subdivision.h>
+
 namespace moraine
 {
   using namespace dealii;
-
-  template <int dim>
-  bool
-  Shape<dim>::contains(const Point<dim> &p) const
-  {
-    return level(p) > 0.;
-  }
 
   template <int dim>
   ClippedVolume<dim>
@@ -70,9 +65,9 @@ namespace moraine
 
   template <int dim>
   void
-  Shape<dim>::add_pieces(const ConvexPolytope<dim>     &cell,
-                         const double                   sign,
-                         std::vector<SignedPiece<dim>> &pieces) const
+  Shape<dim>::add_pieces(const ConvexPolytope<dim> &cell,
+                         const double               sign,
+                         SignedPieces<dim>         &pieces) const
   {
     if (!cell.empty())
       switch (overlap(cell))
@@ -89,18 +84,11 @@ namespace moraine
   }
 
   template <int dim>
-  bool
-  Shape<dim>::is_straight() const
-  {
-    return false;
-  }
-
-  template <int dim>
   VolumeMoments<dim>
   Shape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
                               const Point<dim>          &reference) const
   {
-    std::vector<SignedPiece<dim>> pieces;
+    SignedPieces<dim> pieces;
     add_pieces_of_part(cell, 1., pieces);
     VolumeMoments<dim> sum;
     for (const auto &piece : pieces)
@@ -109,21 +97,16 @@ namespace moraine
   }
 
   template <int dim>
-  std::vector<std::string>
-  Shape<dim>::parts() const
+  void
+  Shape<dim>::add_pieces_of_part(const ConvexPolytope<dim> &cell,
+                                 const double               sign,
+                                 SignedPieces<dim>         &pieces) const
   {
-    return {};
-  }
-
-  template <int dim>
-  std::shared_ptr<const Surface<dim>>
-  Shape<dim>::rim(const std::string &part) const
-  {
-    Faces faces;
-    add_faces(part, true, {}, faces);
-    if (faces.size() < 2)
-      return faces.empty() ? nullptr : faces[0];
-    return std::make_shared<SurfaceList<dim>>(faces);
+    add_curved_pieces<dim>([this](const Point<dim> &p) { return level(p); },
+                           true,
+                           cell,
+                           sign,
+                           pieces);
   }
 
   template class Shape<2>;

@@ -5,18 +5,14 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/nearest.h>
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/curved_shapes.h>
 #include <moraine/geometry/polygon.h>
-#include <moraine/geometry/straight_shapes.h>
-
-#include <deal.II/base/utilities.h>
+#include <moraine/geometry/shapes.h>
+#include <moraine/geometry/surfaces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
-#include <sstream>
 
 namespace moraine
 {
@@ -24,151 +20,15 @@ namespace moraine
 
   namespace
   {
-    std::string
-    text(const std::vector<double> &list)
+    /** The names in a map of bodies. */
+    template <typename Bodies>
+    std::vector<std::string>
+    names_in(const Bodies &bodies)
     {
-      std::ostringstream out;
-      out.precision(12);
-      for (unsigned int i = 0; i < list.size(); ++i)
-        out << (i == 0 ? "" : ", ") << list[i];
-      return out.str();
-    }
-  } // namespace
-
-  template <int dim>
-  Point<dim>
-  to_point(const std::vector<double> &list,
-           const std::string         &section,
-           const std::string         &key)
-  {
-    if (list.size() != dim)
-      reject(section, key, text(list), std::to_string(dim) + " numbers");
-    Point<dim> p;
-    std::copy(list.begin(), list.end(), p.begin_raw());
-    return p;
-  }
-
-  namespace
-  {
-    std::vector<Point<2>>
-    to_vertices(const std::string &list, const std::string &section)
-    {
-      const std::string     allowed = "at least three 'x y' separated by ';'";
-      std::vector<Point<2>> vertices;
-      for (const auto &vertex : Utilities::split_string_list(list, ';'))
-        {
-          std::string spaced = vertex;
-          std::replace(spaced.begin(), spaced.end(), ',', ' ');
-          std::istringstream in(spaced);
-          Point<2>           x;
-          std::string        rest;
-          if (!(in >> x[0] >> x[1]) || in >> rest || !std::isfinite(x.norm()))
-            reject(section, "Vertices", vertex, allowed);
-          vertices.push_back(x);
-        }
-      if (vertices.size() < 3)
-        reject(section, "Vertices", list, allowed);
-      const auto [i, j]    = first_crossing(vertices);
-      const unsigned int n = vertices.size();
-      if (i == n)
-        return vertices;
-      const auto edge = [n](const unsigned int k) {
-        return std::to_string(k + 1) + "-" + std::to_string((k + 1) % n + 1);
-      };
-      throw InputError(
-        place(section, "Vertices") + ": " +
-        (i == j ?
-           "vertex " + std::to_string(i + 1) + " is repeated by vertex " +
-             std::to_string((i + 1) % n + 1) :
-           "the edges between vertices " + edge(i) + " and " + edge(j) +
-             " meet") +
-        ". Allowed: a polygon that does not touch itself, without the first "
-        "vertex repeated at the end");
-    }
-
-    template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    make_polygon(const ShapeParameters<dim> &p, const std::string &section)
-    {
-      const auto vertices = to_vertices(p.vertices, section);
-      if constexpr (dim == 3)
-        {
-          if (p.extent.size() != 2 || !(p.extent[0] < p.extent[1]))
-            reject(section, "Extent", text(p.extent), "lower z, upper z");
-          return std::make_shared<PolygonShape<3>>(vertices,
-                                                   std::make_pair(p.extent[0],
-                                                                  p.extent[1]));
-        }
-      else
-        return std::make_shared<PolygonShape<2>>(vertices);
-    }
-
-    template <int dim>
-    void
-    check_radii(const ShapeParameters<dim> &p, const std::string &section)
-    {
-      if (!(p.radius > 0.))
-        reject(section, "Radius", text({p.radius}), "a number > 0");
-      if (!(p.inner_radius >= 0. && p.inner_radius < p.radius))
-        reject(section,
-               "Inner radius",
-               text({p.inner_radius}),
-               "from 0 to less than Radius (" + text({p.radius}) + ")");
-    }
-
-    template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    make_ball(const ShapeParameters<dim> &p, const std::string &section)
-    {
-      check_radii(p, section);
-      const auto centre = to_point<dim>(p.centre, section, "Centre");
-      const auto outer  = std::make_shared<RoundShape<dim>>(centre, p.radius);
-      if (p.inner_radius == 0.)
-        return outer;
-      return std::make_shared<CombinedShape<dim>>(
-        CombinedShape<dim>::Operation::hollow_out,
-        outer,
-        std::make_shared<RoundShape<dim>>(centre, p.inner_radius),
-        std::array<std::string, 2>{{"outer", "inner"}});
-    }
-
-    template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    make_box(const ShapeParameters<dim> &p, const std::string &section)
-    {
-      const auto lower = to_point<dim>(p.lower_corner, section, "Lower corner");
-      const auto upper = to_point<dim>(p.upper_corner, section, "Upper corner");
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!(lower[d] < upper[d]))
-          reject(section,
-                 "Upper corner",
-                 text(p.upper_corner),
-                 "more than Lower corner (" + text(p.lower_corner) +
-                   ") in each coordinate");
-      return std::make_shared<ConvexShape<dim>>(
-        ConvexShape<dim>::box(lower, upper));
-    }
-
-    template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    make_cylinder(const ShapeParameters<dim> &p, const std::string &section)
-    {
-      const auto start = to_point<dim>(p.axis_start, section, "Axis start");
-      const auto end   = to_point<dim>(p.axis_end, section, "Axis end");
-      if (start == end)
-        reject(section,
-               "Axis end",
-               text(p.axis_end),
-               "another point than Axis "
-               "start");
-      check_radii(p, section);
-      if constexpr (dim == 3)
-        return std::make_shared<CylinderShape>(start,
-                                               end,
-                                               p.radius,
-                                               p.inner_radius);
-      Assert(false, ExcInternalError());
-      return nullptr;
+      std::vector<std::string> names;
+      for (const auto &body : bodies)
+        names.push_back(body.first);
+      return names;
     }
 
     /** That an operand is in a map of bodies. */
@@ -178,138 +38,333 @@ namespace moraine
                   const Bodies      &bodies,
                   const std::string &section)
     {
-      if (bodies.count(name) > 0)
-        return;
-      std::vector<std::string> names;
-      for (const auto &body : bodies)
-        names.push_back(body.first);
-      throw InputError(place(section, "Operands") + ": found '" + name +
-                       "', which is not the name of a body" +
-                       suggest(name, names));
+      if (bodies.count(name) == 0)
+        throw InputError(place(section, "Operands") + ": found '" + name +
+                         "', which is not the name of a body" +
+                         suggest(name, names_in(bodies)));
     }
 
+    /** Makes one shape or surface. */
     template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    combine(const ShapeParameters<dim> &p,
-            const NamedShapes<dim>     &known,
-            const std::string          &section)
+    class ShapeMaker
     {
-      using Operation = typename CombinedShape<dim>::Operation;
-      if (p.operands.size() < 2)
-        reject(section, "Operands", p.operands[0], "two or more names");
-      std::vector<std::shared_ptr<const Shape<dim>>> shapes;
-      for (const auto &name : p.operands)
-        {
-          check_operand(name, known, section);
-          if (known.at(name) == nullptr)
-            reject(section,
-                   "Operands",
-                   name,
-                   "bodies with a shape; the points of this one come from a "
-                   "file");
-          shapes.push_back(known.at(name));
-        }
-      using Names = std::array<std::string, 2>;
-      // a - b - c = a - (b + c); what is joined has the parts of its operands
-      const unsigned int first  = p.shape == "difference" ? 1 : 0;
-      auto               result = shapes[first];
-      std::string        name   = p.operands[first];
-      for (unsigned int i = first + 1; i < shapes.size(); ++i)
-        {
-          result =
-            std::make_shared<CombinedShape<dim>>(p.shape == "intersection" ?
-                                                   Operation::intersect :
-                                                   Operation::unite,
-                                                 result,
-                                                 shapes[i],
-                                                 Names{{name, p.operands[i]}});
-          name = "";
-        }
-      if (first == 1)
-        result = std::make_shared<CombinedShape<dim>>(
-          Operation::subtract, shapes[0], result, Names{{p.operands[0], name}});
-      return result;
-    }
+    public:
+      ShapeMaker(const ShapeParameters<dim> &parameters,
+                 const NamedShapes<dim>     &bodies,
+                 const std::string          &section)
+        : p(parameters)
+        , bodies(bodies)
+        , section(section)
+        , kind(parameters.kind())
+      {
+        p.check_keys(section);
+      }
 
-    template <int dim>
-    std::shared_ptr<const Shape<dim>>
-    make_unplaced(const ShapeParameters<dim> &p,
-                  const NamedShapes<dim>     &known,
-                  const std::string          &section)
-    {
-      if (p.shape == "box")
-        return make_box(p, section);
-      if (p.shape == "polygon")
-        return make_polygon(p, section);
-      if (p.shape == "disc" || p.shape == "ring" || p.shape == "sphere")
-        return make_ball(p, section);
-      if (p.shape == "cylinder")
-        return make_cylinder(p, section);
-      if (p.shape == "half-space")
-        {
-          const auto normal = to_point<dim>(p.normal, section, "Normal");
-          if (normal.norm() == 0.)
-            reject(section, "Normal", text(p.normal), "a vector that is not 0");
-          return std::make_shared<ConvexShape<dim>>(
-            ConvexShape<dim>::half_space(
-              to_point<dim>(p.point, section, "Point"), normal));
-        }
-      if (p.shape == "expression")
-        return std::make_shared<ExpressionShape<dim>>(p.expression,
-                                                      place(section,
-                                                            "Expression"));
-      if (p.shape == "mesh")
-        return std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space());
-      return combine(p, known, section);
-    }
+      ShapePointer<dim>
+      shape() const
+      {
+        if (kind == "box")
+          return box();
+        if (kind == "polygon")
+          return polygon();
+        if (kind == "disc" || kind == "ring" || kind == "sphere" ||
+            kind == "circle")
+          return ball();
+        if (kind == "cylinder")
+          return cylinder();
+        if (kind == "half-space" || kind == "plane")
+          {
+            if (point("Normal").norm() == 0.)
+              wrong("Normal", "a vector that is not 0");
+            return make_half_space<dim>(point("Point"), point("Normal"));
+          }
+        if (kind == "expression")
+          {
+            const auto limits = p.use == ShapeUse::surface ?
+                                  expression_box() :
+                                  unlimited_box<dim>();
+            return make_expression<dim>(p.text("Expression"),
+                                        place(section, "Expression"),
+                                        is_finite(limits) ?
+                                          limits.side_length(0) :
+                                          0.);
+          }
+        if (kind == "mesh")
+          return make_space<dim>();
+        return combination();
+      }
+
+      SurfacePointer<dim>
+      surface() const
+      {
+        if (p.given("Body") || p.given("Part"))
+          return rim_of_body();
+        const bool flip    = p.text("Flip") == "true";
+        const bool outside = p.text("Body side") == "outside";
+        if (kind == "polyline" || kind == "plane patch")
+          return make_flat_face<dim>(p.template points<dim>("Points", section),
+                                     flip);
+        if constexpr (dim == 2)
+          if (kind == "arc")
+            return make_arc(point("Centre"),
+                            radius("Radius"),
+                            !outside,
+                            p.number("Start angle", section),
+                            p.number("End angle", section));
+        return shape()->rim(kind == "cylinder" ? "side" : "",
+                            !flip && !outside,
+                            kind == "expression" ? extent_of_expression() :
+                                                   Extent<dim>());
+      }
+
+    private:
+      [[noreturn]] void
+      wrong(const std::string &key, const std::string &allowed) const
+      {
+        reject(section, key, p.text(key), allowed);
+      }
+
+      Point<dim>
+      point(const std::string &key) const
+      {
+        return p.point(key, section);
+      }
+
+      double
+      radius(const std::string &key) const
+      {
+        const double value = p.number(key, section);
+        if (!(value > 0.))
+          wrong(key, "a number > 0");
+        return value;
+      }
+
+      /** Zero if there is none. */
+      double
+      inner_radius() const
+      {
+        if (!p.given("Inner radius"))
+          return 0.;
+        const double value = p.number("Inner radius", section);
+        if (!(value >= 0. && value < radius("Radius")))
+          wrong("Inner radius",
+                "from 0 to less than Radius (" + p.text("Radius") + ")");
+        return value;
+      }
+
+      ShapePointer<dim>
+      box() const
+      {
+        const Point<dim> lower = point("Lower corner"),
+                         upper = point("Upper corner");
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(lower[d] < upper[d]))
+            wrong("Upper corner",
+                  "more than Lower corner (" + p.text("Lower corner") +
+                    ") in each coordinate");
+        return make_box(lower, upper);
+      }
+
+      ShapePointer<dim>
+      polygon() const
+      {
+        const auto vertices = p.template points<2>("Vertices", section);
+        if (vertices.size() < 3)
+          wrong("Vertices", "at least three 'x y' separated by ';'");
+        const auto [i, j]       = first_crossing(vertices);
+        const unsigned int n    = vertices.size();
+        const auto         edge = [n](const unsigned int k) {
+          return std::to_string(k + 1) + "-" + std::to_string((k + 1) % n + 1);
+        };
+        if (i < n)
+          throw InputError(
+            place(section, "Vertices") + ": " +
+            (i == j ?
+               "vertex " + std::to_string(i + 1) + " is repeated by vertex " +
+                 std::to_string((i + 1) % n + 1) :
+               "the edges between vertices " + edge(i) + " and " + edge(j) +
+                 " meet") +
+            ". Allowed: a polygon that does not touch itself, without the "
+            "first vertex repeated at the end");
+        if (dim == 2)
+          return make_polygon<dim>(vertices);
+        const auto heights = p.template points<2>("Extent", section);
+        if (heights.size() != 1 || !(heights[0][0] < heights[0][1]))
+          wrong("Extent", "lower z, upper z");
+        return make_polygon<dim>(vertices, {heights[0][0], heights[0][1]});
+      }
+
+      ShapePointer<dim>
+      ball() const
+      {
+        const auto outer = make_ball<dim>(point("Centre"), radius("Radius"));
+        if (inner_radius() == 0.)
+          return outer;
+        return combine<dim>(Operation::hollow_out,
+                            outer,
+                            make_ball<dim>(point("Centre"), inner_radius()),
+                            {{"outer", "inner"}});
+      }
+
+      ShapePointer<dim>
+      cylinder() const
+      {
+        if (point("Axis start") == point("Axis end"))
+          wrong("Axis end", "another point than Axis start");
+        if constexpr (dim == 3)
+          return make_cylinder(point("Axis start"),
+                               point("Axis end"),
+                               radius("Radius"),
+                               inner_radius());
+        Assert(false, ExcInternalError());
+        return nullptr;
+      }
+
+      ShapePointer<dim>
+      combination() const
+      {
+        const std::vector<std::string> names = p.words("Operands");
+        if (names.size() < 2)
+          wrong("Operands", "two or more names");
+        for (const auto &name : names)
+          {
+            check_operand(name, bodies, section);
+            if (bodies.at(name) == nullptr)
+              reject(section,
+                     "Operands",
+                     name,
+                     "bodies with a shape; the points of this one come from a "
+                     "file");
+          }
+        // a - b - c = a - (b + c); what is joined has the parts of its operands
+        const unsigned int first  = kind == "difference" ? 1 : 0;
+        auto               result = bodies.at(names[first]);
+        std::string        name   = names[first];
+        for (unsigned int i = first + 1; i < names.size(); ++i)
+          {
+            result =
+              combine<dim>(kind == "intersection" ? Operation::intersect :
+                                                    Operation::unite,
+                           result,
+                           bodies.at(names[i]),
+                           {{name, names[i]}});
+            name = "";
+          }
+        if (first == 0)
+          return result;
+        return combine<dim>(Operation::subtract,
+                            bodies.at(names[0]),
+                            result,
+                            {{names[0], name}});
+      }
+
+      SurfacePointer<dim>
+      rim_of_body() const
+      {
+        const std::string &body = p.text("Body"), &part = p.text("Part");
+        const auto         found = bodies.find(body);
+        if (found == bodies.end())
+          wrong("Body", "names of bodies" + suggest(body, names_in(bodies)));
+        const auto parts =
+          found->second ? found->second->parts() : std::vector<std::string>();
+        if (!part.empty() &&
+            std::find(parts.begin(), parts.end(), part) == parts.end())
+          wrong("Part",
+                parts.empty() ?
+                  "nothing, the rim of '" + body + "' is one whole" :
+                  "parts of the rim of '" + body + "'" + suggest(part, parts));
+        const auto surface = found->second ? found->second->rim(part) : nullptr;
+        if (!surface)
+          wrong("Body",
+                "a body with a rim; points of a file and the whole mesh have "
+                "none");
+        return surface;
+      }
+
+      BoundingBox<dim>
+      expression_box() const
+      {
+        auto corners = unlimited_box<dim>().get_boundary_points();
+        if (p.given("Extent lower corner"))
+          corners.first = point("Extent lower corner");
+        if (p.given("Extent upper corner"))
+          corners.second = point("Extent upper corner");
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(corners.first[d] < corners.second[d]))
+            wrong("Extent upper corner",
+                  "above the lower corner in every direction");
+        return BoundingBox<dim>(corners);
+      }
+
+      Extent<dim>
+      extent_of_expression() const
+      {
+        Extent<dim> extent;
+        extent.box         = expression_box();
+        const auto corners = extent.box.get_boundary_points();
+        for (unsigned int d = 0; d < dim; ++d)
+          for (const double side : {-1., 1.})
+            if (p.given(side < 0. ? "Extent lower corner" :
+                                    "Extent upper corner"))
+              extent.limits.push_back(
+                {make_half_space<dim>(side < 0. ? corners.first :
+                                                  corners.second,
+                                      side * Point<dim>::unit_vector(d)),
+                 true,
+                 Extent<dim>::Along::inner});
+        return extent;
+      }
+
+      const ShapeParameters<dim> &p;
+      const NamedShapes<dim>     &bodies;
+      const std::string          &section;
+      const std::string           kind;
+    };
   } // namespace
 
   template <int dim>
   Placement<dim>
   make_placement(const ShapeParameters<dim> &p, const std::string &section)
   {
-    Point<dim>     centre;
-    Tensor<1, dim> axis, translation;
-    if (!p.rotation_centre.empty())
-      centre = to_point<dim>(p.rotation_centre, section, "Rotation centre");
-    if (!p.translation.empty())
-      translation = to_point<dim>(p.translation, section, "Translation");
-    if constexpr (dim == 3)
+    const auto given_or_zero = [&](const std::string &key) {
+      return p.given(key) ? p.point(key, section) : Point<dim>();
+    };
+    const Point<dim>     centre      = given_or_zero("Rotation centre");
+    const Tensor<1, dim> translation = given_or_zero("Translation");
+    Tensor<1, dim>       axis        = Point<dim>::unit_vector(0);
+    if (dim == 3 && p.given("Rotation angle"))
       {
-        if (p.rotation_angle == 0.)
-          return {0., centre, Point<3>::unit_vector(0), translation};
-        if (p.rotation_axis.empty())
+        if (!p.given("Rotation axis"))
           throw InputError(place(section, "Rotation axis") +
                            ": not set. A rotation in 3D needs it");
-        axis = to_point<dim>(p.rotation_axis, section, "Rotation axis");
+        axis = p.point("Rotation axis", section);
         if (axis.norm() == 0.)
           reject(section,
                  "Rotation axis",
-                 text(p.rotation_axis),
+                 p.text("Rotation axis"),
                  "a vector that is not 0");
       }
-    return {p.rotation_angle, centre, axis, translation};
+    return {p.number("Rotation angle", section), centre, axis, translation};
   }
 
   template <int dim>
-  std::shared_ptr<const Shape<dim>>
+  ShapePointer<dim>
   make_shape(const ShapeParameters<dim> &p,
              const NamedShapes<dim>     &known,
              const std::string          &section)
   {
-    check_keys(p, section);
-    const Placement<dim> placement = make_placement(p, section);
-    if (p.shape == "mesh" && (p.rotation_angle != 0. || !p.translation.empty()))
+    const ShapeMaker<dim> maker(p, known, section);
+    const Placement<dim>  placement = make_placement(p, section);
+    const bool            turns     = p.given("Rotation angle"),
+               moves                = p.given("Translation");
+    if (p.kind() == "mesh" && (turns || moves))
       throw InputError(
-        place(section,
-              p.rotation_angle != 0. ? "Rotation angle" : "Translation") +
+        place(section, turns ? "Rotation angle" : "Translation") +
         ": set, but the shape 'mesh' is all of the mesh and cannot move in it");
     if (p.is_point_file())
       return nullptr;
-    const auto shape = make_unplaced(p, known, section);
-    if (p.rotation_angle == 0. && p.translation.empty())
-      return shape;
-    return std::make_shared<MovedShape<dim>>(shape, placement);
+    const auto shape = maker.shape();
+    return turns || moves ? make_moved(shape, placement) : shape;
   }
 
   template <int dim>
@@ -330,7 +385,7 @@ namespace moraine
                  name,
                  "bodies that are not themselves made from this one");
         const std::string here = section + "/" + name;
-        for (const auto &operand : bodies.at(name).operands)
+        for (const auto &operand : bodies.at(name).words("Operands"))
           {
             check_operand(operand, bodies, here);
             make(operand, here);
@@ -343,18 +398,37 @@ namespace moraine
     return made;
   }
 
-#define INSTANTIATE(dim)                                               \
-  template Point<dim>     to_point(const std::vector<double> &,        \
-                                   const std::string &,                \
-                                   const std::string &);               \
-  template Placement<dim> make_placement(const ShapeParameters<dim> &, \
-                                         const std::string &);         \
-  template std::shared_ptr<const Shape<dim>> make_shape(               \
-    const ShapeParameters<dim> &,                                      \
-    const NamedShapes<dim> &,                                          \
-    const std::string &);                                              \
-  template NamedShapes<dim> make_shapes(                               \
-    const std::map<std::string, ShapeParameters<dim>> &, const std::string &);
+  template <int dim>
+  SurfacePointer<dim>
+  make_surface(const SurfaceParameters<dim> &parameters,
+               const NamedShapes<dim>       &bodies,
+               const std::string            &section)
+  {
+    try
+      {
+        return ShapeMaker<dim>(parameters, bodies, section).surface();
+      }
+    catch (const InputError &error)
+      {
+        // the surfaces themselves do not know the section
+        const std::string message = error.what();
+        if (message.rfind("section '", 0) == 0)
+          throw;
+        throw InputError("section '" + section + "', " + message);
+      }
+  }
+
+#define INSTANTIATE(dim)                                                        \
+  template Placement<dim>    make_placement(const ShapeParameters<dim> &,       \
+                                            const std::string &);               \
+  template ShapePointer<dim> make_shape(const ShapeParameters<dim> &,           \
+                                        const NamedShapes<dim> &,               \
+                                        const std::string &);                   \
+  template NamedShapes<dim>  make_shapes(                                       \
+     const std::map<std::string, ShapeParameters<dim>> &, const std::string &); \
+  template SurfacePointer<dim> make_surface(const SurfaceParameters<dim> &,     \
+                                            const NamedShapes<dim> &,           \
+                                            const std::string &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

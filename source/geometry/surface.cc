@@ -4,7 +4,7 @@
 #include <moraine/geometry/surface.h>
 
 #include <moraine/geometry/cell_cut.h>
-#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,18 +99,18 @@ namespace moraine
   Extent<dim>::seen_from(const Placement<dim> &placement) const
   {
     Extent<dim> result;
+    result.box = placement.inverse().map(box);
     for (const auto &[shape, inside, along] : limits)
       result.limits.push_back(
-        {std::make_shared<MovedShape<dim>>(shape, placement.inverse()),
-         inside,
-         along});
+        {make_moved(shape, placement.inverse()), inside, along});
     return result;
   }
 
   template <int dim>
-  MovedSurface<dim>::MovedSurface(std::shared_ptr<const Surface<dim>> reference,
-                                  const Placement<dim>               &pose)
-    : reference(std::move(reference))
+  MovedSurface<dim>::MovedSurface(const SurfacePointer<dim> &reference,
+                                  const Placement<dim>      &pose)
+    : Surface<dim>(pose.map(reference->bounding_box()), reference->curved())
+    , reference(reference)
     , present(pose)
   {}
 
@@ -118,14 +118,8 @@ namespace moraine
   void
   MovedSurface<dim>::set_pose(const Placement<dim> &pose)
   {
-    present = pose;
-  }
-
-  template <int dim>
-  const Placement<dim> &
-  MovedSurface<dim>::pose() const
-  {
-    return present;
+    present   = pose;
+    this->box = pose.map(reference->bounding_box());
   }
 
   template <int dim>
@@ -155,74 +149,66 @@ namespace moraine
       }
   }
 
-  template <int dim>
-  BoundingBox<dim>
-  MovedSurface<dim>::bounding_box() const
+  namespace
   {
-    return present.map(reference->bounding_box());
-  }
-
-  template <int dim>
-  bool
-  MovedSurface<dim>::curved() const
-  {
-    return reference->curved();
-  }
-
-  template <int dim>
-  SurfaceList<dim>::SurfaceList(const Members &members)
-    : members(members)
-  {}
-
-  template <int dim>
-  NearestPoint<dim>
-  SurfaceList<dim>::nearest(const Point<dim> &x) const
-  {
-    NearestPoint<dim> best = members[0]->nearest(x);
-    for (unsigned int i = 1; i < members.size(); ++i)
+    template <int dim>
+    class SurfaceList : public Surface<dim>
+    {
+    public:
+      SurfaceList(const std::vector<SurfacePointer<dim>> &members)
+        : Surface<dim>(members[0]->bounding_box(),
+                       std::any_of(members.begin(),
+                                   members.end(),
+                                   [](const auto &m) { return m->curved(); }))
+        , members(members)
       {
-        const NearestPoint<dim> other = members[i]->nearest(x);
-        if (other.in_extent != best.in_extent ?
-              other.in_extent :
-              std::abs(other.level) < std::abs(best.level))
-          best = other;
+        for (const auto &member : members)
+          this->box.merge_with(member->bounding_box());
       }
-    return best;
-  }
+
+      NearestPoint<dim>
+      nearest(const Point<dim> &x) const override
+      {
+        NearestPoint<dim> best = members[0]->nearest(x);
+        for (unsigned int i = 1; i < members.size(); ++i)
+          {
+            const NearestPoint<dim> other = members[i]->nearest(x);
+            if (other.in_extent != best.in_extent ?
+                  other.in_extent :
+                  std::abs(other.level) < std::abs(best.level))
+              best = other;
+          }
+        return best;
+      }
+
+      void
+      pieces(const CellVertices<dim>        &cell,
+             const unsigned int              n_gauss,
+             std::vector<SurfacePoint<dim>> &out) const override
+      {
+        for (const auto &member : members)
+          member->pieces(cell, n_gauss, out);
+      }
+
+    private:
+      std::vector<SurfacePointer<dim>> members;
+    };
+  } // namespace
 
   template <int dim>
-  void
-  SurfaceList<dim>::pieces(const CellVertices<dim>        &cell,
-                           const unsigned int              n_gauss,
-                           std::vector<SurfacePoint<dim>> &out) const
+  SurfacePointer<dim>
+  join(const std::vector<SurfacePointer<dim>> &members)
   {
-    for (const auto &member : members)
-      member->pieces(cell, n_gauss, out);
+    if (members.size() < 2)
+      return members.empty() ? nullptr : members[0];
+    return std::make_shared<SurfaceList<dim>>(members);
   }
 
-  template <int dim>
-  BoundingBox<dim>
-  SurfaceList<dim>::bounding_box() const
-  {
-    BoundingBox<dim> box = members[0]->bounding_box();
-    for (const auto &member : members)
-      box.merge_with(member->bounding_box());
-    return box;
-  }
-
-  template <int dim>
-  bool
-  SurfaceList<dim>::curved() const
-  {
-    return std::any_of(members.begin(), members.end(), [](const auto &member) {
-      return member->curved();
-    });
-  }
-
-  template struct Extent<2>;
-  template struct Extent<3>;
-  template class MovedSurface<2>;
-  template class MovedSurface<3>;
-  template class SurfaceList<2>;
-  template class SurfaceList<3>;
+#define INSTANTIATE(dim)            \
+  template struct Extent<dim>;      \
+  template class MovedSurface<dim>; \
+  template SurfacePointer<dim> join(const std::vector<SurfacePointer<dim>> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

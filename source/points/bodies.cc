@@ -6,7 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/memory.h>
 #include <moraine/core/object_error.h>
-#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -168,10 +168,9 @@ namespace moraine
                   const std::string               &section)
   {
     const Placement<dim> placement = make_placement(box, section);
-    const auto lower = to_point<dim>(box.lower_corner, section, "Lower corner");
-    Tensor<1, dim> length =
-      to_point<dim>(box.upper_corner, section, "Upper corner") - lower;
-    const double n_in_grid =
+    const auto           lower     = box.point("Lower corner", section);
+    Tensor<1, dim>       length    = box.point("Upper corner", section) - lower;
+    const double         n_in_grid =
       std::accumulate(n.begin(), n.end(), 1., std::multiplies<double>());
     std::ostringstream what;
     what << place(section, "Point grid") << ": found " << n_in_grid

@@ -344,7 +344,7 @@ namespace moraine
       if (body.shape.is_point_file())
         {
           prm.enter_subsection(name);
-          located("Point file", body.shape.point_file);
+          located("Point file", body.shape.texts.at("Point file"));
           prm.leave_subsection();
         }
     prm.leave_subsection();

@@ -32,7 +32,8 @@ namespace moraine
   {
     std::set<std::string> operands;
     for (const auto &[name, body] : scene.bodies)
-      operands.insert(body.shape.operands.begin(), body.shape.operands.end());
+      for (const std::string &operand : body.shape.words("Operands"))
+        operands.insert(operand);
     const NamedShapes<dim> shapes = body_shapes(scene);
 
     std::vector<Body<dim>> bodies;
@@ -41,7 +42,7 @@ namespace moraine
         if (operands.count(name) > 0)
           continue;
         const std::string section = "Bodies/" + name;
-        const std::string file    = body.shape.point_file;
+        const std::string file    = body.shape.text("Point file");
         if (body.is_seeded_by_cells())
           bodies.push_back({name, shapes.at(name)});
         else if (!body.shape.is_point_file())

@@ -136,7 +136,7 @@ namespace moraine
       {
         const std::string section = "Bodies/" + name;
         if (!body.point_grid.empty() &&
-            (body.shape.shape != "box" || body.point_grid.size() != dim))
+            (body.shape.kind() != "box" || body.point_grid.size() != dim))
           reject(section,
                  "Point grid",
                  input.get(section, "Point grid", ""),

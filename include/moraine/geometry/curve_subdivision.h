@@ -15,6 +15,24 @@ namespace moraine
   template <int dim>
   using LevelFunction = std::function<double(const dealii::Point<dim> &)>;
 
+  /** Central differences over 2 @p step in each direction. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  central_gradient(const LevelFunction<dim> &level,
+                   const dealii::Point<dim> &x,
+                   const double              step);
+
+  /** Where the linear part of a function at @p x vanishes: a step of Newton's
+   * method towards its zero. */
+  template <int dim>
+  dealii::Point<dim>
+  linear_zero(const dealii::Point<dim>     &x,
+              const double                  value,
+              const dealii::Tensor<1, dim> &gradient)
+  {
+    return x - value / gradient.norm_square() * gradient;
+  }
+
   /**
    * Append the pieces of @p cell in which @p level is positive, times @p sign:
    * the approximation of a curved boundary by polytopes. If @p is_distance,
@@ -30,11 +48,11 @@ namespace moraine
    */
   template <int dim>
   void
-  add_curved_pieces(const LevelFunction<dim>      &level,
-                    const bool                     is_distance,
-                    const ConvexPolytope<dim>     &cell,
-                    const double                   sign,
-                    std::vector<SignedPiece<dim>> &pieces);
+  add_curved_pieces(const LevelFunction<dim>  &level,
+                    const bool                 is_distance,
+                    const ConvexPolytope<dim> &cell,
+                    const double               sign,
+                    SignedPieces<dim>         &pieces);
 
   /** Quick answer that rests on values at the vertices and the middle. */
   template <int dim>

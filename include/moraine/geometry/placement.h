@@ -21,6 +21,12 @@ namespace moraine
   dealii::BoundingBox<dim>
   unlimited_box();
 
+  /** What two boxes have in common; no width where they are apart. */
+  template <int dim>
+  dealii::BoundingBox<dim>
+  intersection(const dealii::BoundingBox<dim> &a,
+               const dealii::BoundingBox<dim> &b);
+
   /** Whether a box has limits in all directions. */
   template <int dim>
   bool
@@ -49,11 +55,17 @@ namespace moraine
 
     /** Reference point to present place. */
     dealii::Point<dim>
-    map(const dealii::Point<dim> &X) const;
+    map(const dealii::Point<dim> &X) const
+    {
+      return centre + translation + matrix * (X - centre);
+    }
 
     /** Present place to reference point. */
     dealii::Point<dim>
-    inverse(const dealii::Point<dim> &x) const;
+    inverse(const dealii::Point<dim> &x) const
+    {
+      return centre + (x - centre - translation) * matrix;
+    }
 
     /** The placement that undoes this one. */
     Placement
@@ -61,10 +73,16 @@ namespace moraine
 
     /** A vector carried along: R v. */
     dealii::Tensor<1, dim>
-    rotate(const dealii::Tensor<1, dim> &v) const;
+    rotate(const dealii::Tensor<1, dim> &v) const
+    {
+      return matrix * v;
+    }
 
     const dealii::Tensor<2, dim> &
-    rotation() const;
+    rotation() const
+    {
+      return matrix;
+    }
 
     /** A box that holds @p box in its present place; without limits if that
      * is. */

@@ -4,19 +4,16 @@
 #ifndef moraine_geometry_shape_library_h
 #define moraine_geometry_shape_library_h
 
-#include <moraine/geometry/combined_shapes.h>
 #include <moraine/geometry/shape.h>
 #include <moraine/geometry/shape_parameters.h>
 
 #include <map>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace moraine
 {
   template <int dim>
-  using NamedShapes = std::map<std::string, std::shared_ptr<const Shape<dim>>>;
+  using NamedShapes = std::map<std::string, ShapePointer<dim>>;
 
   /**
    * The shape described by @p parameters, with its rotation and translation;
@@ -24,7 +21,7 @@ namespace moraine
    * InputError for missing, superfluous and impossible values.
    */
   template <int dim>
-  std::shared_ptr<const Shape<dim>>
+  ShapePointer<dim>
   make_shape(const ShapeParameters<dim> &parameters,
              const NamedShapes<dim>     &known,
              const std::string          &section);
@@ -40,14 +37,15 @@ namespace moraine
               const std::string                                 &section);
 
   /**
-   * The numbers of a key as a point. Throws InputError, naming section and key,
-   * unless there are dim of them.
+   * The rim of one of @p bodies, of a shape of its own, or a part of it. Throws
+   * InputError for entries that are missing, wrong, or that this kind of
+   * surface does not use.
    */
   template <int dim>
-  dealii::Point<dim>
-  to_point(const std::vector<double> &numbers,
-           const std::string         &section,
-           const std::string         &key);
+  SurfacePointer<dim>
+  make_surface(const SurfaceParameters<dim> &parameters,
+               const NamedShapes<dim>       &bodies,
+               const std::string            &section);
 
   /** Rotation and translation of a body. */
   template <int dim>

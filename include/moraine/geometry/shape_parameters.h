@@ -4,6 +4,9 @@
 #ifndef moraine_geometry_shape_parameters_h
 #define moraine_geometry_shape_parameters_h
 
+#include <deal.II/base/point.h>
+
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,72 +17,86 @@ namespace dealii
 
 namespace moraine
 {
+  /** What a user makes of the shapes. */
+  enum class ShapeUse
+  {
+    body,   ///< what is inside
+    surface ///< the rim or a part of it
+  };
+
   /**
-   * The shape of one body as the user gives it. Empty lists and zero numbers
-   * mean: not given. A key that the shape does not use must not be given.
+   * A body or a surface as the user gives it: one table of kinds and one of
+   * keys serve both. A key that the kind does not use must not be given.
    */
   template <int dim>
   struct ShapeParameters
   {
+    explicit ShapeParameters(const ShapeUse use = ShapeUse::body);
+
     void
     add_parameters(dealii::ParameterHandler &prm);
 
-    std::string shape = "box";
+    /** The names of the kinds there are for this use. */
+    std::vector<std::string>
+    kinds() const;
 
-    std::vector<double>      lower_corner;
-    std::vector<double>      upper_corner;
-    std::string              vertices;
-    std::vector<double>      extent;
-    std::vector<double>      centre;
-    double                   radius       = 0.;
-    double                   inner_radius = 0.;
-    std::vector<double>      axis_start;
-    std::vector<double>      axis_end;
-    std::vector<double>      point;
-    std::vector<double>      normal;
-    std::string              expression;
-    std::vector<std::string> operands;
-    std::string              point_file;
-
-    double              rotation_angle = 0.;
-    std::vector<double> rotation_centre;
-    std::vector<double> rotation_axis;
-    std::vector<double> translation;
+    /** The kind of shape, or that of the rim of a body. */
+    std::string
+    kind() const;
 
     /**
-     * Whether the body's points come from a file; it has no shape then.
+     * Throws InputError unless the keys given are those of the kind;
+     * @p section is named in messages.
      */
+    void
+    check_keys(const std::string &section) const;
+
+    /** Whether the body's points come from a file; it has no shape then. */
     bool
     is_point_file() const;
+
+    /** Whether a key says anything: not empty, nor zero where that is the
+     * default. */
+    bool
+    given(const std::string &key) const;
+
+    // What a key says; errors name section and key.
+
+    const std::string &
+    text(const std::string &key) const
+    {
+      return texts.at(key);
+    }
+
+    double
+    number(const std::string &key, const std::string &section) const;
+
+    dealii::Point<dim>
+    point(const std::string &key, const std::string &section) const;
+
+    /** Points separated by ';', of n coordinates each. */
+    template <int n>
+    std::vector<dealii::Point<n>>
+    points(const std::string &key, const std::string &section) const;
+
+    /** Words separated by commas. */
+    std::vector<std::string>
+    words(const std::string &key) const;
+
+    ShapeUse use;
+
+    /** The text of each key. */
+    std::map<std::string, std::string> texts;
   };
 
-  /**
-   * A shape and what it is for the user: the value of `Shape` and the keys it
-   * needs and may have.
-   */
-  struct ShapeEntry
+  /** What the user says about a surface. */
+  template <int dim>
+  struct SurfaceParameters : public ShapeParameters<dim>
   {
-    std::string              name;
-    std::string              description;
-    std::vector<std::string> needs;
-    std::vector<std::string> may_have;
+    SurfaceParameters()
+      : ShapeParameters<dim>(ShapeUse::surface)
+    {}
   };
-
-  /**
-   * All shapes in this dimension.
-   */
-  template <int dim>
-  const std::vector<ShapeEntry> &
-  shape_entries();
-
-  /**
-   * Throws InputError unless the keys given are those of the shape; @p section
-   * is named in messages.
-   */
-  template <int dim>
-  void
-  check_keys(const ShapeParameters<dim> &parameters,
-             const std::string          &section);
 } // namespace moraine
 
 #endif

@@ -49,8 +49,9 @@ namespace moraine
   };
 
   /**
-   * A surface φ(x) = 0 with the body on the side φ > 0, in its own frame. A
-   * MovedSurface places it in space.
+   * A surface φ(x) = 0 with the body on the side φ > 0: the rim of a shape or a
+   * part of it (see Shape::rim()), in its own frame. A MovedSurface places it
+   * in space.
    */
   template <int dim>
   class Surface
@@ -97,19 +98,33 @@ namespace moraine
            std::vector<SurfacePoint<dim>> &out) const = 0;
 
     /** A box that holds the surface; see unlimited_extent. */
-    virtual dealii::BoundingBox<dim>
-    bounding_box() const = 0;
+    const dealii::BoundingBox<dim> &
+    bounding_box() const
+    {
+      return box;
+    }
 
-    /**
-     * Whether the normal changes along a smooth part of the surface; yes if not
-     * overridden.
-     */
-    virtual bool
+    /** Whether the normal changes along a smooth part of the surface. */
+    bool
     curved() const
     {
-      return true;
+      return is_curved;
     }
+
+  protected:
+    Surface(const dealii::BoundingBox<dim> &box, const bool is_curved)
+      : box(box)
+      , is_curved(is_curved)
+    {}
+
+    dealii::BoundingBox<dim> box;
+
+  private:
+    bool is_curved;
   };
+
+  template <int dim>
+  using SurfacePointer = std::shared_ptr<const Surface<dim>>;
 
   /** Part of a curve: from one value of its parameter to a larger one. */
   struct Stretch
@@ -171,6 +186,9 @@ namespace moraine
     seen_from(const Placement<dim> &placement) const;
 
     std::vector<Limit> limits;
+
+    /** Holds what is within the limits. */
+    dealii::BoundingBox<dim> box = unlimited_box<dim>();
   };
 
   /**
@@ -181,14 +199,17 @@ namespace moraine
   class MovedSurface : public Surface<dim>
   {
   public:
-    MovedSurface(std::shared_ptr<const Surface<dim>> reference,
-                 const Placement<dim>               &pose = Placement<dim>());
+    MovedSurface(const SurfacePointer<dim> &reference,
+                 const Placement<dim>      &pose = Placement<dim>());
 
     void
     set_pose(const Placement<dim> &pose);
 
     const Placement<dim> &
-    pose() const;
+    pose() const
+    {
+      return present;
+    }
 
     NearestPoint<dim>
     nearest(const dealii::Point<dim> &x) const override;
@@ -198,47 +219,19 @@ namespace moraine
            const unsigned int              n_gauss,
            std::vector<SurfacePoint<dim>> &out) const override;
 
-    dealii::BoundingBox<dim>
-    bounding_box() const override;
-
-    bool
-    curved() const override;
-
   private:
-    std::shared_ptr<const Surface<dim>> reference;
-    Placement<dim>                      present;
+    SurfacePointer<dim> reference;
+    Placement<dim>      present;
   };
 
   /**
-   * Several surfaces that bound one body together. Nearest is the one whose
-   * nearest point is nearest among those within their extents; outside of all,
-   * the one of the smallest |φ|.
+   * Several surfaces that bound one body together as one. Nearest is the one
+   * whose nearest point is nearest among those within their extents; outside of
+   * all, the one of the smallest |φ|. Null for none.
    */
   template <int dim>
-  class SurfaceList : public Surface<dim>
-  {
-  public:
-    using Members = std::vector<std::shared_ptr<const Surface<dim>>>;
-
-    SurfaceList(const Members &members);
-
-    NearestPoint<dim>
-    nearest(const dealii::Point<dim> &x) const override;
-
-    void
-    pieces(const CellVertices<dim>        &cell,
-           const unsigned int              n_gauss,
-           std::vector<SurfacePoint<dim>> &out) const override;
-
-    dealii::BoundingBox<dim>
-    bounding_box() const override;
-
-    bool
-    curved() const override;
-
-  private:
-    Members members;
-  };
+  SurfacePointer<dim>
+  join(const std::vector<SurfacePointer<dim>> &members);
 } // namespace moraine
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <moraine/boundary/enforcement.h>
 #include <moraine/geometry/placement.h>
-#include <moraine/geometry/surface_library.h>
+#include <moraine/geometry/shape_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
 #include <moraine/mesh/background_mesh.h>
