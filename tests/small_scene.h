@@ -10,7 +10,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
 #include <moraine/points/seeding.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/state/trial_points.h>
 
 #include <memory>
@@ -61,8 +61,7 @@ namespace moraine
           lower[d] = 0.3;
           upper[d] = 3.4;
         }
-      const auto box =
-        std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::box(lower, upper));
+      const auto box = make_box<dim>(lower, upper);
       seed_bodies({{"box", box}},
                   CellSeeder<dim>(n, PointLayout::equal),
                   points);

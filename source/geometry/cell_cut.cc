@@ -3,8 +3,6 @@
 
 #include <moraine/geometry/cell_cut.h>
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -128,42 +126,15 @@ namespace moraine
   } // namespace
 
   template <int dim>
-  double
-  coordinate_magnitude(const Point<dim> &x)
-  {
-    double magnitude = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      magnitude = std::max(magnitude, std::abs(x[d]));
-    return magnitude;
-  }
-
-  template <int dim>
-  double
-  cell_size(const CellVertices<dim> &cell)
-  {
-    double size = 0.;
-    for (const auto &vertex : cell)
-      size = std::max(size, vertex.distance(cell[0]));
-    return size;
-  }
-
-  template <int dim>
   bool
   may_touch(const CellVertices<dim> &cell, const BoundingBox<dim> &box)
   {
-    const double slack = 1e-6 * cell_size<dim>(cell);
+    const BoundingBox<dim> around(cell);
+    const double           slack = 1e-6 * cell_size<dim>(cell);
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto range =
-          std::minmax_element(cell.begin(),
-                              cell.end(),
-                              [d](const auto &a, const auto &b) {
-                                return a[d] < b[d];
-                              });
-        if ((*range.first)[d] > box.upper_bound(d) + slack ||
-            (*range.second)[d] < box.lower_bound(d) - slack)
-          return false;
-      }
+      if (around.lower_bound(d) > box.upper_bound(d) + slack ||
+          around.upper_bound(d) < box.lower_bound(d) - slack)
+        return false;
     return true;
   }
 
@@ -196,144 +167,13 @@ namespace moraine
     return result;
   }
 
-  template <int dim>
-  void
-  add_segment_points(const Point<dim>               &origin,
-                     const Tensor<1, dim>           &direction,
-                     const Stretch                  &stretch,
-                     const Tensor<1, dim>           &normal,
-                     const unsigned int              n_gauss,
-                     std::vector<SurfacePoint<dim>> &out)
-  {
-    const QGauss<1> gauss(n_gauss);
-    const double    length = stretch.to - stretch.from;
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-      out.push_back(
-        {origin + (stretch.from + gauss.point(q)[0] * length) * direction,
-         normal,
-         gauss.weight(q) * length});
-  }
-
-  PlaneFrame::PlaneFrame(const Point<3> &origin, const Tensor<1, 3> &n)
-    : origin(origin)
-    , normal(n / n.norm())
-  {
-    unsigned int smallest = 0;
-    for (unsigned int d = 1; d < 3; ++d)
-      if (std::abs(normal[d]) < std::abs(normal[smallest]))
-        smallest = d;
-    first = Point<3>::unit_vector(smallest);
-    first -= (first * normal) * normal;
-    first /= first.norm();
-    second = cross_product_3d(normal, first);
-  }
-
-  Point<2>
-  PlaneFrame::to_plane(const Point<3> &x) const
-  {
-    return {(x - origin) * first, (x - origin) * second};
-  }
-
-  Polygon
-  PlaneFrame::to_plane(const std::vector<Point<3>> &points) const
-  {
-    Polygon polygon;
-    for (const auto &x : points)
-      polygon.push_back(to_plane(x));
-    return polygon;
-  }
-
-  Point<3>
-  PlaneFrame::to_space(const Point<2> &p) const
-  {
-    return origin + p[0] * first + p[1] * second;
-  }
-
-  namespace
-  {
-    /** Without vertices that repeat, to 1e-15 of the size. */
-    Polygon
-    without_repeats(const Polygon &polygon, const double size)
-    {
-      Polygon result;
-      for (const auto &p : polygon)
-        if (result.empty() || p.distance(result.back()) > 1e-15 * size)
-          result.push_back(p);
-      while (result.size() > 1 &&
-             result.back().distance(result.front()) <= 1e-15 * size)
-        result.pop_back();
-      return result;
-    }
-
-    /** Points of the affine image of a reference cell at @p o with edges a, b.
-     */
-    void
-    add_affine_points(const Quadrature<2>          &rule,
-                      const Point<2>               &o,
-                      const Tensor<1, 2>           &a,
-                      const Tensor<1, 2>           &b,
-                      const PlaneFrame             &frame,
-                      const Tensor<1, 3>           &normal,
-                      std::vector<SurfacePoint<3>> &out)
-    {
-      const double jacobian = cross(a, b);
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        out.push_back(
-          {frame.to_space(o + rule.point(q)[0] * a + rule.point(q)[1] * b),
-           normal,
-           rule.weight(q) * jacobian});
-    }
-  } // namespace
-
-  void
-  add_polygon_points(const Polygon                &polygon,
-                     const PlaneFrame             &frame,
-                     const Tensor<1, 3>           &normal,
-                     const unsigned int            n_gauss,
-                     std::vector<SurfacePoint<3>> &out)
-  {
-    AssertThrow(n_gauss >= 1 && n_gauss <= 7,
-                ExcMessage("Plane pieces in 3D need 1 to 7 Gauss points."));
-    double size = 0.;
-    for (const auto &p : polygon)
-      size = std::max(size, p.distance(polygon[0]));
-    auto p = without_repeats(polygon, size);
-    if (polygon_area(p) < 0.)
-      std::reverse(p.begin(), p.end());
-    if (polygon_area(p) <= 1e-15 * size * size)
-      return;
-    if (p.size() == 4 && (p[0] - p[1] + (p[2] - p[3])).norm() <= 1e-14 * size)
-      {
-        add_affine_points(QGauss<2>(n_gauss),
-                          p[0],
-                          p[1] - p[0],
-                          p[3] - p[0],
-                          frame,
-                          normal,
-                          out);
-        return;
-      }
-    const QWitherdenVincentSimplex<2> rule(n_gauss);
-    for (unsigned int i = 2; i < p.size(); ++i)
-      add_affine_points(
-        rule, p[0], p[i - 1] - p[0], p[i] - p[0], frame, normal, out);
-  }
-
-#define INSTANTIATE(dim)                                         \
-  template double coordinate_magnitude<dim>(const Point<dim> &); \
-  template double cell_size<dim>(const CellVertices<dim> &);     \
-  template bool   may_touch<dim>(const CellVertices<dim> &,      \
+#define INSTANTIATE(dim)                                       \
+  template bool may_touch<dim>(const CellVertices<dim> &,      \
                                const BoundingBox<dim> &);      \
-  template std::vector<std::vector<Point<dim>>> cut_cell<dim>(   \
-    const CellVertices<dim> &,                                   \
-    const std::array<double, (1 << dim)> &,                      \
-    const double);                                               \
-  template void add_segment_points<dim>(const Point<dim> &,      \
-                                        const Tensor<1, dim> &,  \
-                                        const Stretch &,         \
-                                        const Tensor<1, dim> &,  \
-                                        const unsigned int,      \
-                                        std::vector<SurfacePoint<dim>> &);
+  template std::vector<std::vector<Point<dim>>> cut_cell<dim>( \
+    const CellVertices<dim> &,                                 \
+    const std::array<double, (1 << dim)> &,                    \
+    const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

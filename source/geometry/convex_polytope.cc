@@ -28,14 +28,6 @@ namespace moraine
   } // namespace
 
   template <int dim>
-  void
-  VolumeMoments<dim>::add(const double factor, const VolumeMoments &other)
-  {
-    volume += factor * other.volume;
-    first += factor * other.first;
-  }
-
-  template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
   {
     make_faces(vertices);
@@ -292,13 +284,6 @@ namespace moraine
   }
 
   template <int dim>
-  bool
-  ConvexPolytope<dim>::empty() const
-  {
-    return corner.empty();
-  }
-
-  template <int dim>
   VolumeMoments<dim>
   ConvexPolytope<dim>::moments(const Point<dim> &reference) const
   {
@@ -368,27 +353,6 @@ namespace moraine
   }
 
   template <int dim>
-  double
-  ConvexPolytope<dim>::tolerance() const
-  {
-    return round_off;
-  }
-
-  template <int dim>
-  const boost::container::small_vector<Point<dim>, 16> &
-  ConvexPolytope<dim>::vertices() const
-  {
-    return corner;
-  }
-
-  template <int dim>
-  BoundingBox<dim>
-  ConvexPolytope<dim>::bounding_box() const
-  {
-    return BoundingBox<dim>(corner);
-  }
-
-  template <int dim>
   Point<dim>
   ConvexPolytope<dim>::pull_inside(const Point<dim> &point) const
   {
@@ -420,8 +384,6 @@ namespace moraine
     return way < 1. ? centre + way * (point - centre) : point;
   }
 
-  template struct VolumeMoments<2>;
-  template struct VolumeMoments<3>;
   template class ConvexPolytope<2>;
   template class ConvexPolytope<3>;
 } // namespace moraine

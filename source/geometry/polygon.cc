@@ -56,23 +56,6 @@ namespace moraine
     return true;
   }
 
-  bool
-  edges_cross(const Polygon &p)
-  {
-    const unsigned int n = p.size();
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i + 2; j < n; ++j)
-        {
-          if (i == 0 && j == n - 1)
-            continue;
-          const Point<2> a = p[i], b = p[i + 1], c = p[j], d = p[(j + 1) % n];
-          if (cross(b - a, c - a) * cross(b - a, d - a) < 0. &&
-              cross(d - c, a - c) * cross(d - c, b - c) < 0.)
-            return true;
-        }
-    return false;
-  }
-
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &vertices)
   {

@@ -20,278 +20,161 @@ namespace moraine
 
   namespace
   {
-    // For what and in which dimensions kinds and keys are.
-    enum : unsigned int
-    {
-      body    = 1,
-      surface = 2,
-      both    = 3,
-      flat    = 4, // 2D only
-      solid   = 8  // 3D only
-    };
+    /**
+     * All kinds of bodies and surfaces: uses (b, s) and dimensions, name,
+     * description, keys they need, keys they may have. Keys that are not there
+     * for a use or dimension do not count.
+     */
+    const char *const kind_table = R"(
+  s 23 | rim of a body | | Body | Part
+b   23 | box | between two corners | Lower corner, Upper corner |
+b   23 | polygon | a polygon in the x-y plane; in 3D the prism over it | Vertices, Extent |
+b   2  | disc | (2D) | Centre, Radius |
+  s 2  | polyline | straight segments | Points | Flip
+  s 2  | circle | the rim of a disc | Centre, Radius, Body side |
+  s 2  | arc | a part of it | Centre, Radius, Start angle, End angle, Body side |
+b   2  | ring | (2D) | Centre, Radius, Inner radius |
+  s 3  | plane patch | a plane polygon | Points | Flip
+b s 3  | sphere | (3D) | Centre, Radius, Body side | Inner radius
+b s 3  | cylinder | (3D) solid or hollow (a surface: its side) | Axis start, Axis end, Radius, Body side | Inner radius
+b   23 | half-space | all behind a plane | Point, Normal |
+  s 23 | plane | without ends | Point, Normal | Flip
+b s 23 | expression | where it is positive (a surface: zero) | Expression | Extent lower corner, Extent upper corner
+b   23 | mesh | all cells of the mesh | |
+b   23 | union | in any operand | Operands |
+b   23 | intersection | in all operands | Operands |
+b   23 | difference | in the first operand only | Operands |
+b   23 | points-from-file | no shape: its points | Point file |)";
 
-    /** Whether something marked with @p flags is there. */
-    template <int dim>
-    bool
-    is_here(const unsigned int flags, const ShapeUse use)
+    /** All keys but that of the kind: uses and dimensions, name, what it holds,
+     * text. */
+    const char *const key_table = R"(
+  s 23 | Body | text | Name of a body: the surface is its rim, and no other key describes it but 'Part'
+  s 23 | Part | text | Of 'Body', the part of its rim; all if left out. A box has left, right, bottom, top, in 3D front (smallest y) and back; a polygon its edges, 1 from the first vertex to the second and so on, in 3D bottom and top; a ring or hollow sphere inner, outer; a cylinder side, or inner and outer, and bottom and top, where its axis starts and ends; a union, intersection or difference the names of its operands
+b   23 | Lower corner | point | Smallest coordinates of a box [length]
+b   23 | Upper corner | point | Largest coordinates of a box [length]
+b   23 | Vertices | points | Corners of a polygon in order, 'x y; x y; ...' [length]. It may be non-convex but must not touch itself
+b   3  | Extent | interval | Lower and upper z of the prism over a polygon [length]
+  s 2  | Points | points | Points x, y; x, y; ... of a polyline [length]. The body is on the left when walking along them; the first point repeated at the end closes the line
+  s 3  | Points | points | Vertices x, y, z; x, y, z; ... of a plane patch [length], counter-clockwise when seen from outside the body
+b s 23 | Centre | point | Centre of a round shape [length]
+b s 23 | Radius | radius | (Outer) radius of a round shape [length]
+b   23 | Inner radius | radius | Radius of the hole in a round shape [length]
+b s 3  | Axis start | point | Centre of one end of a cylinder [length]
+b s 3  | Axis end | point | Centre of the other end of a cylinder [length]
+  s 2  | Start angle | number | Angle from the x axis where an arc starts [degrees]
+  s 2  | End angle | number | Angle where an arc ends, counter-clockwise from its start [degrees]
+b s 23 | Point | point | A point on a plane, or on the one that bounds a half-space [length]
+b s 23 | Normal | point | Normal of this plane, pointing out of the body; any length
+  s 23 | Flip | flag | Put the body on the other side of a polyline, plane or plane patch
+  s 23 | Body side | side | Whether the body is inside or outside of a circle, arc, sphere or cylinder
+b s 23 | Expression | text | Positive inside the body; in x, y (and z), muParser syntax. A number wherever there are bodies. Details smaller than a point's share of its cell may be missed
+  s 23 | Extent lower corner | point | Lower corner of the box that limits the surface of an expression [length]; no limit if left out
+  s 23 | Extent upper corner | point | Upper corner of this box [length]
+b   23 | Operands | words | Names of the bodies that a union, intersection or difference is made from, as they are placed. These bodies are not simulated themselves
+b   23 | Point file | text | CSV file with columns x, y (, z), volume and, if wanted, more; its path is seen from the folder of the scene
+b   23 | Rotation angle | number | Turns the body counter-clockwise [degrees]
+b   23 | Rotation centre | point | A point that the rotation leaves in place; the origin if not set [length]
+b   3  | Rotation axis | point | Direction of the axis of rotation; any length
+b   23 | Translation | point | Moves the body after the rotation [length])";
+
+    /** The lines of a table for a use in a dimension. */
+    std::vector<std::vector<std::string>>
+    lines_of(const char *const table, const ShapeUse use, const int dim)
     {
-      return (flags & (use == ShapeUse::body ? body : surface)) != 0 &&
-             (flags & (dim == 2 ? solid : flat)) == 0;
+      std::vector<std::vector<std::string>> lines;
+      for (const auto &line : Utilities::split_string_list(table, '\n'))
+        {
+          auto cells = Utilities::split_string_list(line, '|');
+          if (cells.size() > 1 &&
+              cells[0].find(use == ShapeUse::body ? 'b' : 's') !=
+                std::string::npos &&
+              cells[0].find(std::to_string(dim)) != std::string::npos)
+            lines.push_back(cells);
+        }
+      return lines;
     }
 
-    /** Keys that are not there for a use or dimension do not count. */
     struct Kind
     {
-      unsigned int             flags;
       std::string              name, description;
       std::vector<std::string> needs, may_have;
     };
 
-    const std::string rim = "rim of a body";
-
+    template <int dim>
     const std::vector<Kind> &
-    all_kinds()
+    all_kinds(const ShapeUse use)
     {
-      static const std::vector<Kind> kinds{
-        {surface, rim, "", {"Body"}, {"Part"}},
-        {body,
-         "box",
-         "between two corners",
-         {"Lower corner", "Upper corner"},
-         {}},
-        {body,
-         "polygon",
-         "a polygon in the x-y plane; in 3D the prism over it",
-         {"Vertices", "Extent"},
-         {}},
-        {body | flat, "disc", "(2D)", {"Centre", "Radius"}, {}},
-        {body | flat, "ring", "(2D)", {"Centre", "Radius", "Inner radius"}, {}},
-        {surface | flat, "polyline", "straight segments", {"Points"}, {"Flip"}},
-        {surface | flat,
-         "circle",
-         "the rim of a disc",
-         {"Centre", "Radius", "Body side"},
-         {}},
-        {surface | flat,
-         "arc",
-         "a part of it",
-         {"Centre", "Radius", "Start angle", "End angle", "Body side"},
-         {}},
-        {surface | solid,
-         "plane patch",
-         "a plane polygon",
-         {"Points"},
-         {"Flip"}},
-        {both | solid,
-         "sphere",
-         "(3D)",
-         {"Centre", "Radius", "Body side"},
-         {"Inner radius"}},
-        {both | solid,
-         "cylinder",
-         "(3D) solid or hollow (a surface: its side)",
-         {"Axis start", "Axis end", "Radius", "Body side"},
-         {"Inner radius"}},
-        {body, "half-space", "all behind a plane", {"Point", "Normal"}, {}},
-        {surface, "plane", "without ends", {"Point", "Normal"}, {"Flip"}},
-        {both,
-         "expression",
-         "where it is positive (a surface: zero)",
-         {"Expression"},
-         {"Extent lower corner", "Extent upper corner"}},
-        {body, "mesh", "all cells of the mesh", {}, {}},
-        {body, "union", "in any operand", {"Operands"}, {}},
-        {body, "intersection", "in all operands", {"Operands"}, {}},
-        {body, "difference", "in the first operand only", {"Operands"}, {}},
-        {body, "points-from-file", "no shape: its points", {"Point file"}, {}}};
-      return kinds;
+      const auto read = [](const ShapeUse use) {
+        std::vector<Kind> kinds;
+        for (auto &line : lines_of(kind_table, use, dim))
+          {
+            line.resize(5);
+            kinds.push_back({line[1],
+                             line[2],
+                             Utilities::split_string_list(line[3], ','),
+                             Utilities::split_string_list(line[4], ',')});
+          }
+        return kinds;
+      };
+      static const auto bodies   = read(ShapeUse::body),
+                        surfaces = read(ShapeUse::surface);
+      return use == ShapeUse::body ? bodies : surfaces;
     }
 
-    enum Value
-    {
-      any_text,
-      radius,
-      number,
-      point,
-      interval,
-      name_list,
-      number_text,
-      yes_or_no,
-      side
-    };
-
-    /** The key of a section; the one of the kind is not among them. */
     struct Key
     {
-      unsigned int flags;
-      std::string  name;
-      Value        value;
-      std::string  text;
+      std::string name, holds, text;
+
+      /** What it says if it is left out. */
+      std::string usual;
     };
 
+    template <int dim>
     const std::vector<Key> &
-    all_keys()
+    all_keys(const ShapeUse use)
     {
-      static const std::vector<Key> keys{
-        {surface,
-         "Body",
-         any_text,
-         "Name of a body: the surface is its rim, and no other key describes "
-         "it but 'Part'"},
-        {surface,
-         "Part",
-         any_text,
-         "Of 'Body', the part of its rim; all if left out. A box has left, "
-         "right, bottom, top, in 3D front (smallest y) and back; a polygon its "
-         "edges, 1 from the first vertex to the second and so on, in 3D bottom "
-         "and top; a ring or hollow sphere inner, outer; a cylinder side, or "
-         "inner and outer, and bottom and top, where its axis starts and ends; "
-         "a union, intersection or difference the names of its operands"},
-        {body, "Lower corner", point, "Smallest coordinates of a box [length]"},
-        {body, "Upper corner", point, "Largest coordinates of a box [length]"},
-        {body,
-         "Vertices",
-         number_text,
-         "Corners of a polygon in order, 'x y; x y; ...' [length]. It may be "
-         "non-convex but must not touch itself"},
-        {body | solid,
-         "Extent",
-         interval,
-         "Lower and upper z of the prism over a polygon [length]"},
-        {surface | flat,
-         "Points",
-         number_text,
-         "Points x, y; x, y; ... of a polyline [length]. The body is on the "
-         "left when walking along them; the first point repeated at the end "
-         "closes the line"},
-        {surface | solid,
-         "Points",
-         number_text,
-         "Vertices x, y, z; x, y, z; ... of a plane patch [length], "
-         "counter-clockwise when seen from outside the body"},
-        {both, "Centre", point, "Centre of a round shape [length]"},
-        {both, "Radius", radius, "(Outer) radius of a round shape [length]"},
-        {body,
-         "Inner radius",
-         radius,
-         "Radius of the hole in a round shape [length]"},
-        {both | solid,
-         "Axis start",
-         point,
-         "Centre of one end of a cylinder [length]"},
-        {both | solid,
-         "Axis end",
-         point,
-         "Centre of the other end of a cylinder [length]"},
-        {surface | flat,
-         "Start angle",
-         number,
-         "Angle from the x axis where an arc starts [degrees]"},
-        {surface | flat,
-         "End angle",
-         number,
-         "Angle where an arc ends, counter-clockwise from its start "
-         "[degrees]"},
-        {both,
-         "Point",
-         point,
-         "A point on a plane or on that which bounds a half-space [length]"},
-        {both,
-         "Normal",
-         point,
-         "Normal of this plane, pointing out of the body; any length"},
-        {surface,
-         "Flip",
-         yes_or_no,
-         "Put the body on the other side of a polyline, plane or plane patch"},
-        {surface,
-         "Body side",
-         side,
-         "Whether the body is inside or outside of a circle, arc, sphere or "
-         "cylinder"},
-        {both,
-         "Expression",
-         any_text,
-         "Positive inside the body; in x, y (and z), muParser syntax. A number "
-         "wherever there are bodies. Details smaller than a point's share of "
-         "its cell may be missed"},
-        {surface,
-         "Extent lower corner",
-         point,
-         "Lower corner of the box that limits the surface of an expression "
-         "[length]; no limit if left out"},
-        {surface,
-         "Extent upper corner",
-         point,
-         "Upper corner of this box [length]"},
-        {body,
-         "Operands",
-         name_list,
-         "Names of the bodies that a union, intersection or difference is made "
-         "from, as they are placed. These bodies are not simulated "
-         "themselves"},
-        {body,
-         "Point file",
-         any_text,
-         "CSV file with columns x, y (, z), volume and, if wanted, more; its "
-         "path is seen from the folder of the scene"},
-        {body,
-         "Rotation angle",
-         number,
-         "Turns the body counter-clockwise [degrees]"},
-        {body,
-         "Rotation centre",
-         point,
-         "A point that the rotation leaves in place; the origin if not set "
-         "[length]"},
-        {body | solid,
-         "Rotation axis",
-         point,
-         "Direction of the axis of rotation; any length"},
-        {body,
-         "Translation",
-         point,
-         "Moves the body after the rotation [length]"}};
-      return keys;
+      const auto read = [](const ShapeUse use) {
+        std::vector<Key> keys;
+        for (const auto &line : lines_of(key_table, use, dim))
+          {
+            const bool zero = use == ShapeUse::body &&
+                              (line[2] == "radius" || line[2] == "number");
+            keys.push_back({line[1],
+                            line[2],
+                            line[3],
+                            line[2] == "flag" ? "false" : (zero ? "0" : "")});
+          }
+        return keys;
+      };
+      static const auto bodies   = read(ShapeUse::body),
+                        surfaces = read(ShapeUse::surface);
+      return use == ShapeUse::body ? bodies : surfaces;
     }
+
+    const std::string rim = "rim of a body";
 
     /** Bodies have lists with commas; surfaces blanks or commas. */
-    template <int dim>
     std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Value value, const ShapeUse use)
+    pattern_of(const std::string &holds, const ShapeUse use, const int dim)
     {
-      const bool numeric = value == radius || value == number || value == point;
-      if (value == number_text || (numeric && use == ShapeUse::surface))
+      const bool numeric =
+        holds == "radius" || holds == "number" || holds == "point";
+      if (holds == "points" || (numeric && use == ShapeUse::surface))
         return patterns::NumberText().clone();
-      switch (value)
-        {
-          case radius:
-            return patterns::non_negative().clone();
-          case number:
-            return patterns::number().clone();
-          case point:
-            return patterns::numbers(0, dim).clone();
-          case interval:
-            return patterns::numbers(0, 2).clone();
-          case name_list:
-            return Patterns::List(Patterns::Anything()).clone();
-          case yes_or_no:
-            return Patterns::Bool().clone();
-          case side:
-            return Patterns::Selection("|inside|outside").clone();
-          default:
-            return Patterns::Anything().clone();
-        }
-    }
-
-    std::string
-    default_of(const Value value, const ShapeUse use)
-    {
-      if (value == yes_or_no)
-        return "false";
-      return use == ShapeUse::body && (value == radius || value == number) ?
-               "0" :
-               "";
+      if (holds == "radius")
+        return patterns::non_negative().clone();
+      if (holds == "number")
+        return patterns::number().clone();
+      if (holds == "point" || holds == "interval")
+        return patterns::numbers(0, holds == "point" ? dim : 2).clone();
+      if (holds == "words")
+        return Patterns::List(Patterns::Anything()).clone();
+      if (holds == "flag")
+        return Patterns::Bool().clone();
+      if (holds == "side")
+        return Patterns::Selection("|inside|outside").clone();
+      return Patterns::Anything().clone();
     }
 
     const char *
@@ -361,9 +244,8 @@ namespace moraine
     : use(use)
   {
     texts[kind_key(use)] = default_kind(use, dim);
-    for (const Key &key : all_keys())
-      if (is_here<dim>(key.flags, use))
-        texts[key.name] = default_of(key.value, use);
+    for (const Key &key : all_keys<dim>(use))
+      texts[key.name] = key.usual;
   }
 
   template <int dim>
@@ -372,20 +254,19 @@ namespace moraine
   {
     std::string text =
       use == ShapeUse::body ? "The region the body fills:" : "Kind of surface:";
-    for (const Kind &kind : all_kinds())
-      if (is_here<dim>(kind.flags, use) && kind.name != rim)
+    for (const Kind &kind : all_kinds<dim>(use))
+      if (kind.name != rim)
         text += " " + kind.name + " = " + kind.description + ";";
     text.back() = '.';
     prm.add_parameter(kind_key(use),
                       texts[kind_key(use)],
                       text,
                       patterns::selection(kinds()));
-    for (const Key &key : all_keys())
-      if (is_here<dim>(key.flags, use))
-        prm.add_parameter(key.name,
-                          texts[key.name],
-                          key.text,
-                          *pattern_of<dim>(key.value, use));
+    for (const Key &key : all_keys<dim>(use))
+      prm.add_parameter(key.name,
+                        texts[key.name],
+                        key.text,
+                        *pattern_of(key.holds, use, dim));
   }
 
   template <int dim>
@@ -393,8 +274,8 @@ namespace moraine
   ShapeParameters<dim>::kinds() const
   {
     std::vector<std::string> names;
-    for (const Kind &kind : all_kinds())
-      if (is_here<dim>(kind.flags, use) && kind.name != rim)
+    for (const Kind &kind : all_kinds<dim>(use))
+      if (kind.name != rim)
         names.push_back(kind.name);
     return names;
   }
@@ -403,29 +284,18 @@ namespace moraine
   std::string
   ShapeParameters<dim>::kind() const
   {
-    const bool is_rim =
-      use == ShapeUse::surface && (given("Body") || given("Part"));
-    return is_rim ? rim : text(kind_key(use));
+    return given("Body") || given("Part") ? rim : text(kind_key(use));
   }
 
   template <int dim>
   bool
-  ShapeParameters<dim>::is_point_file() const
+  ShapeParameters<dim>::given(const std::string &name) const
   {
-    return kind() == "points-from-file";
-  }
-
-  template <int dim>
-  bool
-  ShapeParameters<dim>::given(const std::string &key) const
-  {
-    for (const Key &known : all_keys())
-      if (known.name == key && is_here<dim>(known.flags, use))
-        {
-          const std::string usual = default_of(known.value, use);
-          return text(key) != usual &&
-                 (usual != "0" || Utilities::string_to_double(text(key)) != 0.);
-        }
+    for (const Key &key : all_keys<dim>(use))
+      if (key.name == name)
+        return text(name) != key.usual &&
+               (key.usual != "0" ||
+                Utilities::string_to_double(text(name)) != 0.);
     return false;
   }
 
@@ -434,41 +304,35 @@ namespace moraine
   ShapeParameters<dim>::check_keys(const std::string &section) const
   {
     const std::string name = kind(), of = kind_key(use);
+    const auto       &known = all_kinds<dim>(use);
     const auto        found =
-      std::find_if(all_kinds().begin(), all_kinds().end(), [&](const Kind &k) {
-        return k.name == name && is_here<dim>(k.flags, use);
+      std::find_if(known.begin(), known.end(), [&](const Kind &k) {
+        return k.name == name;
       });
-    if (found == all_kinds().end())
+    if (found == known.end())
       throw InputError(place(section, of) + ": found '" + name +
                        "', not known in " + std::to_string(dim) + "D" +
                        suggest(name, kinds()));
     const auto here = [&](std::vector<std::string> keys) {
-      keys.erase(std::remove_if(keys.begin(),
-                                keys.end(),
-                                [&](const auto &key) {
-                                  return texts.count(key) == 0;
-                                }),
-                 keys.end());
+      const auto absent = [&](const auto &key) {
+        return texts.count(key) == 0;
+      };
+      keys.erase(std::remove_if(keys.begin(), keys.end(), absent), keys.end());
       return keys;
     };
     const auto needs = here(found->needs), may_have = here(found->may_have);
     const std::string what =
-      std::string(use == ShapeUse::body ? "shape" : "surface") + " '" + name +
-      "'";
-    for (const Key &key : all_keys())
+      (use == ShapeUse::body ? "shape '" : "surface '") + name + "'";
+    for (const Key &key : all_keys<dim>(use))
       {
-        if (!is_here<dim>(key.flags, use))
-          continue;
-        const bool is_given = given(key.name);
-        if (!is_given && has(needs, key.name))
-          throw InputError(
-            place(section, key.name) + ": not set" +
-            (default_of(key.value, use).empty() ? "" : ", or zero") + ". The " +
-            what + " needs: " + list_of(needs));
+        const bool is_given = given(key.name), is_needed = has(needs, key.name);
+        if (!is_given && is_needed)
+          throw InputError(place(section, key.name) + ": not set" +
+                           (key.usual.empty() ? "" : ", or zero") + ". The " +
+                           what + " needs: " + list_of(needs));
         const bool places =
           key.name == "Translation" || key.name.rfind("Rotation", 0) == 0;
-        if (is_given && !places && !has(needs, key.name) &&
-            !has(may_have, key.name))
+        if (is_given && !places && !is_needed && !has(may_have, key.name))
           throw InputError(
             place(section, key.name) + ": set, but the " + what +
             " does not use it. It uses: " + list_of(needs) +

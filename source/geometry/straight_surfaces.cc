@@ -5,7 +5,10 @@
 
 #include <moraine/geometry/cell_cut.h>
 #include <moraine/geometry/curve_subdivision.h>
+#include <moraine/geometry/polygon.h>
 #include <moraine/geometry/surfaces.h>
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +47,24 @@ namespace moraine
       double      magnitude; ///< of the coordinates
       Extent<dim> extent;
     };
+
+    /** Gauss points between two abscissae of a straight line. */
+    void
+    add_segment_points(const Point<2>               &origin,
+                       const Tensor<1, 2>           &direction,
+                       const Stretch                &stretch,
+                       const Tensor<1, 2>           &normal,
+                       const unsigned int            n_gauss,
+                       std::vector<SurfacePoint<2>> &out)
+    {
+      const QGauss<1> gauss(n_gauss);
+      const double    length = stretch.to - stretch.from;
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        out.push_back(
+          {origin + (stretch.from + gauss.point(q)[0] * length) * direction,
+           normal,
+           gauss.weight(q) * length});
+    }
 
     class Polyline : public FlatFace<2>
     {
@@ -162,7 +183,7 @@ namespace moraine
                                                           a * s.direction),
                                                  s.normal);
                          }))
-                    add_segment_points<2>(
+                    add_segment_points(
                       s.start, s.direction, part, s.normal, n_gauss, out);
               }
           }
@@ -181,6 +202,122 @@ namespace moraine
       std::vector<Segment> segments;
       bool                 closed;
     };
+
+    /** A plane's own coordinates in 3D; first x second = normal. */
+    struct PlaneFrame
+    {
+      PlaneFrame(const Point<3> &origin, const Tensor<1, 3> &n)
+        : origin(origin)
+        , normal(n / n.norm())
+      {
+        unsigned int smallest = 0;
+        for (unsigned int d = 1; d < 3; ++d)
+          if (std::abs(normal[d]) < std::abs(normal[smallest]))
+            smallest = d;
+        first = Point<3>::unit_vector(smallest);
+        first -= (first * normal) * normal;
+        first /= first.norm();
+        second = cross_product_3d(normal, first);
+      }
+
+      Point<2>
+      to_plane(const Point<3> &x) const
+      {
+        return {(x - origin) * first, (x - origin) * second};
+      }
+
+      Polygon
+      to_plane(const std::vector<Point<3>> &points) const
+      {
+        Polygon polygon;
+        for (const auto &x : points)
+          polygon.push_back(to_plane(x));
+        return polygon;
+      }
+
+      Point<3>
+      to_space(const Point<2> &p) const
+      {
+        return origin + p[0] * first + p[1] * second;
+      }
+
+      Point<3>     origin;
+      Tensor<1, 3> normal, first, second;
+    };
+
+    /** Without vertices that repeat, to 1e-15 of the size. */
+    Polygon
+    without_repeats(const Polygon &polygon, const double size)
+    {
+      Polygon result;
+      for (const auto &p : polygon)
+        if (result.empty() || p.distance(result.back()) > 1e-15 * size)
+          result.push_back(p);
+      while (result.size() > 1 &&
+             result.back().distance(result.front()) <= 1e-15 * size)
+        result.pop_back();
+      return result;
+    }
+
+    /** Points of the affine image of a reference cell at @p o with edges a, b.
+     */
+    void
+    add_affine_points(const Quadrature<2>          &rule,
+                      const Point<2>               &o,
+                      const Tensor<1, 2>           &a,
+                      const Tensor<1, 2>           &b,
+                      const PlaneFrame             &frame,
+                      const Tensor<1, 3>           &normal,
+                      std::vector<SurfacePoint<3>> &out)
+    {
+      const double jacobian = cross(a, b);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        out.push_back(
+          {frame.to_space(o + rule.point(q)[0] * a + rule.point(q)[1] * b),
+           normal,
+           rule.weight(q) * jacobian});
+    }
+
+    /**
+     * Quadrature of a polygon in the plane of @p frame, exact for polynomials
+     * of degree 2 n_gauss - 1 whatever its shape; weights are positive if it is
+     * convex. Tensor product Gauss on parallelograms, Witherden-Vincent rules
+     * (n_gauss <= 7) on the triangles of a fan otherwise. @p normal is what the
+     * points carry.
+     */
+    void
+    add_polygon_points(const Polygon                &polygon,
+                       const PlaneFrame             &frame,
+                       const Tensor<1, 3>           &normal,
+                       const unsigned int            n_gauss,
+                       std::vector<SurfacePoint<3>> &out)
+    {
+      AssertThrow(n_gauss >= 1 && n_gauss <= 7,
+                  ExcMessage("Plane pieces in 3D need 1 to 7 Gauss points."));
+      double size = 0.;
+      for (const auto &p : polygon)
+        size = std::max(size, p.distance(polygon[0]));
+      auto p = without_repeats(polygon, size);
+      if (polygon_area(p) < 0.)
+        std::reverse(p.begin(), p.end());
+      if (polygon_area(p) <= 1e-15 * size * size)
+        return;
+      if (p.size() == 4 && (p[0] - p[1] + (p[2] - p[3])).norm() <= 1e-14 * size)
+        {
+          add_affine_points(QGauss<2>(n_gauss),
+                            p[0],
+                            p[1] - p[0],
+                            p[3] - p[0],
+                            frame,
+                            normal,
+                            out);
+          return;
+        }
+      const QWitherdenVincentSimplex<2> rule(n_gauss);
+      for (unsigned int i = 2; i < p.size(); ++i)
+        add_affine_points(
+          rule, p[0], p[i - 1] - p[0], p[i] - p[0], frame, normal, out);
+    }
 
     PlaneFrame
     frame_of(const std::vector<Point<3>> &vertices)

@@ -28,8 +28,8 @@ namespace moraine
                   const std::shared_ptr<const Shape<dim>> &b,
                   const CellVertices<dim>                 &vertices)
     {
-      return CombinedShape<dim>(CombinedShape<dim>::Operation::intersect, a, b)
-        .clip(ConvexPolytope<dim>(vertices))
+      return combine<dim>(Operation::intersect, a, b)
+        ->clip(ConvexPolytope<dim>(vertices))
         .volume;
     }
 
@@ -221,21 +221,6 @@ namespace moraine
 
 
 
-    /** Length, area or volume that two boxes have in common. */
-    template <int dim>
-    double
-    overlap_volume(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
-    {
-      double volume = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        volume *= std::max(0.,
-                           std::min(a.upper_bound(d), b.upper_bound(d)) -
-                             std::max(a.lower_bound(d), b.lower_bound(d)));
-      return volume;
-    }
-
-
-
     /**
      * Refuse points that do not fit into the memory, or have more ids than
      * there are.
@@ -250,8 +235,8 @@ namespace moraine
       double     filled = 0;
       for (const Body<dim> &body : bodies)
         if (body.shape)
-          filled +=
-            overlap_volume(body.shape->bounding_box(), box) / box.volume();
+          filled += intersection(body.shape->bounding_box(), box).volume() /
+                    box.volume();
       const double n_points =
         filled * cells.n_active_cells() * seeder.n_sub_cells();
       std::ostringstream what;

@@ -3,7 +3,7 @@
 
 #include <moraine/assembly/mechanics_system.h>
 
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 
 #include <deal.II/base/mpi.h>
@@ -40,8 +40,7 @@ namespace
       constraint.kind = roller ? Constraint<2>::roller : Constraint<2>::fixed;
       boundaries.emplace_back(
         "line",
-        std::make_shared<Polyline>(
-          std::vector<Point<2>>{{0.4, 3.1}, {0.7, 0.5}}, false),
+        make_flat_face<2>(std::vector<Point<2>>{{0.4, 3.1}, {0.7, 0.5}}, false),
         RigidMotion<2>(),
         [](const Point<2> &x, const double t) {
           return Tensor<1, 2>({0.01 * t * x[1], 0.02 * t});

@@ -323,9 +323,7 @@ namespace
       std::vector<std::shared_ptr<const Material>> materials;
       for (const auto &[lower, upper] : boxes)
         {
-          bodies.push_back({"box",
-                            std::make_shared<ConvexShape<2>>(
-                              ConvexShape<2>::box(lower, upper))});
+          bodies.push_back({"box", make_box<2>(lower, upper)});
           materials.push_back(
             std::make_shared<LinearElastic>(10 * bodies.size(), 0., 1.));
         }

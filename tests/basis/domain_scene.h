@@ -7,8 +7,7 @@
 #include <moraine/basis/basis.h>
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/basis/gimp_basis.h>
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <cmath>
 #include <memory>
@@ -109,19 +108,17 @@ namespace moraine
           lower[d] = options.lower;
           upper[d] = options.upper;
         }
-      std::shared_ptr<const Shape<dim>> box =
-        std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::box(lower, upper));
+      std::shared_ptr<const Shape<dim>> box = make_box<dim>(lower, upper);
       if (options.turn != 0)
         {
           dealii::Tensor<1, dim> axis;
           for (unsigned int d = 0; d < dim; ++d)
             axis[d] = d + 1;
-          box = std::make_shared<MovedShape<dim>>(
-            box,
-            Placement<dim>(options.turn,
-                           lower + 0.5 * (upper - lower),
-                           axis,
-                           dealii::Tensor<1, dim>()));
+          box = make_moved<dim>(box,
+                                Placement<dim>(options.turn,
+                                               lower + 0.5 * (upper - lower),
+                                               axis,
+                                               dealii::Tensor<1, dim>()));
         }
       return {{"box", box}};
     }

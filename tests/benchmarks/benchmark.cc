@@ -13,7 +13,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/material/von_mises.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>
@@ -206,8 +206,7 @@ namespace
       Point<dim> corner;
       for (unsigned int d = 0; d < dim; ++d)
         corner[d] = d == dim - 1 ? options.height : options.cells;
-      const auto block = std::make_shared<ConvexShape<dim>>(
-        ConvexShape<dim>::box(Point<dim>(), corner));
+      const auto                   block  = make_box<dim>(Point<dim>(), corner);
       const std::vector<Body<dim>> bodies = {{"block", block}};
       const CellSeeder<dim>        seeder(options.points, PointLayout::equal);
       seed_bodies(bodies, seeder, points);
@@ -662,10 +661,9 @@ namespace
               const std::string                                       &name)
   {
     PointSet<dim> points(mesh, PointFields());
-    seed_bodies<dim>(
-      {{"all", std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space())}},
-      CellSeeder<dim>(options.points, PointLayout::equal),
-      points);
+    seed_bodies<dim>({{"all", make_space<dim>()}},
+                     CellSeeder<dim>(options.points, PointLayout::equal),
+                     points);
     Clock                     clock;
     std::vector<unsigned int> cell_of(mesh.triangulation().n_active_cells() *
                                       3 * Utilities::pow(options.points, dim));

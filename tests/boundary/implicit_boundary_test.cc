@@ -3,7 +3,7 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/state/state.h>
 
@@ -62,8 +62,7 @@ namespace
     {
       return ImplicitBoundary<2>(
         "line",
-        std::make_shared<Polyline>(
-          std::vector<Point<2>>{{1.9, 1.1}, {2.1, 2.8}}),
+        make_flat_face<2>(std::vector<Point<2>>{{1.9, 1.1}, {2.1, 2.8}}),
         motion,
         [](const Point<2> &, const double) { return Tensor<1, 2>(); },
         {kind, {}},

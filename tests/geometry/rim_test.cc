@@ -3,8 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/curved_shapes.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -23,8 +22,7 @@ namespace
   ShapePtr<dim>
   box_shape(const Point<dim> &lower, const Point<dim> &upper)
   {
-    return std::make_shared<ConvexShape<dim>>(
-      ConvexShape<dim>::box(lower, upper));
+    return make_box<dim>(lower, upper);
   }
 
   template <int dim>
@@ -37,18 +35,20 @@ namespace
     Tensor<1, dim> axis;
     for (unsigned int d = 0; d < dim; ++d)
       axis[d] = d + 1.;
-    return std::make_shared<MovedShape<dim>>(
+    return make_moved<dim>(
       shape, Placement<dim>(degrees, middle, axis, Tensor<1, dim>()));
   }
 
   template <int dim>
   ShapePtr<dim>
-  combination(const typename CombinedShape<dim>::Operation operation,
-              const ShapePtr<dim>                         &a,
-              const ShapePtr<dim>                         &b)
+  combination(const Operation      operation,
+              const ShapePtr<dim> &a,
+              const ShapePtr<dim> &b)
   {
-    return std::make_shared<CombinedShape<dim>>(
-      operation, a, b, std::array<std::string, 2>{{"a", "b"}});
+    return combine<dim>(operation,
+                        a,
+                        b,
+                        std::array<std::string, 2>{{"a", "b"}});
   }
 
   template <int dim>
@@ -110,17 +110,16 @@ namespace
 
 TEST(Rim, OfEveryShapeInTwoDimensions)
 {
-  using Operation = CombinedShape<2>::Operation;
   const std::vector<Point<2>> l{
     {.31, .32}, {1.61, .32}, {1.61, .83}, {.74, .83}, {.74, 1.52}, {.31, 1.52}};
   const std::vector<Point<2>> backwards(l.rbegin(), l.rend());
-  const auto                  wide = box_shape<2>({.21, .33}, {1.62, 1.04});
-  const auto                  tall = box_shape<2>({.63, .12}, {1.11, 1.83});
-  const auto   disc    = std::make_shared<RoundShape<2>>(Point<2>(1., 1.), .7);
-  const auto   hole    = std::make_shared<RoundShape<2>>(Point<2>(1., 1.), .3);
-  const auto   quarter = box_shape<2>({1., 1.}, {1.95, 1.95});
-  const auto   ring    = combination<2>(Operation::hollow_out, disc, hole);
-  const double exact   = 1e-12;
+  const auto                  wide    = box_shape<2>({.21, .33}, {1.62, 1.04});
+  const auto                  tall    = box_shape<2>({.63, .12}, {1.11, 1.83});
+  const auto                  disc    = make_ball<2>(Point<2>(1., 1.), .7);
+  const auto                  hole    = make_ball<2>(Point<2>(1., 1.), .3);
+  const auto                  quarter = box_shape<2>({1., 1.}, {1.95, 1.95});
+  const auto   ring  = combination<2>(Operation::hollow_out, disc, hole);
+  const double exact = 1e-12;
   expect_rims<2>(
     {{wide,
       {{"", 4.24},
@@ -130,10 +129,10 @@ TEST(Rim, OfEveryShapeInTwoDimensions)
        {"top", 1.41}},
       exact},
      {turned<2>(wide, 33.), {{"", 4.24}, {"left", .71}, {"top", 1.41}}, exact},
-     {std::make_shared<PolygonShape<2>>(l),
+     {make_polygon<2>(l),
       {{"", 5.}, {"1", 1.3}, {"2", .51}, {"3", .87}, {"4", .69}, {"6", 1.2}},
       exact},
-     {std::make_shared<PolygonShape<2>>(backwards),
+     {make_polygon<2>(backwards),
       {{"", 5.}, {"1", .43}, {"2", .69}, {"4", .51}, {"5", 1.3}, {"6", 1.2}},
       exact},
      {disc, {{"", 1.4 * numbers::PI}}, exact},
@@ -164,7 +163,6 @@ TEST(Rim, OfEveryShapeInTwoDimensions)
 TEST(Rim, SharedByTwoOperandsIsCountedOnce)
 {
   // flush sides that look alike, and sides that touch from both sides
-  using Operation  = CombinedShape<2>::Operation;
   const auto left  = box_shape<2>({.2, .4}, {.8, 1.2}),
              right = box_shape<2>({.8, .4}, {1.5, .9}),
              over  = box_shape<2>({.5, .4}, {1.5, .9});
@@ -184,8 +182,7 @@ TEST(Rim, SharedByTwoOperandsIsCountedOnce)
                    {{"", 2.8}, {"a/right", .8}},
                    1e-12}},
                  10);
-  using Operation3 = CombinedShape<3>::Operation;
-  expect_rims<3>({{combination<3>(Operation3::unite,
+  expect_rims<3>({{combination<3>(Operation::unite,
                                   box_shape<3>({.2, .4, .1}, {.8, 1.2, .9}),
                                   box_shape<3>({.8, .4, .1}, {1.5, .9, .9})),
                    {{"", 2. * (.48 + .35) + .8 * 4.2}, {"a/right", .3 * .8}},
@@ -195,7 +192,6 @@ TEST(Rim, SharedByTwoOperandsIsCountedOnce)
 
 TEST(Rim, OfStraightShapesInThreeDimensions)
 {
-  using Operation = CombinedShape<3>::Operation;
   const std::vector<Point<2>> l{
     {.31, .32}, {1.61, .32}, {1.61, .83}, {.74, .83}, {.74, 1.52}, {.31, 1.52}};
   const double l_area = 1.3 * .51 + .43 * .69;
@@ -217,7 +213,7 @@ TEST(Rim, OfStraightShapesInThreeDimensions)
        {"top", 1.41 * .71}},
       1e-12},
      {turned<3>(a, 25.), {{"", a_area}, {"front", 1.41 * 1.09}}, 1e-12},
-     {std::make_shared<PolygonShape<3>>(l, std::make_pair(.3, 1.7)),
+     {make_polygon<3>(l, std::make_pair(.3, 1.7)),
       {{"", 2. * l_area + 1.4 * 5.},
        {"1", 1.4 * 1.3},
        {"bottom", l_area},
@@ -236,16 +232,12 @@ TEST(Rim, OfStraightShapesInThreeDimensions)
 
 TEST(Rim, OfRoundShapesInThreeDimensions)
 {
-  using Operation = CombinedShape<3>::Operation;
-  const auto ball = std::make_shared<RoundShape<3>>(Point<3>(1., 1., 1.), .7);
-  const auto hole = std::make_shared<RoundShape<3>>(Point<3>(1., 1., 1.), .4);
-  const auto cylinder = std::make_shared<CylinderShape>(Point<3>(1., 1., .31),
-                                                        Point<3>(1., 1., 1.62),
-                                                        .6);
-  const auto tube     = std::make_shared<CylinderShape>(Point<3>(1., 1., .31),
-                                                    Point<3>(1., 1., 1.62),
-                                                    .6,
-                                                    .35);
+  const auto ball = make_ball<3>(Point<3>(1., 1., 1.), .7);
+  const auto hole = make_ball<3>(Point<3>(1., 1., 1.), .4);
+  const auto cylinder =
+    make_cylinder(Point<3>(1., 1., .31), Point<3>(1., 1., 1.62), .6);
+  const auto tube =
+    make_cylinder(Point<3>(1., 1., .31), Point<3>(1., 1., 1.62), .6, .35);
   expect_rims<3>({{ball, {{"", 4. * numbers::PI * .49}}, 1e-4},
                   {combination<3>(Operation::hollow_out, ball, hole),
                    {{"", 4. * numbers::PI * .65},
@@ -275,24 +267,23 @@ TEST(Rim, OfRoundShapesInThreeDimensions)
 
 TEST(Rim, OfAnExpressionAndOfNone)
 {
-  const ExpressionShape<2> disc("0.49 - (x-1)^2 - (y-1)^2", "here");
-  const auto               cells = box_cells<2>(20, 2., 0.);
-  EXPECT_NEAR(measure(all_pieces(*disc.rim(), cells, 3)),
+  const auto disc  = make_expression<2>("0.49 - (x-1)^2 - (y-1)^2", "here");
+  const auto cells = box_cells<2>(20, 2., 0.);
+  EXPECT_NEAR(measure(all_pieces(*disc->rim(), cells, 3)),
               1.4 * numbers::PI,
               1e-6);
-  EXPECT_TRUE(disc.parts().empty());
-  EXPECT_FALSE(ConvexShape<2>::space().rim());
-  const auto half = ConvexShape<2>::half_space({1., .3}, Point<2>(0., 2.));
-  EXPECT_NEAR(measure(all_pieces(*half.rim(), cells, 2)), 2., 1e-12);
+  EXPECT_TRUE(disc->parts().empty());
+  EXPECT_FALSE(make_space<2>()->rim());
+  const auto half = make_half_space<2>({1., .3}, Point<2>(0., 2.));
+  EXPECT_NEAR(measure(all_pieces(*half->rim(), cells, 2)), 2., 1e-12);
 }
 
 TEST(Rim, EndsWhereTheBodyEnds)
 {
-  const auto ring =
-    combination<2>(CombinedShape<2>::Operation::hollow_out,
-                   std::make_shared<RoundShape<2>>(Point<2>(), .7),
-                   std::make_shared<RoundShape<2>>(Point<2>(), .3));
-  const auto quarter = combination<2>(CombinedShape<2>::Operation::intersect,
+  const auto ring    = combination<2>(Operation::hollow_out,
+                                   make_ball<2>(Point<2>(), .7),
+                                   make_ball<2>(Point<2>(), .3));
+  const auto quarter = combination<2>(Operation::intersect,
                                       ring,
                                       box_shape<2>({0., 0.}, {1., 1.}));
   EXPECT_EQ(

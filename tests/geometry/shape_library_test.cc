@@ -104,29 +104,27 @@ TEST(ShapeLibrary, EveryShapeCanBeMade)
      {"q",
       from_text<3>("set Lower corner = 1, 1, 1\nset Upper corner = 3, 3, 3")}},
     "Bodies");
-  for (const auto &entry : shape_entries<2>())
+  for (const auto &entry : ShapeParameters<2>().kinds())
     {
-      if (entry.name == "points-from-file")
+      if (entry == "points-from-file")
         continue;
-      EXPECT_NEAR(volume<2>("set Shape = " + entry.name + "\n" +
-                              flat.at(entry.name).first,
-                            p2) /
-                    flat.at(entry.name).second,
-                  1.,
-                  1e-13)
-        << entry.name;
+      EXPECT_NEAR(
+        volume<2>("set Shape = " + entry + "\n" + flat.at(entry).first, p2) /
+          flat.at(entry).second,
+        1.,
+        1e-13)
+        << entry;
     }
-  for (const auto &entry : shape_entries<3>())
+  for (const auto &entry : ShapeParameters<3>().kinds())
     {
-      if (entry.name == "points-from-file")
+      if (entry == "points-from-file")
         continue;
-      EXPECT_NEAR(volume<3>("set Shape = " + entry.name + "\n" +
-                              solid.at(entry.name).first,
-                            p3) /
-                    solid.at(entry.name).second,
-                  1.,
-                  1e-13)
-        << entry.name;
+      EXPECT_NEAR(
+        volume<3>("set Shape = " + entry + "\n" + solid.at(entry).first, p3) /
+          solid.at(entry).second,
+        1.,
+        1e-13)
+        << entry;
     }
 }
 
@@ -239,7 +237,7 @@ TEST(ShapeLibrary, Mistakes)
   EXPECT_THROW(from_text<2>("set Radius = -1"), dealii::ExceptionBase);
 
   ShapeParameters<2> misspelt;
-  misspelt.shape = "discs";
+  misspelt.texts["Shape"] = "discs";
   try
     {
       make_shape<2>(misspelt, {}, "Bodies/a");
@@ -264,8 +262,8 @@ TEST(ShapeLibrary, BadPolygons)
             section + "key 'Vertices': found '0 0; 1 0', allowed: at least "
                       "three 'x y' separated by ';'");
   EXPECT_EQ(polygon("0 0; 1 0; 1 a"),
-            section + "key 'Vertices': found '1 a', allowed: at least three "
-                      "'x y' separated by ';'");
+            section + "key 'Vertices': found '1 a', allowed: 2 numbers "
+                      "for each point");
   const std::string allowed =
     ". Allowed: a polygon that does not touch itself, without the first vertex "
     "repeated at the end";

@@ -3,10 +3,8 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/curved_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/geometry/polygon.h>
-#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -29,17 +27,7 @@ namespace
   ShapePtr<dim>
   box(const Point<dim> &lower, const Point<dim> &upper)
   {
-    return std::make_shared<ConvexShape<dim>>(
-      ConvexShape<dim>::box(lower, upper));
-  }
-
-  template <int dim>
-  ShapePtr<dim>
-  combine(const typename CombinedShape<dim>::Operation operation,
-          const ShapePtr<dim>                         &a,
-          const ShapePtr<dim>                         &b)
-  {
-    return std::make_shared<CombinedShape<dim>>(operation, a, b);
+    return make_box<dim>(lower, upper);
   }
 
   template <int dim>
@@ -50,8 +38,8 @@ namespace
           const Tensor<1, dim> &axis        = Tensor<1, dim>(),
           const Tensor<1, dim> &translation = Tensor<1, dim>())
   {
-    return std::make_shared<MovedShape<dim>>(
-      shape, Placement<dim>(degrees, centre, axis, translation));
+    return make_moved<dim>(shape,
+                           Placement<dim>(degrees, centre, axis, translation));
   }
 
   struct Total
@@ -167,9 +155,8 @@ TEST(StraightShapes, NonConvexPolygon)
     {(0.27 * 0.45 + 0.2 * 0.2) / area, (0.27 * 0.15 + 0.2 * 0.55) / area, 0.});
   for (unsigned int turn = 0; turn < 2; ++turn)
     {
-      const auto polygon = std::make_shared<PolygonShape<2>>(l);
-      const auto prism =
-        std::make_shared<PolygonShape<3>>(l, std::make_pair(0.1, 0.55));
+      const auto polygon = make_polygon<2>(l);
+      const auto prism   = make_polygon<3>(l, std::make_pair(0.1, 0.55));
       for (const bool bent : {false, true})
         {
           expect_total(total_over_mesh(*polygon, -0.2, 1.1, 11, bent),
@@ -217,7 +204,6 @@ TEST(StraightShapes, Crossings)
 
 TEST(CombinedShapes, BoxWithoutRotatedBox)
 {
-  using Operation          = CombinedShape<2>::Operation;
   const auto         outer = box(Point<2>(), Point<2>(1., 1.));
   const auto         hole = rotated(box(Point<2>(0.3, 0.4), Point<2>(0.7, 0.6)),
                             30.,
@@ -236,7 +222,6 @@ TEST(CombinedShapes, BoxWithoutRotatedBox)
                  rest,
                  exact);
 
-  using Operation3        = CombinedShape<3>::Operation;
   const auto         cube = box(Point<3>(), Point<3>(1., 1., 1.));
   const Point<3>     middle(0.5, 0.45, 0.6);
   const Tensor<1, 3> half({0.2, 0.15, 0.1});
@@ -248,7 +233,7 @@ TEST(CombinedShapes, BoxWithoutRotatedBox)
   for (const bool bent : {false, true})
     expect_total(
       total_over_mesh(
-        *combine<3>(Operation3::subtract, cube, turned), -0.2, 1.3, 6, bent),
+        *combine<3>(Operation::subtract, cube, turned), -0.2, 1.3, 6, bent),
       1. - cut,
       (Tensor<1, 3>({0.5, 0.5, 0.5}) - cut * Tensor<1, 3>(middle)) / (1. - cut),
       exact);
@@ -258,9 +243,8 @@ TEST(CombinedShapes, BoxWithoutRotatedBox)
 
 TEST(CombinedShapes, OverlappingBoxes)
 {
-  using Operation = CombinedShape<2>::Operation;
-  const auto a    = box(Point<2>(), Point<2>(1., 1.));
-  const auto b    = box(Point<2>(0.7, 0.4), Point<2>(1.7, 0.9));
+  const auto a = box(Point<2>(), Point<2>(1., 1.));
+  const auto b = box(Point<2>(0.7, 0.4), Point<2>(1.7, 0.9));
   expect_total(
     total_over_mesh(*combine<2>(Operation::unite, a, b), -0.2, 2.1, 8),
     1.35,
@@ -284,12 +268,11 @@ TEST(CombinedShapes, OverlappingBoxes)
                Tensor<1, 3>({1.35, 0.65, 0.}),
                exact);
 
-  using Operation3 = CombinedShape<3>::Operation;
-  const auto c     = box(Point<3>(), Point<3>(1., 1., 1.));
-  const auto d     = box(Point<3>(0.5, 0.5, 0.5), Point<3>(1.5, 1.5, 1.5));
+  const auto c = box(Point<3>(), Point<3>(1., 1., 1.));
+  const auto d = box(Point<3>(0.5, 0.5, 0.5), Point<3>(1.5, 1.5, 1.5));
   for (const bool bent : {false, true})
     expect_total(
-      total_over_mesh(*combine<3>(Operation3::unite, c, d), -0.2, 1.8, 6, bent),
+      total_over_mesh(*combine<3>(Operation::unite, c, d), -0.2, 1.8, 6, bent),
       1.875,
       Tensor<1, 3>({0.75, 0.75, 0.75}),
       exact);
@@ -299,10 +282,9 @@ TEST(CombinedShapes, OverlappingBoxes)
 
 TEST(CombinedShapes, BoundingBoxes)
 {
-  using Operation = CombinedShape<2>::Operation;
-  const auto a    = box(Point<2>(), Point<2>(1., 1.));
-  const auto half = std::make_shared<ConvexShape<2>>(
-    ConvexShape<2>::half_space(Point<2>(0.5, 0.), Tensor<1, 2>({2., 0.})));
+  const auto a = box(Point<2>(), Point<2>(1., 1.));
+  const auto half =
+    make_half_space<2>(Point<2>(0.5, 0.), Tensor<1, 2>({2., 0.}));
   EXPECT_FALSE(is_finite(half->bounding_box()));
   EXPECT_FALSE(is_finite(rotated<2>(half, 30., {})->bounding_box()));
   const auto common = combine<2>(Operation::intersect, half, a);
@@ -320,13 +302,11 @@ TEST(CombinedShapes, BoundingBoxes)
 
 TEST(CurvedShapes, DiscAndRingAreExact)
 {
-  const Point<2>         centre(0.31, 0.27);
-  const Tensor<1, 3>     at({0.31, 0.27, 0.});
-  const auto             disc  = std::make_shared<RoundShape<2>>(centre, 0.9);
-  const auto             inner = std::make_shared<RoundShape<2>>(centre, 0.4);
-  const CombinedShape<2> ring(CombinedShape<2>::Operation::hollow_out,
-                              disc,
-                              inner);
+  const Point<2>     centre(0.31, 0.27);
+  const Tensor<1, 3> at({0.31, 0.27, 0.});
+  const auto         disc  = make_ball<2>(centre, 0.9);
+  const auto         inner = make_ball<2>(centre, 0.4);
+  const auto         ring  = combine<2>(Operation::hollow_out, disc, inner);
   for (const unsigned int n : {1, 3, 20})
     for (const bool bent : {false, true})
       {
@@ -334,17 +314,15 @@ TEST(CurvedShapes, DiscAndRingAreExact)
                      PI * 0.81,
                      at,
                      exact);
-        expect_total(total_over_mesh(ring, -1., 1.6, n, bent),
+        expect_total(total_over_mesh(*ring, -1., 1.6, n, bent),
                      PI * 0.65,
                      at,
                      exact);
       }
-  EXPECT_NEAR(ring.level(Point<2>(0.31, 0.8)), 0.13, 1e-15);
+  EXPECT_NEAR(ring->level(Point<2>(0.31, 0.8)), 0.13, 1e-15);
 
   // half a disc, and a box with a round hole in its corner
-  using Operation = CombinedShape<2>::Operation;
-  const auto half = std::make_shared<ConvexShape<2>>(
-    ConvexShape<2>::half_space(centre, Tensor<1, 2>({1., 0.})));
+  const auto half = make_half_space<2>(centre, Tensor<1, 2>({1., 0.}));
   expect_total(
     total_over_mesh(*combine<2>(Operation::intersect, disc, half), -1., 1.6, 9),
     PI * 0.405,
@@ -362,26 +340,26 @@ TEST(CurvedShapes, DiscAndRingAreExact)
 
 TEST(CurvedShapes, SphereIsExact)
 {
-  const Point<3>      centre(0.31, 0.27, 0.29);
-  const RoundShape<3> sphere(centre, 0.9);
+  const Point<3> centre(0.31, 0.27, 0.29);
+  const auto     sphere = make_ball<3>(centre, 0.9);
   for (const unsigned int n : {1, 3, 8})
     for (const bool bent : {false, true})
-      expect_total(total_over_mesh(sphere, -1., 1.6, n, bent),
+      expect_total(total_over_mesh(*sphere, -1., 1.6, n, bent),
                    4. / 3. * PI * std::pow(0.9, 3),
                    Tensor<1, 3>(centre),
                    exact);
 
   // faces through the centre, and a corner there
-  const auto eighth =
-    sphere.clip(ConvexPolytope<3>(centre, centre + Tensor<1, 3>({1., 1., 1.})));
+  const auto eighth = sphere->clip(
+    ConvexPolytope<3>(centre, centre + Tensor<1, 3>({1., 1., 1.})));
   EXPECT_NEAR(eighth.volume / (PI / 6. * std::pow(0.9, 3)), 1., exact);
   const double arm = 3. / 8. * 0.9;
   EXPECT_LT((eighth.centroid - centre - Tensor<1, 3>({arm, arm, arm})).norm(),
             exact);
   // a cap of height 0.1
   const auto cap =
-    sphere.clip(ConvexPolytope<3>(centre + Tensor<1, 3>({0.8, -1., -1.}),
-                                  centre + Tensor<1, 3>({1., 1., 1.})));
+    sphere->clip(ConvexPolytope<3>(centre + Tensor<1, 3>({0.8, -1., -1.}),
+                                   centre + Tensor<1, 3>({1., 1., 1.})));
   EXPECT_NEAR(cap.volume / (PI * 0.01 / 3. * 2.6), 1., 1e-11);
 }
 
@@ -392,33 +370,26 @@ TEST(CurvedShapes, Cylinder)
   const Point<3> start(0.3, 0.2, -0.4);
   // along z: exact; inclined: by adaptive integration
   const auto upright =
-    std::make_shared<CylinderShape>(start,
-                                    start + Tensor<1, 3>({0., 0., 1.2}),
-                                    0.5);
+    make_cylinder(start, start + Tensor<1, 3>({0., 0., 1.2}), 0.5);
   const auto bore =
-    std::make_shared<CylinderShape>(start,
-                                    start + Tensor<1, 3>({0., 0., 1.2}),
-                                    0.2);
+    make_cylinder(start, start + Tensor<1, 3>({0., 0., 1.2}), 0.2);
   expect_total(total_over_mesh(*upright, -1., 1.6, 6),
                PI * 0.25 * 1.2,
                Tensor<1, 3>({0.3, 0.2, 0.2}),
                exact);
   expect_total(
     total_over_mesh(
-      *combine<3>(CombinedShape<3>::Operation::hollow_out, upright, bore),
-      -1.,
-      1.6,
-      6),
+      *combine<3>(Operation::hollow_out, upright, bore), -1., 1.6, 6),
     PI * 0.21 * 1.2,
     Tensor<1, 3>({0.3, 0.2, 0.2}),
     exact);
-  const Tensor<1, 3>  way({0.3, 0.5, 1.});
-  const CylinderShape inclined(start, start + way, 0.5);
-  expect_total(total_over_mesh(inclined, -1.2, 1.6, 5),
+  const Tensor<1, 3> way({0.3, 0.5, 1.});
+  const auto         inclined = make_cylinder(start, start + way, 0.5);
+  expect_total(total_over_mesh(*inclined, -1.2, 1.6, 5),
                PI * 0.25 * way.norm(),
                Tensor<1, 3>(start + way / 2.),
                1e-10);
-  const auto box = inclined.bounding_box();
+  const auto box = inclined->bounding_box();
   EXPECT_NEAR(box.upper_bound(2),
               0.6 + 0.5 * std::sqrt(0.34) / way.norm(),
               1e-14);
@@ -429,9 +400,8 @@ TEST(CurvedShapes, Cylinder)
 TEST(CurvedShapes, TwoCurvedOperands)
 {
   // lens of two discs of radius 1 at distance 1
-  using Operation   = CombinedShape<2>::Operation;
-  const auto   a    = std::make_shared<RoundShape<2>>(Point<2>(0., 0.), 1.);
-  const auto   b    = std::make_shared<RoundShape<2>>(Point<2>(1., 0.), 1.);
+  const auto   a    = make_ball<2>(Point<2>(0., 0.), 1.);
+  const auto   b    = make_ball<2>(Point<2>(1., 0.), 1.);
   const double lens = 2. * PI / 3. - std::sqrt(3.) / 2.;
   expect_total(
     total_over_mesh(*combine<2>(Operation::intersect, a, b), -1., 2., 15),
@@ -449,13 +419,13 @@ TEST(CurvedShapes, TwoCurvedOperands)
 
 TEST(CurvedShapes, Expressions)
 {
-  const ExpressionShape<2> disc("1 - x^2 - y^2", "");
-  expect_total(total_over_mesh(disc, -1.2, 1.2, 20), PI, {}, 1e-7);
-  const ExpressionShape<2> square("min(1 - abs(x), 1 - abs(y))", "");
-  expect_total(total_over_mesh(square, -1.2, 1.2, 10), 4., {}, 1e-6);
-  const ExpressionShape<3> sphere("1 - x^2 - y^2 - z^2", "");
-  expect_total(total_over_mesh(sphere, -1.2, 1.2, 8), 4. / 3. * PI, {}, 1e-6);
+  const auto disc = make_expression<2>("1 - x^2 - y^2", "");
+  expect_total(total_over_mesh(*disc, -1.2, 1.2, 20), PI, {}, 1e-7);
+  const auto square = make_expression<2>("min(1 - abs(x), 1 - abs(y))", "");
+  expect_total(total_over_mesh(*square, -1.2, 1.2, 10), 4., {}, 1e-6);
+  const auto sphere = make_expression<3>("1 - x^2 - y^2 - z^2", "");
+  expect_total(total_over_mesh(*sphere, -1.2, 1.2, 8), 4. / 3. * PI, {}, 1e-6);
 
-  EXPECT_THROW(ExpressionShape<2>("1 - x^^2", "key 'Expression'"), InputError);
-  EXPECT_THROW(ExpressionShape<2>("1/x", "").level({0., 1.}), InputError);
+  EXPECT_THROW(make_expression<2>("1 - x^^2", "key 'Expression'"), InputError);
+  EXPECT_THROW(make_expression<2>("1/x", "")->level({0., 1.}), InputError);
 }

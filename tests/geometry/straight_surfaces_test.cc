@@ -3,7 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -54,11 +54,11 @@ TEST(Polyline, LengthIsExactAtRandomPlaces)
       Numbers    numbers(3);
       for (unsigned int i = 0; i < 2000; ++i)
         {
-          const Point<2> a = numbers.point<2>(-3., 13.),
-                         b = numbers.point<2>(-3., 13.);
-          const Polyline line({a, b}, i % 2);
-          const double   exact = length_in_box(a, b, 10.);
-          EXPECT_NEAR(measure(all_pieces(line, cells, 2)), exact, 1e-13 * 20.);
+          const Point<2> a   = numbers.point<2>(-3., 13.),
+                         b   = numbers.point<2>(-3., 13.);
+          const auto   line  = make_flat_face<2>({a, b}, i % 2);
+          const double exact = length_in_box(a, b, 10.);
+          EXPECT_NEAR(measure(all_pieces(*line, cells, 2)), exact, 1e-13 * 20.);
         }
     }
 }
@@ -76,18 +76,18 @@ TEST(Polyline, AlignedPiecesLieOnceAndOnTheBodySide)
                    b     = vertical ? Point<2>(c, 1) : Point<2>(1, c);
           if (backwards)
             std::swap(a, b);
-          const Polyline line({a, b});
-          double         sum = 0.;
+          const auto line = make_flat_face<2>({a, b});
+          double     sum  = 0.;
           for (const auto &cell : cells)
             {
               std::vector<SurfacePoint<2>> points;
-              line.pieces(cell, 2, points);
+              line->pieces(cell, 2, points);
               if (!points.empty())
                 {
-                  EXPECT_GT(line.level(centre<2>(cell)), 0.);
+                  EXPECT_GT(line->level(centre<2>(cell)), 0.);
                 }
               for (const auto &p : points)
-                EXPECT_NEAR(line.level(p.x), 0., 1e-15);
+                EXPECT_NEAR(line->level(p.x), 0., 1e-15);
               sum += measure(points);
             }
           const bool body_is_low = vertical != backwards;
@@ -112,15 +112,16 @@ TEST(Polyline, AlignedUpToRoundOffOnTurnedMeshes)
       for (auto &cell : cells)
         for (auto &v : cell)
           v = turn(v);
-      const Polyline line({turn({0., 0.75}), turn({2., 0.75})}, k % 2);
-      double         sum = 0.;
+      const auto line =
+        make_flat_face<2>({turn({0., 0.75}), turn({2., 0.75})}, k % 2);
+      double sum = 0.;
       for (const auto &cell : cells)
         {
           std::vector<SurfacePoint<2>> points;
-          line.pieces(cell, 1, points);
+          line->pieces(cell, 1, points);
           if (!points.empty())
             {
-              EXPECT_GT(line.level(centre<2>(cell)), 0.);
+              EXPECT_GT(line->level(centre<2>(cell)), 0.);
             }
           sum += measure(points);
         }
@@ -146,12 +147,14 @@ TEST(Polyline, ThroughVerticesAndTinyCorners)
                               0.1999999999})
     for (const bool flip : {false, true})
       {
-        const Polyline diagonal({{-1., -1. + offset}, {2., 2. + offset}}, flip);
-        EXPECT_NEAR(measure(all_pieces(diagonal, cells, 3)),
+        const auto diagonal =
+          make_flat_face<2>({{-1., -1. + offset}, {2., 2. + offset}}, flip);
+        EXPECT_NEAR(measure(all_pieces(*diagonal, cells, 3)),
                     (1. - offset) * std::sqrt(2.),
                     2e-13);
-        const Polyline corner({{-1., 1. + offset}, {1. + offset, -1.}}, flip);
-        EXPECT_NEAR(measure(all_pieces(corner, cells, 3)),
+        const auto corner =
+          make_flat_face<2>({{-1., 1. + offset}, {1. + offset, -1.}}, flip);
+        EXPECT_NEAR(measure(all_pieces(*corner, cells, 3)),
                     offset * std::sqrt(2.),
                     2e-13);
       }
@@ -167,14 +170,14 @@ TEST(Polyline, PolynomialsCellByCell)
         {
           const Point<2> a = numbers.point<2>(0., 1.),
                          b = numbers.point<2>(0., 1.);
-          const Polyline line({a, b});
-          const auto     c = numbers.direction<2>();
+          const auto line  = make_flat_face<2>({a, b});
+          const auto c     = numbers.direction<2>();
           for (unsigned int n = 1; n <= 4; ++n)
             for (const auto &cell : cells)
               {
                 std::vector<SurfacePoint<2>> few, many;
-                line.pieces(cell, n, few);
-                line.pieces(cell, 8, many);
+                line->pieces(cell, n, few);
+                line->pieces(cell, 8, many);
                 double low = 0., high = 0.;
                 for (const auto &p : few)
                   {
@@ -193,42 +196,43 @@ TEST(Polyline, PolynomialsCellByCell)
 TEST(Polyline, LevelNormalAndExtentOfACorner)
 {
   // walking east, then north: the body is the quarter up and to the left
-  const Polyline line({{0, 0}, {2, 0}, {2, 2}});
-  EXPECT_DOUBLE_EQ(line.level({1, 0.5}), 0.5);
-  EXPECT_DOUBLE_EQ(line.level({1, -0.5}), -0.5);
-  EXPECT_DOUBLE_EQ(line.level({3, -1}), -std::sqrt(2.));
-  EXPECT_NEAR((line.normal({3, -1}) - Point<2>(1, -1) / std::sqrt(2.)).norm(),
+  const auto line = make_flat_face<2>({{0, 0}, {2, 0}, {2, 2}});
+  EXPECT_DOUBLE_EQ(line->level({1, 0.5}), 0.5);
+  EXPECT_DOUBLE_EQ(line->level({1, -0.5}), -0.5);
+  EXPECT_DOUBLE_EQ(line->level({3, -1}), -std::sqrt(2.));
+  EXPECT_NEAR((line->normal({3, -1}) - Point<2>(1, -1) / std::sqrt(2.)).norm(),
               0.,
               1e-15);
-  EXPECT_NEAR((line.normal({1, 0.1}) - Point<2>(0, -1)).norm(), 0., 1e-15);
-  EXPECT_TRUE(line.in_extent({1, 0.5}));
-  EXPECT_TRUE(line.in_extent({3, -1}));
-  EXPECT_TRUE(line.in_extent({0, -1}));
-  EXPECT_FALSE(line.in_extent({-0.1, -1}));
-  EXPECT_FALSE(line.in_extent({2.1, 2.1}));
-  const Polyline flipped({{0, 0}, {2, 0}, {2, 2}}, true);
-  EXPECT_DOUBLE_EQ(flipped.level({3, -1}), std::sqrt(2.));
-  EXPECT_NEAR(measure(all_pieces(line, box_cells<2>(3, 5., 0.1), 2)),
+  EXPECT_NEAR((line->normal({1, 0.1}) - Point<2>(0, -1)).norm(), 0., 1e-15);
+  EXPECT_TRUE(line->in_extent({1, 0.5}));
+  EXPECT_TRUE(line->in_extent({3, -1}));
+  EXPECT_TRUE(line->in_extent({0, -1}));
+  EXPECT_FALSE(line->in_extent({-0.1, -1}));
+  EXPECT_FALSE(line->in_extent({2.1, 2.1}));
+  const auto flipped = make_flat_face<2>({{0, 0}, {2, 0}, {2, 2}}, true);
+  EXPECT_DOUBLE_EQ(flipped->level({3, -1}), std::sqrt(2.));
+  EXPECT_NEAR(measure(all_pieces(*line, box_cells<2>(3, 5., 0.1), 2)),
               4.,
               1e-13);
-  EXPECT_THROW(Polyline({{0, 0}}), InputError);
-  EXPECT_THROW(Polyline({{0, 0}, {0, 0}}), InputError);
+  EXPECT_THROW(make_flat_face<2>({{0, 0}}), InputError);
+  EXPECT_THROW(make_flat_face<2>({{0, 0}, {0, 0}}), InputError);
 }
 
 TEST(Polyline, ClosedSquareIsADistance)
 {
-  const Polyline square({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
-  Numbers        numbers(9);
+  const auto square =
+    make_flat_face<2>({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  Numbers numbers(9);
   for (unsigned int i = 0; i < 500; ++i)
     {
       const Point<2> x     = numbers.point<2>(-1., 2.);
       const double   dx    = std::max(-x[0], x[0] - 1.),
                    dy      = std::max(-x[1], x[1] - 1.);
       const double outside = std::hypot(std::max(dx, 0.), std::max(dy, 0.));
-      EXPECT_NEAR(square.level(x),
+      EXPECT_NEAR(square->level(x),
                   std::max(dx, dy) > 0. ? -outside : -std::max(dx, dy),
                   1e-14);
-      EXPECT_TRUE(square.in_extent(x));
+      EXPECT_TRUE(square->in_extent(x));
     }
 }
 
@@ -241,7 +245,7 @@ TEST(Plane, LineInTwoDimensions)
       const Point<2>     p = numbers.point<2>(0., 10.);
       const Tensor<1, 2> n = numbers.direction<2>();
       const Tensor<1, 2> t = Point<2>(-n[1], n[0]);
-      EXPECT_NEAR(measure(all_pieces(Polyline::plane(p, 3. * n), cells, 1)),
+      EXPECT_NEAR(measure(all_pieces(*make_plane<2>(p, 3. * n), cells, 1)),
                   length_in_box(p - 50. * t, p + 50. * t, 10.),
                   1e-12);
     }
@@ -254,7 +258,7 @@ TEST(Plane, AreaInACube)
     {
       const auto cells = box_cells<3>(3, 1., distortion);
       const auto area  = [&](const Point<3> &p, const Tensor<1, 3> &n) {
-        return measure(all_pieces(PlanePatch::plane(p, n), cells, 2));
+        return measure(all_pieces(*make_plane<3>(p, n), cells, 2));
       };
       EXPECT_NEAR(area({.5, .5, .5}, Point<3>(1, 1, 1)),
                   .75 * std::sqrt(3.),
@@ -276,17 +280,16 @@ TEST(Plane, AlignedOnceAndOnTheBodySideIn3D)
       for (const double sign : {-1., 1.})
         {
           Point<3> p(.4, .4, .4);
-          p[d] = i / 4.;
-          const PlanePatch plane =
-            PlanePatch::plane(p, sign * Point<3>::unit_vector(d));
-          double sum = 0.;
+          p[d]             = i / 4.;
+          const auto plane = make_plane<3>(p, sign * Point<3>::unit_vector(d));
+          double     sum   = 0.;
           for (const auto &cell : cells)
             {
               std::vector<SurfacePoint<3>> points;
-              plane.pieces(cell, 2, points);
+              plane->pieces(cell, 2, points);
               if (!points.empty())
                 {
-                  EXPECT_GT(plane.level(centre<3>(cell)), 0.);
+                  EXPECT_GT(plane->level(centre<3>(cell)), 0.);
                   EXPECT_EQ(points.size(), 4u);
                 }
               sum += measure(points);
@@ -303,12 +306,12 @@ TEST(PlanePatch, AreaAndPolynomialsAtRandomPlaces)
       Numbers    numbers(6);
       for (unsigned int i = 0; i < 60; ++i)
         {
-          const Point<3> a = numbers.point<3>(0., 1.),
-                         b = numbers.point<3>(0., 1.),
-                         c = numbers.point<3>(0., 1.);
-          const PlanePatch patch({a, b, c}, i % 2);
-          const auto       direction = numbers.direction<3>();
-          const double     area = 0.5 * cross_product_3d(b - a, c - a).norm();
+          const Point<3> a       = numbers.point<3>(0., 1.),
+                         b       = numbers.point<3>(0., 1.),
+                         c       = numbers.point<3>(0., 1.);
+          const auto   patch     = make_flat_face<3>({a, b, c}, i % 2);
+          const auto   direction = numbers.direction<3>();
+          const double area      = 0.5 * cross_product_3d(b - a, c - a).norm();
           for (unsigned int n = 1; n <= 4; ++n)
             {
               const QWitherdenVincentSimplex<2> rule(n);
@@ -319,13 +322,13 @@ TEST(PlanePatch, AreaAndPolynomialsAtRandomPlaces)
                                          rule.point(q)[1] * (c - a),
                                        direction,
                                        2 * n - 1);
-              const auto points = all_pieces(patch, cells, n);
+              const auto points = all_pieces(*patch, cells, n);
               for (const auto &p : points)
                 {
                   sum += p.JxW * polynomial<3>(p.x, direction, 2 * n - 1);
                   EXPECT_GT(p.JxW, 0.);
-                  EXPECT_NEAR(patch.level(p.x), 0., 1e-14);
-                  EXPECT_TRUE(patch.in_extent(p.x));
+                  EXPECT_NEAR(patch->level(p.x), 0., 1e-14);
+                  EXPECT_TRUE(patch->in_extent(p.x));
                 }
               EXPECT_NEAR(measure(points), area, 1e-13);
               EXPECT_NEAR(sum, exact, 1e-13);
@@ -340,13 +343,13 @@ TEST(PlanePatch, CellsOfARegularMeshKeepTheirOwnPoints)
   Numbers    numbers(8);
   for (unsigned int i = 0; i < 20; ++i)
     {
-      const PlanePatch plane =
-        PlanePatch::plane(numbers.point<3>(.2, .8), numbers.direction<3>());
+      const auto plane =
+        make_plane<3>(numbers.point<3>(.2, .8), numbers.direction<3>());
       for (const auto &cell : cells)
         {
           std::vector<SurfacePoint<3>> few, many;
-          plane.pieces(cell, 2, few);
-          plane.pieces(cell, 5, many);
+          plane->pieces(cell, 2, few);
+          plane->pieces(cell, 5, many);
           double low = 0., high = 0.;
           for (const auto &p : few)
             {
@@ -372,35 +375,38 @@ TEST(PlanePatch, NonConvexAndOnFaces)
     {0, 0, .5}, {1, 0, .5}, {1, .5, .5}, {.5, .5, .5}, {.5, 1, .5}, {0, 1, .5}};
   for (const bool flip : {false, true})
     {
-      const PlanePatch patch(outline, flip);
-      EXPECT_NEAR(patch.normal({})[2], flip ? -1. : 1., 1e-15);
+      const auto patch = make_flat_face<3>(outline, flip);
+      EXPECT_NEAR(patch->normal({})[2], flip ? -1. : 1., 1e-15);
       double sum = 0.;
       for (const auto &cell : cells)
         {
           std::vector<SurfacePoint<3>> points;
-          patch.pieces(cell, 2, points);
+          patch->pieces(cell, 2, points);
           if (!points.empty())
             {
-              EXPECT_GT(patch.level(centre<3>(cell)), 0.);
+              EXPECT_GT(patch->level(centre<3>(cell)), 0.);
             }
           sum += measure(points);
         }
       EXPECT_NEAR(sum, .75, 1e-13);
-      EXPECT_TRUE(patch.in_extent({.25, .75, 0.}));
-      EXPECT_FALSE(patch.in_extent({.75, .75, .5}));
+      EXPECT_TRUE(patch->in_extent({.25, .75, 0.}));
+      EXPECT_FALSE(patch->in_extent({.75, .75, .5}));
     }
-  EXPECT_NEAR(measure(
-                all_pieces(PlanePatch(outline), box_cells<3>(3, 1., .15), 3)),
+  EXPECT_NEAR(measure(all_pieces(*make_flat_face<3>(outline),
+                                 box_cells<3>(3, 1., .15),
+                                 3)),
               .75,
               1e-13);
 }
 
 TEST(PlanePatch, MistakesAreNamed)
 {
-  EXPECT_THROW(PlanePatch({{0, 0, 0}, {1, 0, 0}}), InputError);
-  EXPECT_THROW(PlanePatch({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), InputError);
-  EXPECT_THROW(PlanePatch({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, .1}}),
+  EXPECT_THROW(make_flat_face<3>({{0, 0, 0}, {1, 0, 0}}), InputError);
+  EXPECT_THROW(make_flat_face<3>({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
                InputError);
-  EXPECT_THROW(PlanePatch({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, -.5, 0}}),
+  EXPECT_THROW(make_flat_face<3>({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, .1}}),
+               InputError);
+  EXPECT_THROW(make_flat_face<3>(
+                 {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, -.5, 0}}),
                InputError);
 }

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/geometry/placement.h>
-#include <moraine/geometry/surface_library.h>
+#include <moraine/geometry/shape_library.h>
 #include <moraine/core/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -89,8 +89,8 @@ TEST(SurfaceLibrary, MakesEveryKind)
 TEST(SurfaceLibrary, MistakesAreNamed)
 {
   EXPECT_EQ(complaint<2>(""),
-            "section 'Boundaries/left', key 'Points': found nothing, allowed: "
-            "a value, needed by a polyline");
+            "section 'Boundaries/left', key 'Points': not set. The surface "
+            "'polyline' needs: Points");
   EXPECT_EQ(complaint<2>("set Points = 0, 0; 1"),
             "section 'Boundaries/left', key 'Points': found '1', allowed: "
             "2 numbers for each point");
@@ -100,17 +100,19 @@ TEST(SurfaceLibrary, MistakesAreNamed)
   EXPECT_EQ(
     complaint<2>("set Points = 0, 0"),
     "section 'Boundaries/left', a line needs at least two points, found 1");
-  EXPECT_EQ(complaint<2>("set Points = 0,0; 1,1\nset Radius = 3"),
-            "section 'Boundaries/left', key 'Radius': found '3', allowed: "
-            "nothing, a polyline has no such entry");
+  EXPECT_EQ(
+    complaint<2>("set Points = 0,0; 1,1\nset Radius = 3"),
+    "section 'Boundaries/left', key 'Radius': set, but the "
+    "surface 'polyline' does not use it. It uses: Points and, if wanted, "
+    "Flip");
   EXPECT_EQ(
     complaint<2>("set Surface = circle\nset Centre = 0,0\nset Radius = -1\n"
                  "set Body side = inside"),
     "section 'Boundaries/left', key 'Radius': found '-1', allowed: a number > 0");
-  EXPECT_EQ(
-    complaint<2>("set Surface = circle\nset Centre = 0,0\nset Radius = 1"),
-    "section 'Boundaries/left', key 'Body side': found nothing, allowed: "
-    "a value, needed by a circle");
+  EXPECT_EQ(complaint<2>(
+              "set Surface = circle\nset Centre = 0,0\nset Radius = 1"),
+            "section 'Boundaries/left', key 'Body side': not set. The "
+            "surface 'circle' needs: Centre, Radius, Body side");
   EXPECT_EQ(
     complaint<2>("set Surface = expression\nset Expression = x +"),
     "section 'Boundaries/left', key 'Expression': found 'x +': Unexpected end "
@@ -187,14 +189,14 @@ TEST(SurfaceLibrary, RimsOfBodies)
             here + "key 'Part': found 'top', allowed: nothing, the rim of "
                    "'plate' is one whole");
   EXPECT_EQ(complaint_of("set Part = top"),
-            here + "key 'Body': found nothing, allowed: a value, needed by a "
-                   "rim of a body");
+            here + "key 'Body': not set. The surface 'rim of a body' needs: "
+                   "Body");
   EXPECT_EQ(complaint_of("set Body = wheel\nset Radius = 2"),
-            here + "key 'Radius': found '2', allowed: nothing, a rim of a body "
-                   "has no such entry");
+            here + "key 'Radius': set, but the surface 'rim of a body' does "
+                   "not use it. It uses: Body and, if wanted, Part");
   EXPECT_EQ(complaint_of("set Body = wheel\nset Surface = circle"),
             here + "key 'Surface': found 'circle', allowed: nothing, a rim of "
-                   "a body has no such entry");
+                   "a body is no other kind");
   for (const std::string name : {"all", "file"})
     EXPECT_EQ(complaint_of("set Body = " + name),
               here + "key 'Body': found '" + name +

@@ -4,8 +4,7 @@
 #include <moraine/core/exceptions.h>
 
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -32,7 +31,7 @@ namespace
   std::shared_ptr<const Shape<2>>
   box(const Point<2> &lower, const Point<2> &upper)
   {
-    return std::make_shared<ConvexShape<2>>(ConvexShape<2>::box(lower, upper));
+    return make_box<2>(lower, upper);
   }
 
   PointList<2>
@@ -73,12 +72,11 @@ TEST(SeedBodies, NoPointOfAFittedRuleIsLost)
   parameters.cells        = {4, 4, 4};
   const BackgroundMesh<3> mesh(parameters, MPI_COMM_WORLD);
   PointSet<3>             points(mesh, {});
-  const auto              volumes =
-    seed_bodies<3>({{"box",
-                     std::make_shared<ConvexShape<3>>(ConvexShape<3>::box(
-                       Point<3>(0.07, 0.1, 0.23), Point<3>(0.73, 0.85, 0.9)))}},
-                   CellSeeder<3>(3, PointLayout::gauss, 2),
-                   points);
+  const auto              volumes = seed_bodies<3>(
+    {{"box",
+                   make_box<3>(Point<3>(0.07, 0.1, 0.23), Point<3>(0.73, 0.85, 0.9))}},
+    CellSeeder<3>(3, PointLayout::gauss, 2),
+    points);
   EXPECT_NEAR(volumes[0], 0.66 * 0.75 * 0.67, 1e-14);
   for (unsigned int p = 0; p < points.n_local(); ++p)
     EXPECT_GT(points.volume(p), 0.);
@@ -90,7 +88,7 @@ TEST(SeedBodies, VolumesAndIds)
 {
   const BackgroundMesh<2> mesh(mesh_parameters(), MPI_COMM_WORLD);
   PointSet<2>             points(mesh, {});
-  const auto              turned = std::make_shared<MovedShape<2>>(
+  const auto              turned = make_moved<2>(
     box(Point<2>(0, 0), Point<2>(1.3, 0.7)),
     Placement<2>(33., Point<2>(), Tensor<1, 2>(), Point<2>(0.9, 0.4)));
   const auto volumes =

@@ -4,7 +4,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/cell_shapes.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -58,7 +58,7 @@ namespace
   std::shared_ptr<const Shape<dim>>
   whole_mesh()
   {
-    return std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space());
+    return make_space<dim>();
   }
 
   /** Sum of v_p and v_p x_p over all ranks. */
@@ -150,11 +150,12 @@ TEST(SeedAnyMesh, GradientsOfCutQuadrilateralsAreIntegrated)
   // summed over all functions weighted with the nodes' x is the area.
   const CellVertices<2> cell{{{0., 0.}, {1., 0.2}, {-0.2, 0.9}, {1.4, 1.5}}};
   const auto            body =
-    ConvexShape<2>::half_space(Point<2>(0.6, 0.5), Tensor<1, 2>({1., 0.4}));
-  const auto                  all = ConvexShape<2>::space();
+    make_half_space<2>(Point<2>(0.6, 0.5), Tensor<1, 2>({1., 0.4}));
+  const auto                  all = make_space<2>();
   std::array<Tensor<1, 2>, 4> reference;
   for (const unsigned int n : {1, 2, 3, 40})
-    for (const Shape<2> *shape : std::vector<const Shape<2> *>{&body, &all})
+    for (const Shape<2> *shape :
+         std::vector<const Shape<2> *>{body.get(), all.get()})
       {
         std::vector<SeededPoint<2>> points;
         CellSeeder<2>(n, PointLayout::equal).seed(cell, *shape, points);
@@ -171,7 +172,7 @@ TEST(SeedAnyMesh, GradientsOfCutQuadrilateralsAreIntegrated)
             for (unsigned int a = 0; a < 4; ++a)
               sums[a] += point.volume * grad_N[a];
           }
-        if (shape == &body)
+        if (shape == body.get())
           {
             if (n == 1)
               reference = sums;
@@ -199,9 +200,7 @@ TEST(SeedAnyMesh, BodyMustLieInTheMesh)
   const auto              seed = [&](const Point<2> &a, const Point<2> &b) {
     return message_of<InputError>([&] {
       PointSet<2> points(mesh, {});
-      seed_bodies<2>({{"block",
-                       std::make_shared<ConvexShape<2>>(
-                         ConvexShape<2>::box(a, b))}},
+      seed_bodies<2>({{"block", make_box<2>(a, b)}},
                      CellSeeder<2>(2, PointLayout::equal),
                      points);
     });
@@ -220,8 +219,7 @@ TEST(PointsOnMovedMesh, AreFoundInTheRightCells)
 {
   const auto  mesh = distorted_mesh<2>();
   PointSet<2> points(*mesh, {});
-  const auto  ring = std::make_shared<ConvexShape<2>>(
-    ConvexShape<2>::box(Point<2>(6., -1.), Point<2>(8., 2.)));
+  const auto  ring = make_box<2>(Point<2>(6., -1.), Point<2>(8., 2.));
   seed_bodies<2>({{"block", ring}},
                  CellSeeder<2>(2, PointLayout::equal),
                  points);
@@ -263,9 +261,7 @@ TEST(PointsOnMovedMesh, APointOutsideIsNamed)
 {
   const auto  mesh = distorted_mesh<2>();
   PointSet<2> points(*mesh, {});
-  seed_bodies<2>({{"block",
-                   std::make_shared<ConvexShape<2>>(ConvexShape<2>::box(
-                     Point<2>(6., -1.), Point<2>(8., 2.)))}},
+  seed_bodies<2>({{"block", make_box<2>(Point<2>(6., -1.), Point<2>(8., 2.))}},
                  CellSeeder<2>(2, PointLayout::equal),
                  points);
   mesh->move_vertices([](const Point<2> &x) { return x * 0.5; });

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/combined_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/points/moment_fitting.h>
-#include <moraine/geometry/straight_shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -73,14 +72,14 @@ namespace
         upper[d]  = 1.;
         place[d]  = s / dim;
       }
-    const auto shape = ConvexShape<dim>::half_space(place, normal);
+    const auto                    shape = make_half_space<dim>(place, normal);
     std::vector<SignedPiece<dim>> pieces;
-    shape.add_pieces(ConvexPolytope<dim>(lower, upper), 1., pieces);
+    shape->add_pieces(ConvexPolytope<dim>(lower, upper), 1., pieces);
     const auto rule = moment_fitted_rule<dim>(pieces,
-                                              shape,
+                                              *shape,
                                               std::pow(s, dim) / factorial(dim),
                                               3);
-    check_moments<dim>(rule, shape, 3, [s](const auto &exponent) {
+    check_moments<dim>(rule, *shape, 3, [s](const auto &exponent) {
       double       value = 1.;
       unsigned int sum   = dim;
       for (const unsigned int e : exponent)
@@ -104,21 +103,18 @@ TEST(MomentFitting, CornerOfACell)
 TEST(MomentFitting, PiecesMayBeSubtracted)
 {
   const auto box = [](const double size) {
-    return std::make_shared<ConvexShape<2>>(
-      ConvexShape<2>::box(Point<2>(), Point<2>(size, size)));
+    return make_box<2>(Point<2>(), Point<2>(size, size));
   };
-  const CombinedShape<2>      angle(CombinedShape<2>::Operation::subtract,
-                               box(2.),
-                               box(0.5));
+  const auto angle = combine<2>(Operation::subtract, box(2.), box(0.5));
   std::vector<SignedPiece<2>> pieces;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      angle.add_pieces(ConvexPolytope<2>(Point<2>(i / 3., j / 3.),
-                                         Point<2>((i + 1) / 3., (j + 1) / 3.)),
-                       1.,
-                       pieces);
-  const auto rule = moment_fitted_rule<2>(pieces, angle, 0.75, 3);
-  check_moments<2>(rule, angle, 3, [](const auto &exponent) {
+      angle->add_pieces(ConvexPolytope<2>(Point<2>(i / 3., j / 3.),
+                                          Point<2>((i + 1) / 3., (j + 1) / 3.)),
+                        1.,
+                        pieces);
+  const auto rule = moment_fitted_rule<2>(pieces, *angle, 0.75, 3);
+  check_moments<2>(rule, *angle, 3, [](const auto &exponent) {
     double whole = 1., hole = 1.;
     for (const unsigned int e : exponent)
       {

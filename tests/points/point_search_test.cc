@@ -2,9 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/curved_shapes.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -44,21 +42,18 @@ namespace
                 const double       inner,
                 const double       outer)
   {
-    using Operation = typename CombinedShape<dim>::Operation;
     const auto                mesh_parameters = cube<dim>(n, corner);
     const BackgroundMesh<dim> mesh(mesh_parameters, MPI_COMM_WORLD);
     PointSet<dim>             points(mesh, {});
-    const auto                ring = std::make_shared<CombinedShape<dim>>(
-      Operation::subtract,
-      std::make_shared<RoundShape<dim>>(corner, outer),
-      std::make_shared<RoundShape<dim>>(corner, inner));
-    const auto box = std::make_shared<ConvexShape<dim>>(
-      ConvexShape<dim>::box(corner, mesh_parameters.upper_corner));
-    const double volume = seed_bodies<dim>(
-      {{"part",
-        std::make_shared<CombinedShape<dim>>(Operation::intersect, ring, box)}},
-      CellSeeder<dim>(2, PointLayout::gauss),
-      points)[0];
+    const auto                ring = combine<dim>(Operation::subtract,
+                                   make_ball<dim>(corner, outer),
+                                   make_ball<dim>(corner, inner));
+    const auto   box = make_box<dim>(corner, mesh_parameters.upper_corner);
+    const double volume =
+      seed_bodies<dim>({{"part",
+                         combine<dim>(Operation::intersect, ring, box)}},
+                       CellSeeder<dim>(2, PointLayout::gauss),
+                       points)[0];
     const double exact = dealii::numbers::PI / (dim == 2 ? 4 : 6) *
                          (std::pow(outer, dim) - std::pow(inner, dim));
     return volume / exact - 1;

@@ -3,11 +3,9 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/curved_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/points/point_list.h>
 #include <moraine/points/seeding.h>
-#include <moraine/geometry/straight_shapes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -94,31 +92,31 @@ namespace
 
 TEST(Seeding, VolumesSumUpToTheBody)
 {
-  const MovedShape<2> flat(std::make_shared<ConvexShape<2>>(ConvexShape<2>::box(
-                             Point<2>(0., 0.), Point<2>(1., 0.5))),
-                           Placement<2>(30., Point<2>(0.3, 0.1), {}, {}));
-  const MovedShape<3> solid(
-    std::make_shared<ConvexShape<3>>(
-      ConvexShape<3>::box(Point<3>(), Point<3>(1., 0.5, 0.7))),
+  const auto flat =
+    make_moved<2>(make_box<2>(Point<2>(0., 0.), Point<2>(1., 0.5)),
+                  Placement<2>(30., Point<2>(0.3, 0.1), {}, {}));
+  const auto solid = make_moved<3>(
+    make_box<3>(Point<3>(), Point<3>(1., 0.5, 0.7)),
     Placement<3>(30., Point<3>(), Tensor<1, 3>({1., 2., 3.}), {}));
   for (const PointLayout layout : {PointLayout::gauss, PointLayout::equal})
     for (const unsigned int n : {1, 2, 3})
       {
         const CellSeeder<2> seeder(n, layout);
-        EXPECT_NEAR(total(seed_mesh(seeder, flat, 14, -0.51, 0.13)) / 0.5,
+        EXPECT_NEAR(total(seed_mesh(seeder, *flat, 14, -0.51, 0.13)) / 0.5,
                     1.,
                     1e-12);
-        EXPECT_NEAR(total(seed_mesh(seeder, flat, 14, -0.51, 0.13, 0.15)) / 0.5,
+        EXPECT_NEAR(total(seed_mesh(seeder, *flat, 14, -0.51, 0.13, 0.15)) /
+                      0.5,
                     1.,
                     1e-12);
         EXPECT_NEAR(
-          total(seed_mesh(CellSeeder<3>(n, layout), solid, 8, -0.61, 0.27)) /
+          total(seed_mesh(CellSeeder<3>(n, layout), *solid, 8, -0.61, 0.27)) /
             0.35,
           1.,
           1e-12);
       }
   EXPECT_NEAR(total(seed_mesh(CellSeeder<2>(2, PointLayout::equal),
-                              RoundShape<2>(Point<2>(0.2, 0.1), 0.7),
+                              *make_ball<2>(Point<2>(0.2, 0.1), 0.7),
                               15,
                               -0.8,
                               0.13)) /
@@ -131,11 +129,10 @@ TEST(Seeding, VolumesSumUpToTheBody)
 
 TEST(Seeding, FullCellWithGaussLayoutIsTheGaussRule)
 {
-  const auto everywhere =
-    ConvexShape<2>::box(Point<2>(-9., -9.), Point<2>(9., 9.));
+  const auto everywhere = make_box<2>(Point<2>(-9., -9.), Point<2>(9., 9.));
   const dealii::QGauss<2> rule(3);
   const auto              points =
-    seed_mesh(CellSeeder<2>(3, PointLayout::gauss), everywhere, 1, 0.5, 2.);
+    seed_mesh(CellSeeder<2>(3, PointLayout::gauss), *everywhere, 1, 0.5, 2.);
   ASSERT_EQ(points.size(), 9u);
   for (unsigned int q = 0; q < 9; ++q)
     {
@@ -148,7 +145,7 @@ TEST(Seeding, FullCellWithGaussLayoutIsTheGaussRule)
   // a taper: x = xi (1 + eta), so detJ = 1 + eta
   std::vector<SeededPoint<2>> tapered;
   CellSeeder<2>(2, PointLayout::gauss)
-    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {2., 1.}}}, everywhere, tapered);
+    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {2., 1.}}}, *everywhere, tapered);
   const double g = 0.5 + 0.5 / std::sqrt(3.);
   ASSERT_EQ(tapered.size(), 4u);
   EXPECT_NEAR(tapered[3].position[0], g * (1. + g), 1e-15);
@@ -160,11 +157,11 @@ TEST(Seeding, FullCellWithGaussLayoutIsTheGaussRule)
 TEST(Seeding, AlignedBodyIsNotClippedByRoundOff)
 {
   // 0.1 * 3 is not 0.3: faces agree with the mesh to round-off only
-  const auto body = ConvexShape<2>::box(Point<2>(0.3, 0.3), Point<2>(0.7, 0.6));
+  const auto body = make_box<2>(Point<2>(0.3, 0.3), Point<2>(0.7, 0.6));
   for (const PointLayout layout : {PointLayout::gauss, PointLayout::equal})
     {
       const auto points =
-        seed_mesh(CellSeeder<2>(2, layout), body, 10, 0., 0.1);
+        seed_mesh(CellSeeder<2>(2, layout), *body, 10, 0., 0.1);
       EXPECT_EQ(points.size(), 48u);
       EXPECT_NEAR(total(points), 0.12, 1e-15);
     }
@@ -174,10 +171,10 @@ TEST(Seeding, AlignedBodyIsNotClippedByRoundOff)
 
 TEST(Seeding, ClippedPointsAreCentroids)
 {
-  const auto body = ConvexShape<2>::box(Point<2>(0.25, 0.), Point<2>(1., 1.));
+  const auto body = make_box<2>(Point<2>(0.25, 0.), Point<2>(1., 1.));
   std::vector<SeededPoint<2>> points;
   CellSeeder<2>(2, PointLayout::gauss)
-    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}}}, body, points);
+    .seed({{{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}}}, *body, points);
   ASSERT_EQ(points.size(), 4u);
   EXPECT_NEAR(points[0].position[0], 0.375, 1e-15);
   EXPECT_NEAR(points[0].position[1], 0.25, 1e-15);
@@ -192,16 +189,16 @@ TEST(Seeding, TrilinearGradientsOfCutCellsAreIntegrated)
 {
   // A gradient holds 1, x, y, z, xy, yz and zx; the first four are integrated
   // by any centroid. On cells of a grid of boxes the last three add up.
-  const MovedShape<3> body(std::make_shared<ConvexShape<3>>(ConvexShape<3>::box(
-                             Point<3>(), Point<3>(1., 0.5, 0.7))),
-                           Placement<3>(30.,
-                                        Point<3>(),
-                                        Tensor<1, 3>({1., 2., 3.}),
-                                        Tensor<1, 3>({0.4, 0.3, 0.3})));
-  const auto          products = [&](const unsigned int n) {
+  const auto body =
+    make_moved<3>(make_box<3>(Point<3>(), Point<3>(1., 0.5, 0.7)),
+                  Placement<3>(30.,
+                               Point<3>(),
+                               Tensor<1, 3>({1., 2., 3.}),
+                               Tensor<1, 3>({0.4, 0.3, 0.3})));
+  const auto products = [&](const unsigned int n) {
     std::array<double, 3> sums{};
     for (const auto &point :
-         seed_mesh(CellSeeder<3>(n, PointLayout::equal), body, 3, -0.5, 1.))
+         seed_mesh(CellSeeder<3>(n, PointLayout::equal), *body, 3, -0.5, 1.))
       for (unsigned int d = 0; d < 3; ++d)
         sums[d] +=
           point.volume * point.position[d] * point.position[(d + 1) % 3];
@@ -231,8 +228,8 @@ TEST(Seeding, TrilinearGradientsOfCutCellsAreIntegrated)
 
 TEST(Seeding, PointsOfCutCellsLieInBodyAndCell)
 {
-  const auto body = ConvexShape<3>::half_space(Point<3>(0.31, 0.27, 0.4),
-                                               Tensor<1, 3>({1., 2., 3.}));
+  const auto body =
+    make_half_space<3>(Point<3>(0.31, 0.27, 0.4), Tensor<1, 3>({1., 2., 3.}));
   std::vector<SeededPoint<3>> points;
   const CellSeeder<3>         seeder(2, PointLayout::equal);
   seeder.seed(CellVertices<3>{{{0., 0., 0.},
@@ -243,13 +240,13 @@ TEST(Seeding, PointsOfCutCellsLieInBodyAndCell)
                                {1., 0., 1.},
                                {0., 1., 1.},
                                {1., 1., 1.}}},
-              body,
+              *body,
               points);
   EXPECT_GT(points.size(), 8u);
   EXPECT_LE(points.size(), seeder.max_points());
   for (const auto &point : points)
     {
-      EXPECT_TRUE(body.contains(point.position));
+      EXPECT_TRUE(body->contains(point.position));
       for (unsigned int d = 0; d < 3; ++d)
         {
           EXPECT_GT(point.position[d], 0.);
@@ -263,11 +260,11 @@ TEST(Seeding, PointsOfCutCellsLieInBodyAndCell)
 TEST(Seeding, ThinBodyKeepsItsVolume)
 {
   // a wire whose section is 1e-14 of a cell face
-  const auto   wire    = ConvexShape<3>::box(Point<3>(0., 0.5, 0.5),
-                                        Point<3>(3., 0.5 + 1e-7, 0.5 + 1e-7));
+  const auto wire =
+    make_box<3>(Point<3>(0., 0.5, 0.5), Point<3>(3., 0.5 + 1e-7, 0.5 + 1e-7));
   const double section = std::pow((0.5 + 1e-7) - 0.5, 2);
   EXPECT_NEAR(
-    total(seed_mesh(CellSeeder<3>(1, PointLayout::equal), wire, 3, 0., 1.)) /
+    total(seed_mesh(CellSeeder<3>(1, PointLayout::equal), *wire, 3, 0., 1.)) /
       (3. * section),
     1.,
     1e-7);

@@ -7,14 +7,14 @@
 // that connects the two, a state, the loads, the equations, and their solver.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/load/load.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -73,14 +73,15 @@ make_supports(const BackgroundMesh<dim> &mesh)
 Loads<dim>
 make_loads(const BackgroundMesh<dim> &mesh)
 {
-  const Polyline right({Point<dim>(length, 0), Point<dim>(length, height)});
-  Loads<dim>     loads;
+  const auto right =
+    make_flat_face<dim>({Point<dim>(length, 0), Point<dim>(length, height)});
+  Loads<dim> loads;
   loads.carried.emplace_back(
     "tension",
     [](const Point<dim> &, const double t) {
       return Tensor<1, dim>(Point<dim>(final_tension * t, 0));
     },
-    places_on<dim>(right, mesh));
+    places_on<dim>(*right, mesh));
   return loads;
 }
 
@@ -144,8 +145,8 @@ main(int argc, char **argv)
   // gives each of them a point that carries the volume of its part inside the
   // shape. With the Gauss layout and two points per direction these are the
   // points and weights every finite element program uses on bilinear elements.
-  const auto block = std::make_shared<ConvexShape<dim>>(
-    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
+  const auto block =
+    make_box<dim>(Point<dim>(0, 0), Point<dim>(length, height));
   PointSet<dim> points(mesh, PointFields());
   seed_bodies({{"block", block}},
               CellSeeder<dim>(2, PointLayout::gauss),

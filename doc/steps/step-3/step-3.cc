@@ -6,14 +6,13 @@
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
 #include <moraine/boundary/implicit_boundary.h>
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/combined_shapes.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -64,7 +63,7 @@ make_roller(const std::string &name,
   Constraint<dim> roller;
   roller.kind = Constraint<dim>::roller;
   return ImplicitBoundary<dim>(name,
-                               std::make_shared<Polyline>(
+                               make_flat_face<dim>(
                                  std::vector<Point<dim>>{from, to}),
                                tilt,
                                no_displacement,
@@ -120,9 +119,8 @@ main(int argc, char **argv)
   // The only difference to the body of step-1 is that the box is turned. Each
   // sub-cell is clipped with the shape, and its point gets volume and centroid
   // of what is left; the volumes sum up to that of the block to round-off.
-  const auto flat = std::make_shared<ConvexShape<dim>>(
-    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
-  const auto block = std::make_shared<MovedShape<dim>>(
+  const auto flat = make_box<dim>(Point<dim>(0, 0), Point<dim>(length, height));
+  const auto block = make_moved<dim>(
     flat,
     Placement<dim>(angle, Point<dim>(), Tensor<1, dim>(), Tensor<1, dim>()));
   PointSet<dim> points(mesh, PointFields());

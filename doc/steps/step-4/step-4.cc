@@ -5,7 +5,7 @@
 // step goes.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/load/load.h>
 #include <moraine/material/linear_elastic.h>
@@ -13,7 +13,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -83,15 +83,16 @@ make_clamp(const BackgroundMesh<dim> &mesh)
 Loads<dim>
 make_loads(const BackgroundMesh<dim> &mesh)
 {
-  const Polyline end({Point<dim>(length, 0), Point<dim>(length, height)});
-  Loads<dim>     loads;
+  const auto end =
+    make_flat_face<dim>({Point<dim>(length, 0), Point<dim>(length, height)});
+  Loads<dim> loads;
   loads.carried.emplace_back(
     "end force",
     [](const Point<dim> &, const double factor) {
       const double P = factor * bending_stiffness / (length * length);
       return Tensor<1, dim>(Point<dim>(0, -P / height));
     },
-    places_on<dim>(end, mesh));
+    places_on<dim>(*end, mesh));
   return loads;
 }
 
@@ -165,8 +166,7 @@ main(int argc, char **argv)
   PointFields fields;
   StateFields<dim>(fields, measure);
   PointSet<dim> points(mesh, fields);
-  const auto    beam = std::make_shared<ConvexShape<dim>>(
-    ConvexShape<dim>::box(Point<dim>(0, 0), Point<dim>(length, height)));
+  const auto beam = make_box<dim>(Point<dim>(0, 0), Point<dim>(length, height));
   seed_bodies({{"beam", beam}}, CellSeeder<dim>(3, PointLayout::gauss), points);
 
   // From here on the strain is nobody's business but that of the state. The

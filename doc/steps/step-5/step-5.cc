@@ -10,7 +10,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -126,12 +126,11 @@ twist(const Method method)
   GridSpace<dim>      space(mesh, /* degree = */ 1);
 
   // A shape without bounds fills all cells.
-  const std::vector<Body<dim>> bodies{
-    {"ring", std::make_shared<ConvexShape<dim>>(ConvexShape<dim>::space())}};
-  const CellSeeder<dim> seeder(2,
+  const std::vector<Body<dim>> bodies{{"ring", make_space<dim>()}};
+  const CellSeeder<dim>        seeder(2,
                                is_finite_element ? PointLayout::gauss :
-                                                   PointLayout::equal);
-  PointFields           fields;
+                                                          PointLayout::equal);
+  PointFields                  fields;
   request_fields(method, fields);
   PointSet<dim> points(mesh, fields);
   seed_bodies(bodies, seeder, points);

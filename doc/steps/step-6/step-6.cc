@@ -7,12 +7,12 @@
 #include <moraine/basis/cpdi_basis.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/boundary/mesh_motion.h>
-#include <moraine/geometry/straight_surfaces.h>
+#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/bodies.h>
-#include <moraine/geometry/straight_shapes.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/state/state.h>
@@ -119,16 +119,15 @@ make_plate()
   smooth.kind = Constraint<dim>::roller;
   EnforcementParameters how;
   how.enforcement = "augmented Lagrangian";
-  return ImplicitBoundary<dim>("plate",
-                               std::make_shared<Polyline>(
-                                 std::vector<Point<dim>>{Point<dim>(length, 0),
-                                                         Point<dim>(length,
-                                                                    height)}),
-                               motion,
-                               no_displacement,
-                               smooth,
-                               how.enforcement_of(),
-                               /* no limit on penetration */ 0);
+  return ImplicitBoundary<dim>(
+    "plate",
+    make_flat_face<dim>(std::vector<Point<dim>>{Point<dim>(length, 0),
+                                                Point<dim>(length, height)}),
+    motion,
+    no_displacement,
+    smooth,
+    how.enforcement_of(),
+    /* no limit on penetration */ 0);
 }
 
 
@@ -147,9 +146,7 @@ press(const Plate plate)
   GridSpace<dim>      space(mesh, /* degree = */ 1);
 
   const std::vector<Body<dim>> bodies{
-    {"block",
-     std::make_shared<ConvexShape<dim>>(
-       ConvexShape<dim>::box(box.lower_corner, box.upper_corner))}};
+    {"block", make_box<dim>(box.lower_corner, box.upper_corner)}};
   const CellSeeder<dim> seeder(2, PointLayout::equal);
   PointFields           fields;
   Cpdi2Basis<dim>::request_fields(fields);

@@ -5,7 +5,9 @@
 #define moraine_geometry_cell_cut_h
 
 #include <moraine/geometry/surface.h>
-#include <moraine/geometry/polygon.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
@@ -36,58 +38,25 @@ namespace moraine
   /** The largest distance of a vertex from the first one. */
   template <int dim>
   double
-  cell_size(const CellVertices<dim> &cell);
+  cell_size(const CellVertices<dim> &cell)
+  {
+    double size = 0.;
+    for (const auto &vertex : cell)
+      size = std::max(size, vertex.distance(cell[0]));
+    return size;
+  }
 
   /** Largest absolute coordinate. */
   template <int dim>
   double
-  coordinate_magnitude(const dealii::Point<dim> &x);
-
-  /**
-   * Gauss points on a chord between two abscissae of the line
-   * origin + s direction.
-   */
-  template <int dim>
-  void
-  add_segment_points(const dealii::Point<dim>       &origin,
-                     const dealii::Tensor<1, dim>   &direction,
-                     const Stretch                  &stretch,
-                     const dealii::Tensor<1, dim>   &normal,
-                     const unsigned int              n_gauss,
-                     std::vector<SurfacePoint<dim>> &out);
-
-  /** A plane's own coordinates in 3D; first × second = normal. */
-  struct PlaneFrame
+  coordinate_magnitude(const dealii::Point<dim> &x)
   {
-    PlaneFrame(const dealii::Point<3>     &origin,
-               const dealii::Tensor<1, 3> &normal);
+    double magnitude = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      magnitude = std::max(magnitude, std::abs(x[d]));
+    return magnitude;
+  }
 
-    dealii::Point<2>
-    to_plane(const dealii::Point<3> &x) const;
-
-    Polygon
-    to_plane(const std::vector<dealii::Point<3>> &points) const;
-
-    dealii::Point<3>
-    to_space(const dealii::Point<2> &p) const;
-
-    dealii::Point<3>     origin;
-    dealii::Tensor<1, 3> normal, first, second;
-  };
-
-  /**
-   * Quadrature of a polygon in the plane of @p frame, exact for polynomials of
-   * degree 2 n_gauss − 1 whatever its shape; weights are positive if it is
-   * convex. Tensor product Gauss on parallelograms, Witherden–Vincent rules
-   * (n_gauss ≤ 7) on the triangles of a fan otherwise. @p normal is what the
-   * points carry.
-   */
-  void
-  add_polygon_points(const Polygon                &polygon,
-                     const PlaneFrame             &frame,
-                     const dealii::Tensor<1, 3>   &normal,
-                     const unsigned int            n_gauss,
-                     std::vector<SurfacePoint<3>> &out);
 } // namespace moraine
 
 #endif

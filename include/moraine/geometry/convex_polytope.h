@@ -26,11 +26,13 @@ namespace moraine
     double                 volume = 0.;
     dealii::Tensor<1, dim> first;
 
-    /**
-     * Add @p factor times the moments of another region (same reference).
-     */
+    /** Add @p factor times the moments of another region (same reference). */
     void
-    add(const double factor, const VolumeMoments &other);
+    add(const double factor, const VolumeMoments &other)
+    {
+      volume += factor * other.volume;
+      first += factor * other.first;
+    }
   };
 
   /**
@@ -53,14 +55,10 @@ namespace moraine
   public:
     using PointList = boost::container::small_vector<dealii::Point<dim>, 8>;
 
-    /**
-     * A cell by its vertices in deal.II's (lexicographic) order.
-     */
+    /** A cell by its vertices in deal.II's (lexicographic) order. */
     explicit ConvexPolytope(const CellVertices<dim> &vertices);
 
-    /**
-     * The box with these two opposite corners, lower <= upper.
-     */
+    /** The box with these two opposite corners, lower <= upper. */
     ConvexPolytope(const dealii::Point<dim> &lower,
                    const dealii::Point<dim> &upper);
 
@@ -74,15 +72,13 @@ namespace moraine
          const dealii::Tensor<1, dim> &inward_normal,
          PointList                    *cut = nullptr);
 
-    /**
-     * Nothing is left.
-     */
     bool
-    empty() const;
+    empty() const
+    {
+      return corner.empty();
+    }
 
-    /**
-     * Area (2D) or volume (3D); at least 0.
-     */
+    /** Area (2D) or volume (3D); at least 0. */
     double
     volume() const;
 
@@ -93,41 +89,37 @@ namespace moraine
     dealii::Point<dim>
     centroid() const;
 
-    /**
-     * Volume and first moment about @p reference.
-     */
+    /** Volume and first moment about @p reference. */
     VolumeMoments<dim>
     moments(const dealii::Point<dim> &reference) const;
 
-    /**
-     * Mean of the vertices: a cheap point inside.
-     */
+    /** Mean of the vertices: a cheap point inside. */
     dealii::Point<dim>
     vertex_mean() const;
 
-    /**
-     * Largest distance of a vertex from @p point.
-     */
+    /** Largest distance of a vertex from @p point. */
     double
     radius(const dealii::Point<dim> &point) const;
 
-    /**
-     * Lengths below this are round-off.
-     */
+    /** Lengths below this are round-off. */
     double
-    tolerance() const;
+    tolerance() const
+    {
+      return round_off;
+    }
 
-    /**
-     * The vertices; in 2D counter-clockwise.
-     */
+    /** In 2D counter-clockwise. */
     const boost::container::small_vector<dealii::Point<dim>, 16> &
-    vertices() const;
+    vertices() const
+    {
+      return corner;
+    }
 
-    /**
-     * Smallest axis-parallel box around it.
-     */
     dealii::BoundingBox<dim>
-    bounding_box() const;
+    bounding_box() const
+    {
+      return dealii::BoundingBox<dim>(corner);
+    }
 
     /**
      * Call @p action(loop) for each face, a PointList counter-clockwise seen
@@ -137,9 +129,7 @@ namespace moraine
     void
     for_each_face(const Action &action) const;
 
-    /**
-     * Replace each vertex x by @p map(x), a rigid motion.
-     */
+    /** Replace each vertex x by @p map(x), a rigid motion. */
     template <typename Map>
     void
     transform(const Map &map);

@@ -29,10 +29,6 @@ namespace moraine
   bool
   is_convex(const Polygon &polygon);
 
-  /** Whether two edges cross in their interiors. */
-  bool
-  edges_cross(const Polygon &polygon);
-
   /**
    * The numbers, from 0, of two edges (edge i goes from vertex i to the next)
    * of a closed polygon that meet elsewhere than in a common end, or fold back

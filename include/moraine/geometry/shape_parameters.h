@@ -53,7 +53,10 @@ namespace moraine
 
     /** Whether the body's points come from a file; it has no shape then. */
     bool
-    is_point_file() const;
+    is_point_file() const
+    {
+      return kind() == "points-from-file";
+    }
 
     /** Whether a key says anything: not empty, nor zero where that is the
      * default. */
