@@ -72,6 +72,9 @@ namespace moraine
       double                 D[dim][dim][dim];
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
+          // A node of other points of the block only.
+          if (g[a].norm_square() == 0.)
+            continue;
           for (unsigned int i = 0; i < dim; ++i)
             {
               std::array<double, n> c_g;

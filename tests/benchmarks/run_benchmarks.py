@@ -289,7 +289,8 @@ CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", required=True)
-    parser.add_argument("--source", default=str(pathlib.Path(__file__).parent))
+    parser.add_argument("--source",
+                        default=str(pathlib.Path(__file__).resolve().parents[2]))
     parser.add_argument("--csv", default="benchmarks.csv")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--smoke", action="store_true",
