@@ -371,10 +371,10 @@ end
     const auto input = InputFile::from_text("scene.prm", carrying_scene_text);
     RunOfScene undisturbed(input);
     undisturbed.driver.run();
-    for (const std::string &name : {"boundaries/left/carried/multiplier",
-                                    "loads/end/place",
-                                    "loads/corner/points",
-                                    "points/position"})
+    for (const char *name : {"boundaries/left/carried/multiplier",
+                             "loads/end/place",
+                             "loads/corner/points",
+                             "points/position"})
       EXPECT_TRUE(undisturbed.archive().contains(name)) << name;
     for (const Place place : {Place::begin_step,
                               Place::constrain,
