@@ -22,15 +22,19 @@ namespace moraine
 
   namespace
   {
+    /** Whether two shapes share more of a cell than the error of their common
+     * part, which subdivision finds if both are curved. */
     template <int dim>
-    double
-    common_volume(const std::shared_ptr<const Shape<dim>> &a,
-                  const std::shared_ptr<const Shape<dim>> &b,
-                  const CellVertices<dim>                 &vertices)
+    bool
+    overlap_in_cell(const std::shared_ptr<const Shape<dim>> &a,
+                    const std::shared_ptr<const Shape<dim>> &b,
+                    const CellVertices<dim>                 &vertices,
+                    const double                             cell_volume)
     {
+      const double error = a->is_straight() || b->is_straight() ? 1e-10 : 1e-3;
       return combine<dim>(Operation::intersect, a, b)
-        ->clip(ConvexPolytope<dim>(vertices))
-        .volume;
+               ->clip(ConvexPolytope<dim>(vertices))
+               .volume > error * cell_volume;
     }
 
 
@@ -73,10 +77,10 @@ namespace moraine
           if (seeded.empty())
             continue;
           for (const unsigned int other : earlier)
-            if (overlap.empty() &&
-                common_volume<dim>(bodies[other].shape,
-                                   bodies[b].shape,
-                                   vertices) > 1e-10 * cell->measure())
+            if (overlap.empty() && overlap_in_cell<dim>(bodies[other].shape,
+                                                        bodies[b].shape,
+                                                        vertices,
+                                                        cell->measure()))
               {
                 std::ostringstream message;
                 message << "'" << bodies[other].name << "' and '"

@@ -21,7 +21,7 @@ namespace moraine
     prm.add_parameter("Material",
                       material,
                       "Name of its material; may be left out if there is one "
-                      "only.");
+                      "only, or if other bodies are combined from it.");
     prm.add_parameter("Point grid",
                       point_grid,
                       "Of a box: its points are the middles of this many equal "

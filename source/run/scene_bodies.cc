@@ -27,14 +27,24 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<Body<dim>>
-  make_bodies(const Scene<dim> &scene)
+  std::set<std::string>
+  operands_of(const Scene<dim> &scene)
   {
     std::set<std::string> operands;
     for (const auto &[name, body] : scene.bodies)
       for (const std::string &operand : body.shape.words("Operands"))
         operands.insert(operand);
-    const NamedShapes<dim> shapes = body_shapes(scene);
+    return operands;
+  }
+
+
+
+  template <int dim>
+  std::vector<Body<dim>>
+  make_bodies(const Scene<dim> &scene)
+  {
+    const std::set<std::string> operands = operands_of(scene);
+    const NamedShapes<dim>      shapes   = body_shapes(scene);
 
     std::vector<Body<dim>> bodies;
     for (const auto &[name, body] : scene.bodies)
@@ -83,6 +93,7 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                                \
   template NamedShapes<dim>       body_shapes(const Scene<dim> &);      \
+  template std::set<std::string>  operands_of(const Scene<dim> &);      \
   template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
   template std::vector<std::shared_ptr<const Material>> make_materials( \
     const Scene<dim> &, const std::vector<Body<dim>> &);

@@ -3,6 +3,7 @@
 
 // The part of Scene that finds what cannot be right, as far as the text tells.
 
+#include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene.h>
 
 #include <moraine/core/exceptions.h>
@@ -132,6 +133,7 @@ namespace moraine
                  "a model for small strain; key 'Strain' of section 'Method' "
                  "is 'small'");
       }
+    const auto operands = operands_of(*this);
     for (const auto &[name, body] : bodies)
       {
         const std::string section = "Bodies/" + name;
@@ -141,8 +143,9 @@ namespace moraine
                  "Point grid",
                  input.get(section, "Point grid", ""),
                  std::to_string(dim) + " numbers, of a box");
-        if (body.material.empty() ? materials.size() > 1 :
-                                    !is_one_of(body.material, material_names))
+        if (body.material.empty() ?
+              materials.size() > 1 && operands.count(name) == 0 :
+              !is_one_of(body.material, material_names))
           reject(section,
                  "Material",
                  body.material,

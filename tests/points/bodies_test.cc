@@ -152,3 +152,24 @@ TEST(SeedBodies, RefusesOverlap)
             "bodies: 'a' and 'b' overlap near (2.25 1.25), allowed: "
             "bodies that share no volume");
 }
+
+
+
+// The common part of two curved shapes comes from subdivision.
+TEST(SeedBodies, ALiningFitsIntoItsTunnel)
+{
+  const auto ground_around = [](const Point<2> &centre) {
+    return combine<2>(Operation::subtract,
+                      box(Point<2>(0, 0), Point<2>(4, 4)),
+                      make_ball<2>(centre, 1.3));
+  };
+  const Point<2> centre(2.03, 1.93);
+  const auto     lining = combine<2>(Operation::hollow_out,
+                                 make_ball<2>(centre, 1.3),
+                                 make_ball<2>(centre, 1.1));
+  EXPECT_EQ(complaint({{"ground", ground_around(centre)}, {"lining", lining}}),
+            "");
+  EXPECT_NE(complaint({{"ground", ground_around(Point<2>(2.05, 1.93))},
+                       {"lining", lining}}),
+            "");
+}

@@ -2,9 +2,13 @@
 # Copyright (C) 2026 by the Moraine authors
 # debug: no
 """Scenes of soil with default keys: a slope goes far beyond first yield; a pile
-that cannot be pushed on ends in order, with the place and what to change."""
+that cannot be pushed on ends in order, with the place and what to change; a
+lining fits into its tunnel."""
+
+from math import pi
 
 SLOPE, PILE = "prm/geotechnics/slope.prm", "prm/geotechnics/pile.prm"
+TUNNEL = "prm/geotechnics/tunnel.prm"
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 
 
@@ -37,3 +41,15 @@ number("slope before yield: largest change by 1e-6",
 first = run(PILE, {**QUIET, "Time/End time": 0.1, "Time/Steps": 6}, expect=None)
 text("pile: exit code", first.code)
 text("pile: status", first.summary["status"])
+
+# Two curved bodies touch; the hole is made by a body without material.
+coarse = {**QUIET, "Mesh/Cell size": 1}
+tunnel = run(TUNNEL, coarse)
+fitted = run(TUNNEL, {**coarse, "Method/Method": "finite element"})
+weight = 9.81 * (2 * (1200 - 9 * pi) + 2.4 * pi * (9 - 2.7**2))
+bound("tunnel: reaction of the base over the weight - 1",
+      tunnel.reactions["bottom"][1] / weight - 1, 1e-8)
+for key in ("u_y at crown", "u_y at surface"):
+    number(f"tunnel: {key}", tunnel.probes[key], 3)
+    bound(f"tunnel: {key} over that of finite elements - 1",
+          tunnel.probes[key] / fitted.probes[key] - 1, 0.01)

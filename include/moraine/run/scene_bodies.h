@@ -22,6 +22,12 @@ namespace moraine
   NamedShapes<dim>
   body_shapes(const Scene<dim> &scene);
 
+  /** Bodies that others are combined from; they are not simulated themselves.
+   */
+  template <int dim>
+  std::set<std::string>
+  operands_of(const Scene<dim> &scene);
+
   /**
    * The bodies of a scene in its order, but for those that others are made
    * from: a body that is an operand is a tool without material of its own.
