@@ -6,6 +6,7 @@
 where the ring gives way, and goes on elsewhere (Limit points = pseudo-transient)."""
 
 from math import pi
+from re import sub
 
 E, HOLE = 1e6, 5
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
@@ -47,4 +48,6 @@ for refinements, mesh in ((1, "10x36"), (2, "20x72")):
 
 # Without it the run ends, and says what to do.
 ended = run(SCENES["mpm"], {**QUIET, "Mesh/Refinements": 1}, expect=1)
-text("stop", plain(ended.output.splitlines()[-1].strip()))
+# Every tenth degree of the ring is the same: which is named is round-off.
+text("stop", sub(r"at \([^)]*\)", "at (...)",
+                 plain(ended.output.splitlines()[-1].strip())))
