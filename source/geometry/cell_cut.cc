@@ -20,6 +20,8 @@ namespace moraine
       return {std::min(a, b), std::max(a, b)};
     }
 
+
+
     /**
      * The crossed edges of a quadrilateral (vertices in cyclic order), joined
      * in pairs. With four crossings each inside vertex is cut off by itself, so
@@ -55,6 +57,8 @@ namespace moraine
         }
     }
 
+
+
     template <int dim>
     Point<dim>
     crossing(const CellVertices<dim>              &cell,
@@ -77,6 +81,8 @@ namespace moraine
              (distance[a] / (distance[a] - distance[b])) * (cell[b] - cell[a]);
     }
 
+
+
     template <int dim>
     std::vector<std::pair<Edge, Edge>>
     links_of_cell(const std::array<double, (1 << dim)> &distance)
@@ -93,6 +99,8 @@ namespace moraine
           }
       return links;
     }
+
+
 
     /** Chains of crossed edges; closed ones in 3D, where each edge has two
      * links. */
@@ -125,6 +133,8 @@ namespace moraine
     }
   } // namespace
 
+
+
   template <int dim>
   bool
   may_touch(const CellVertices<dim> &cell, const BoundingBox<dim> &box)
@@ -137,6 +147,8 @@ namespace moraine
         return false;
     return true;
   }
+
+
 
   template <int dim>
   std::vector<std::vector<Point<dim>>>
@@ -166,6 +178,8 @@ namespace moraine
       }
     return result;
   }
+
+
 
 #define INSTANTIATE(dim)                                       \
   template bool may_touch<dim>(const CellVertices<dim> &,      \

@@ -82,6 +82,8 @@ namespace moraine
       Placement<dim>    motion;
     };
 
+
+
     template <int dim>
     BoundingBox<dim>
     box_of(const Operation op, const Shape<dim> &a, const Shape<dim> &b)
@@ -93,6 +95,8 @@ namespace moraine
         box.merge_with(b.bounding_box());
       return box;
     }
+
+
 
     template <int dim>
     class CombinedShape : public Shape<dim>
@@ -269,12 +273,16 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   ShapePointer<dim>
   make_moved(const ShapePointer<dim> &shape, const Placement<dim> &motion)
   {
     return std::make_shared<MovedShape<dim>>(shape, motion);
   }
+
+
 
   template <int dim>
   ShapePointer<dim>
@@ -285,6 +293,8 @@ namespace moraine
   {
     return std::make_shared<CombinedShape<dim>>(operation, a, b, names);
   }
+
+
 
 #define INSTANTIATE(dim)                                           \
   template ShapePointer<dim> make_moved(const ShapePointer<dim> &, \

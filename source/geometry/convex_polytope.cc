@@ -27,11 +27,15 @@ namespace moraine
     }
   } // namespace
 
+
+
   template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
   {
     make_faces(vertices);
   }
+
+
 
   template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const Point<dim> &lower,
@@ -43,6 +47,8 @@ namespace moraine
         vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
     make_faces(vertices);
   }
+
+
 
   template <int dim>
   void
@@ -63,6 +69,8 @@ namespace moraine
             {{4, 5, 7, 6}}})
         add_face(face);
   }
+
+
 
   template <int dim>
   void
@@ -95,6 +103,8 @@ namespace moraine
       }
   }
 
+
+
   template <int dim>
   void
   ConvexPolytope<dim>::set_tolerance()
@@ -105,6 +115,8 @@ namespace moraine
     round_off =
       std::max(round_off, 4. * std::numeric_limits<double>::epsilon() * scale);
   }
+
+
 
   template <int dim>
   void
@@ -141,6 +153,8 @@ namespace moraine
       }
   }
 
+
+
   template <int dim>
   void
   ConvexPolytope<dim>::clip_polygon(const Distances &distance, PointList *cut)
@@ -166,6 +180,8 @@ namespace moraine
           }
       }
   }
+
+
 
   template <int dim>
   void
@@ -206,6 +222,8 @@ namespace moraine
       return index;
     };
 
+
+
     // the edges of the kept faces that lie in the plane
     std::vector<std::array<unsigned short, 2>> rim;
 
@@ -241,6 +259,8 @@ namespace moraine
       }
     close_cut(rim, cut);
   }
+
+
 
   template <int dim>
   void
@@ -283,6 +303,8 @@ namespace moraine
       }
   }
 
+
+
   template <int dim>
   VolumeMoments<dim>
   ConvexPolytope<dim>::moments(const Point<dim> &reference) const
@@ -312,12 +334,16 @@ namespace moraine
     return sum;
   }
 
+
+
   template <int dim>
   double
   ConvexPolytope<dim>::volume() const
   {
     return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
   }
+
+
 
   template <int dim>
   Point<dim>
@@ -332,6 +358,8 @@ namespace moraine
     return offset.norm() <= radius(mean) ? mean + offset : mean;
   }
 
+
+
   template <int dim>
   Point<dim>
   ConvexPolytope<dim>::vertex_mean() const
@@ -342,6 +370,8 @@ namespace moraine
     return corner[0] + sum / double(corner.size());
   }
 
+
+
   template <int dim>
   double
   ConvexPolytope<dim>::radius(const Point<dim> &point) const
@@ -351,6 +381,8 @@ namespace moraine
       square = std::max(square, (x - point).norm_square());
     return std::sqrt(square);
   }
+
+
 
   template <int dim>
   Point<dim>
@@ -383,6 +415,8 @@ namespace moraine
     });
     return way < 1. ? centre + way * (point - centre) : point;
   }
+
+
 
   template class ConvexPolytope<2>;
   template class ConvexPolytope<3>;

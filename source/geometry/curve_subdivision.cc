@@ -25,6 +25,8 @@ namespace moraine
     return slope;
   }
 
+
+
   namespace
   {
     // A level function in a polytope and its linear part at a point.
@@ -73,6 +75,8 @@ namespace moraine
       double         bend = 0.;
     };
 
+
+
     // mean of f over a cut face; exact for quadratic functions
     template <int dim>
     double
@@ -98,6 +102,8 @@ namespace moraine
           return area > 0. ? integral / area : f(cut[0]);
         }
     }
+
+
 
     template <int dim>
     class CurveCutter
@@ -189,6 +195,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   void
   add_curved_pieces(const LevelFunction<dim>  &level,
@@ -201,6 +209,8 @@ namespace moraine
     CurveCutter<dim>(level, is_distance, sign, pieces).add(cell, dim * depth);
   }
 
+
+
   template <int dim>
   Overlap
   overlap_by_values(const LevelFunction<dim>  &level,
@@ -209,6 +219,8 @@ namespace moraine
     const Point<dim> middle = cell.vertex_mean();
     return LinearPart<dim>(level, cell, middle, cell.radius(middle)).overlap();
   }
+
+
 
 #define INSTANTIATE(dim)                                                 \
   template Tensor<1, dim> central_gradient(const LevelFunction<dim> &,   \

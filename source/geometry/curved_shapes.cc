@@ -30,6 +30,8 @@ namespace moraine
       return BoundingBox<dim>(std::make_pair(centre - arm, centre + arm));
     }
 
+
+
     template <int dim>
     class RoundShape : public SmoothShape<dim>
     {
@@ -136,6 +138,8 @@ namespace moraine
       double         radius;
       Tensor<1, dim> axis; ///< of unit length, or zero
     };
+
+
 
     template <int dim>
     class ExpressionShape : public SmoothShape<dim>
@@ -248,6 +252,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   typename Shape<dim>::Faces
   SmoothShape<dim>::faces(const std::string &,
@@ -260,6 +266,8 @@ namespace moraine
                             body_inside,
                             extent)};
   }
+
+
 
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
@@ -306,6 +314,8 @@ namespace moraine
                       {{"", inner_radius > 0. ? "" : "side"}});
   }
 
+
+
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
   make_expression(const std::string &text,
@@ -314,6 +324,8 @@ namespace moraine
   {
     return std::make_shared<ExpressionShape<dim>>(text, place, length);
   }
+
+
 
 #define INSTANTIATE(dim)                                                 \
   template class SmoothShape<dim>;                                       \

@@ -78,6 +78,8 @@ namespace moraine
       const double            shift;
     };
 
+
+
     /** Boxes that make up the part of a cell within an extent. */
     template <int dim>
     class BoxesWithin
@@ -192,6 +194,8 @@ namespace moraine
       const Extent<dim>      &extent;
     };
 
+
+
     template <int dim>
     class SmoothFace : public Surface<dim>
     {
@@ -265,6 +269,8 @@ namespace moraine
       Extent<dim>                             extent;
     };
 
+
+
     /**
      * The line of a cell's edge as a circle sees it: points of the circle
      * within
@@ -279,6 +285,8 @@ namespace moraine
       /** Crossings on the edge or so near that they may be. */
       std::vector<double> breaks;
     };
+
+
 
     EdgeOnCircle
     edge_on_circle(Point<2>        a,
@@ -314,6 +322,8 @@ namespace moraine
       return edge;
     }
 
+
+
     bool
     contains(const std::vector<EdgeOnCircle> &edges, const double angle)
     {
@@ -323,6 +333,8 @@ namespace moraine
         return (std::abs(off) < edge.half_angle) == edge.cell_within;
       });
     }
+
+
 
     class Arc : public SmoothFace<2>
     {
@@ -454,6 +466,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   SurfacePointer<dim>
   make_smooth_face(const std::shared_ptr<const SmoothShape<dim>> &shape,
@@ -474,6 +488,8 @@ namespace moraine
     return std::make_shared<Arc>(
       centre, radius, body_inside, start_angle, end_angle, extent);
   }
+
+
 
 #define INSTANTIATE(dim)                             \
   template SurfacePointer<dim> make_smooth_face(     \

@@ -26,6 +26,8 @@ namespace moraine
     return BoundingBox<dim>({-1. * corner, corner});
   }
 
+
+
   template <int dim>
   BoundingBox<dim>
   intersection(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
@@ -40,6 +42,8 @@ namespace moraine
     return BoundingBox<dim>(std::make_pair(lower, upper));
   }
 
+
+
   template <int dim>
   bool
   is_finite(const BoundingBox<dim> &box)
@@ -50,6 +54,8 @@ namespace moraine
         return false;
     return true;
   }
+
+
 
   template <int dim>
   Placement<dim>::Placement()
@@ -77,6 +83,8 @@ namespace moraine
           matrix[i][j] = std::round(matrix[i][j]);
   }
 
+
+
   template <int dim>
   Placement<dim>
   Placement<dim>::inverse() const
@@ -87,6 +95,8 @@ namespace moraine
     result.matrix      = transpose(matrix);
     return result;
   }
+
+
 
   template <int dim>
   BoundingBox<dim>
@@ -99,6 +109,8 @@ namespace moraine
       corners.push_back(map(box.vertex(v)));
     return BoundingBox<dim>(corners);
   }
+
+
 
   template <int dim>
   RigidMotion<dim>::RigidMotion(const std::array<Curve, dim> &translation,
@@ -118,6 +130,8 @@ namespace moraine
       }
   }
 
+
+
   namespace
   {
     double
@@ -135,6 +149,8 @@ namespace moraine
     }
   } // namespace
 
+
+
   template <int dim>
   Placement<dim>
   RigidMotion<dim>::pose(const double t) const
@@ -149,6 +165,8 @@ namespace moraine
     return Placement<dim>(degrees, centre, axis, shift);
   }
 
+
+
   template <int dim>
   bool
   RigidMotion<dim>::moves() const
@@ -158,6 +176,8 @@ namespace moraine
         return true;
     return static_cast<bool>(angle);
   }
+
+
 
   template <int dim>
   double
@@ -171,6 +191,8 @@ namespace moraine
     else
       return axis * cross_product_3d(arm, f);
   }
+
+
 
 #define INSTANTIATE(dim)                                            \
   template BoundingBox<dim> unlimited_box();                        \

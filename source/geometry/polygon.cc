@@ -21,6 +21,8 @@ namespace moraine
       return (a - b) * (c - b) <= 0.;
     }
 
+
+
     bool
     edges_meet(const Point<2> &a,
                const Point<2> &b,
@@ -37,6 +39,8 @@ namespace moraine
     }
   } // namespace
 
+
+
   double
   polygon_area(const Polygon &polygon)
   {
@@ -45,6 +49,8 @@ namespace moraine
       area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
     return area;
   }
+
+
 
   bool
   is_convex(const Polygon &p)
@@ -55,6 +61,8 @@ namespace moraine
         return false;
     return true;
   }
+
+
 
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &vertices)
@@ -79,6 +87,8 @@ namespace moraine
           return {i, j};
     return {n, n};
   }
+
+
 
   // by cutting ears
   std::vector<Polygon>
@@ -115,6 +125,8 @@ namespace moraine
       }
     return triangles;
   }
+
+
 
   Polygon
   clip_polygon(const Polygon &polygon, const Polygon &convex)

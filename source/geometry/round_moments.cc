@@ -30,6 +30,8 @@ namespace moraine
              (1. - s / 20. * (1. - s / 42. * (1. - s / 72. * (1. - s / 110.))));
     }
 
+
+
     // the values of t in [0, 1] between which |a + t (b - a)|^2 < square
     template <int dim>
     std::pair<double, double>
@@ -48,6 +50,8 @@ namespace moraine
       const double end   = std::min(1., (-ae + root) / ee);
       return begin < end ? std::make_pair(begin, end) : std::make_pair(0., 0.);
     }
+
+
 
     // Moments about 0 of the region enclosed by edges, given in any order,
     // within a disc about centre: the polygon of the edges, with what is
@@ -98,6 +102,8 @@ namespace moraine
         }
       return sum;
     }
+
+
 
     // Moments about the centre of a sphere of the part of a polyhedron in it:
     // each face spans a cone from the centre, which the sphere cuts off where
@@ -202,6 +208,8 @@ namespace moraine
       double       distance = 0.;
       double       square   = 0.;
     };
+
+
 
     // Area, first moments and area times height, integrated over the height of
     // a polyhedron given in the frame of a cylinder (third axis = its axis).
@@ -356,6 +364,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   VolumeMoments<dim>
   moments_in_ball(const ConvexPolytope<dim> &cell,
@@ -423,6 +433,8 @@ namespace moraine
       sum.first += m[d + 1] * frame[d];
     return sum;
   }
+
+
 
 #define INSTANTIATE(dim)                                                   \
   template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &, \

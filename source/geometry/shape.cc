@@ -34,6 +34,8 @@ namespace moraine
     return part;
   }
 
+
+
   template <int dim>
   Overlap
   Shape<dim>::overlap(const ConvexPolytope<dim> &cell) const
@@ -44,6 +46,8 @@ namespace moraine
     return value >= radius ? Overlap::all :
                              (value <= -radius ? Overlap::none : Overlap::part);
   }
+
+
 
   template <int dim>
   VolumeMoments<dim>
@@ -62,6 +66,8 @@ namespace moraine
         }
     return {};
   }
+
+
 
   template <int dim>
   void
@@ -83,6 +89,8 @@ namespace moraine
         }
   }
 
+
+
   template <int dim>
   VolumeMoments<dim>
   Shape<dim>::moments_of_part(const ConvexPolytope<dim> &cell,
@@ -96,6 +104,8 @@ namespace moraine
     return sum;
   }
 
+
+
   template <int dim>
   void
   Shape<dim>::add_pieces_of_part(const ConvexPolytope<dim> &cell,
@@ -108,6 +118,8 @@ namespace moraine
                            sign,
                            pieces);
   }
+
+
 
   template class Shape<2>;
   template class Shape<3>;

@@ -31,6 +31,8 @@ namespace moraine
       return names;
     }
 
+
+
     /** That an operand is in a map of bodies. */
     template <typename Bodies>
     void
@@ -43,6 +45,8 @@ namespace moraine
                          "', which is not the name of a body" +
                          suggest(name, names_in(bodies)));
     }
+
+
 
     /** Makes one shape or surface. */
     template <int dim>
@@ -322,6 +326,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   Placement<dim>
   make_placement(const ShapeParameters<dim> &p, const std::string &section)
@@ -347,6 +353,8 @@ namespace moraine
     return {p.number("Rotation angle", section), centre, axis, translation};
   }
 
+
+
   template <int dim>
   ShapePointer<dim>
   make_shape(const ShapeParameters<dim> &p,
@@ -366,6 +374,8 @@ namespace moraine
     const auto shape = maker.shape();
     return turns || moves ? make_moved(shape, placement) : shape;
   }
+
+
 
   template <int dim>
   NamedShapes<dim>
@@ -398,6 +408,8 @@ namespace moraine
     return made;
   }
 
+
+
   template <int dim>
   SurfacePointer<dim>
   make_surface(const SurfaceParameters<dim> &parameters,
@@ -417,6 +429,8 @@ namespace moraine
         throw InputError("section '" + section + "', " + message);
       }
   }
+
+
 
 #define INSTANTIATE(dim)                                                        \
   template Placement<dim>    make_placement(const ShapeParameters<dim> &,       \

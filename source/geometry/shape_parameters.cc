@@ -95,11 +95,15 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       return lines;
     }
 
+
+
     struct Kind
     {
       std::string              name, description;
       std::vector<std::string> needs, may_have;
     };
+
+
 
     template <int dim>
     const std::vector<Kind> &
@@ -122,6 +126,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       return use == ShapeUse::body ? bodies : surfaces;
     }
 
+
+
     struct Key
     {
       std::string name, holds, text;
@@ -129,6 +135,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       /** What it says if it is left out. */
       std::string usual;
     };
+
+
 
     template <int dim>
     const std::vector<Key> &
@@ -191,11 +199,15 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                                      "plane patch";
     }
 
+
+
     bool
     has(const std::vector<std::string> &list, const std::string &word)
     {
       return std::find(list.begin(), list.end(), word) != list.end();
     }
+
+
 
     /** Finite numbers separated by commas or blanks. */
     std::vector<double>
@@ -225,6 +237,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       return result;
     }
 
+
+
     template <int n>
     Point<n>
     point_in(const std::string &text,
@@ -239,6 +253,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
     }
   } // namespace
 
+
+
   template <int dim>
   ShapeParameters<dim>::ShapeParameters(const ShapeUse use)
     : use(use)
@@ -247,6 +263,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
     for (const Key &key : all_keys<dim>(use))
       texts[key.name] = key.usual;
   }
+
+
 
   template <int dim>
   void
@@ -269,6 +287,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                         *pattern_of(key.holds, use, dim));
   }
 
+
+
   template <int dim>
   std::vector<std::string>
   ShapeParameters<dim>::kinds() const
@@ -280,12 +300,16 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
     return names;
   }
 
+
+
   template <int dim>
   std::string
   ShapeParameters<dim>::kind() const
   {
     return given("Body") || given("Part") ? rim : text(kind_key(use));
   }
+
+
 
   template <int dim>
   bool
@@ -298,6 +322,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                 Utilities::string_to_double(text(name)) != 0.);
     return false;
   }
+
+
 
   template <int dim>
   void
@@ -342,6 +368,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       reject(section, of, text(of), "nothing, a " + rim + " is no other kind");
   }
 
+
+
   template <int dim>
   double
   ShapeParameters<dim>::number(const std::string &key,
@@ -349,6 +377,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   {
     return numbers_in(text(key), 1, section, key, "one number")[0];
   }
+
+
 
   template <int dim>
   Point<dim>
@@ -360,6 +390,8 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                          key,
                          std::to_string(dim) + " numbers");
   }
+
+
 
   template <int dim>
   template <int n>
@@ -375,12 +407,16 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
     return result;
   }
 
+
+
   template <int dim>
   std::vector<std::string>
   ShapeParameters<dim>::words(const std::string &key) const
   {
     return Utilities::split_string_list(text(key), ',');
   }
+
+
 
   template struct ShapeParameters<2>;
   template struct ShapeParameters<3>;

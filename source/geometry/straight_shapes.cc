@@ -26,12 +26,16 @@ namespace moraine
       return lifted;
     }
 
+
+
     template <int dim>
     struct HalfSpace
     {
       Point<dim>     point;
       Tensor<1, dim> outward; ///< of unit length
     };
+
+
 
     /** The intersection of half spaces; one of them if it has no limits. */
     template <int dim>
@@ -135,6 +139,8 @@ namespace moraine
       std::vector<HalfSpace<dim>> sides;
     };
 
+
+
     template <int dim>
     BoundingBox<dim>
     box_of(const std::vector<Point<2>>     &vertices,
@@ -151,6 +157,8 @@ namespace moraine
       return BoundingBox<dim>(corners);
     }
 
+
+
     template <int dim>
     std::vector<std::string>
     parts_of(const std::vector<Point<2>> &vertices)
@@ -162,6 +170,8 @@ namespace moraine
         names.insert(names.end(), {"bottom", "top"});
       return names;
     }
+
+
 
     template <int dim>
     class PolygonShape : public Shape<dim>
@@ -301,12 +311,16 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   ShapePointer<dim>
   make_space()
   {
     return std::make_shared<ConvexShape<dim>>(std::vector<HalfSpace<dim>>());
   }
+
+
 
   template <int dim>
   ShapePointer<dim>
@@ -315,6 +329,8 @@ namespace moraine
     return std::make_shared<ConvexShape<dim>>(std::vector<HalfSpace<dim>>{
       {point, outward_normal / outward_normal.norm()}});
   }
+
+
 
   template <int dim>
   ShapePointer<dim>
@@ -345,6 +361,8 @@ namespace moraine
       std::vector<std::string>{"bottom", "top"});
   }
 
+
+
   template <int dim>
   ShapePointer<dim>
   make_polygon(const std::vector<Point<2>>     &vertices,
@@ -352,6 +370,8 @@ namespace moraine
   {
     return std::make_shared<PolygonShape<dim>>(vertices, heights);
   }
+
+
 
 #define INSTANTIATE(dim)                                                       \
   template ShapePointer<dim> make_space();                                     \

@@ -31,6 +31,8 @@ namespace moraine
       return magnitude;
     }
 
+
+
     /** A flat face with its limits. */
     template <int dim>
     class FlatFace : public Surface<dim>
@@ -47,6 +49,8 @@ namespace moraine
       double      magnitude; ///< of the coordinates
       Extent<dim> extent;
     };
+
+
 
     /** Gauss points between two abscissae of a straight line. */
     void
@@ -65,6 +69,8 @@ namespace moraine
            normal,
            gauss.weight(q) * length});
     }
+
+
 
     class Polyline : public FlatFace<2>
     {
@@ -203,6 +209,8 @@ namespace moraine
       bool                 closed;
     };
 
+
+
     /** A plane's own coordinates in 3D; first x second = normal. */
     struct PlaneFrame
     {
@@ -245,6 +253,8 @@ namespace moraine
       Tensor<1, 3> normal, first, second;
     };
 
+
+
     /** Without vertices that repeat, to 1e-15 of the size. */
     Polygon
     without_repeats(const Polygon &polygon, const double size)
@@ -258,6 +268,8 @@ namespace moraine
         result.pop_back();
       return result;
     }
+
+
 
     /** Points of the affine image of a reference cell at @p o with edges a, b.
      */
@@ -277,6 +289,8 @@ namespace moraine
            normal,
            rule.weight(q) * jacobian});
     }
+
+
 
     /**
      * Quadrature of a polygon in the plane of @p frame, exact for polynomials
@@ -319,6 +333,8 @@ namespace moraine
           rule, p[0], p[i - 1] - p[0], p[i] - p[0], frame, normal, out);
     }
 
+
+
     PlaneFrame
     frame_of(const std::vector<Point<3>> &vertices)
     {
@@ -344,6 +360,8 @@ namespace moraine
             " of a plane patch lies off the plane of the others");
       return frame;
     }
+
+
 
     class PlanePatch : public FlatFace<3>
     {
@@ -459,9 +477,13 @@ namespace moraine
       std::vector<Polygon> convex_parts; ///< none: the whole plane
     };
 
+
+
     template <int dim>
     using Flat = std::conditional_t<dim == 2, Polyline, PlanePatch>;
   } // namespace
+
+
 
   template <int dim>
   SurfacePointer<dim>
@@ -474,6 +496,8 @@ namespace moraine
     return std::make_shared<Flat<dim>>(point, normal / normal.norm(), extent);
   }
 
+
+
   template <int dim>
   SurfacePointer<dim>
   make_flat_face(const std::vector<Point<dim>> &corners,
@@ -482,6 +506,8 @@ namespace moraine
   {
     return std::make_shared<Flat<dim>>(corners, flip, extent);
   }
+
+
 
 #define INSTANTIATE(dim)                                                       \
   template SurfacePointer<dim> make_plane(const Point<dim> &,                  \

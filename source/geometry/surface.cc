@@ -42,6 +42,8 @@ namespace moraine
     return value;
   }
 
+
+
   template <int dim>
   bool
   Extent<dim>::contains(const Point<dim> &x, const Tensor<1, dim> &normal) const
@@ -49,6 +51,8 @@ namespace moraine
     const double tolerance = 1e-10 * coordinate_magnitude<dim>(x);
     return limits.empty() || value(x, normal, tolerance) >= -2. * tolerance;
   }
+
+
 
   template <int dim>
   std::vector<Stretch>
@@ -94,6 +98,8 @@ namespace moraine
     return result;
   }
 
+
+
   template <int dim>
   Extent<dim>
   Extent<dim>::seen_from(const Placement<dim> &placement) const
@@ -105,6 +111,8 @@ namespace moraine
         {make_moved(shape, placement.inverse()), inside, along});
     return result;
   }
+
+
 
   template <int dim>
   MovedSurface<dim>::MovedSurface(const SurfacePointer<dim> &reference,
@@ -122,6 +130,8 @@ namespace moraine
     this->box = pose.map(reference->bounding_box());
   }
 
+
+
   template <int dim>
   NearestPoint<dim>
   MovedSurface<dim>::nearest(const Point<dim> &x) const
@@ -130,6 +140,8 @@ namespace moraine
     point.normal            = present.rotate(point.normal);
     return point;
   }
+
+
 
   template <int dim>
   void
@@ -148,6 +160,8 @@ namespace moraine
         out[i].normal = present.rotate(out[i].normal);
       }
   }
+
+
 
   namespace
   {
@@ -195,6 +209,8 @@ namespace moraine
     };
   } // namespace
 
+
+
   template <int dim>
   SurfacePointer<dim>
   join(const std::vector<SurfacePointer<dim>> &members)
@@ -203,6 +219,8 @@ namespace moraine
       return members.empty() ? nullptr : members[0];
     return std::make_shared<SurfaceList<dim>>(members);
   }
+
+
 
 #define INSTANTIATE(dim)            \
   template struct Extent<dim>;      \
