@@ -36,8 +36,12 @@ namespace moraine
       {
         fe_index_of_node[a] =
           vector.component_to_system_index(0, lexicographic[a]);
-        unit_node_positions.push_back(
-          scalar.unit_support_point(lexicographic[a]));
+        // In the middle of its corners: no other is nearer than 1.
+        const Point<dim> xi      = scalar.unit_support_point(lexicographic[a]);
+        auto            &corners = corners_around.emplace_back();
+        for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
+          if (GeometryInfo<dim>::unit_cell_vertex(v).distance_square(xi) < 0.9)
+            corners.push_back(v);
       }
   }
 
@@ -102,7 +106,9 @@ namespace moraine
       fe_collection[0].n_dofs_per_cell());
     std::vector<types::global_dof_index> relevant_dofs;
     first_dof.clear();
-    positions.clear();
+    first_vertex.assign(1, 0);
+    vertices_of_nodes.clear();
+    moves.clear();
     nodes_of_cells.clear();
     std::fill(cell_slot.begin(), cell_slot.end(), no_cell);
     for (const auto &cell : dofs.active_cell_iterators())
@@ -123,9 +129,9 @@ namespace moraine
                 {
                   node_of_dof[dof] = first_dof.size();
                   first_dof.push_back(dof);
-                  positions.push_back(
-                    background.mapping().transform_unit_to_real_cell(
-                      cell, unit_node_positions[a]));
+                  for (const unsigned int v : corners_around[a])
+                    vertices_of_nodes.push_back(cell->vertex_index(v));
+                  first_vertex.push_back(vertices_of_nodes.size());
                   for (unsigned int c = 0; c < dim; ++c)
                     relevant_dofs.push_back(dof + c);
                 }
@@ -197,23 +203,10 @@ namespace moraine
   void
   GridSpace<dim>::move_nodes(const std::vector<Tensor<1, dim>> &displacement)
   {
-    AssertDimension(displacement.size(), positions.size());
-    for (unsigned int node = 0; node < positions.size(); ++node)
-      positions[node] += displacement[node];
-  }
-
-
-
-  template <int dim>
-  void
-  GridSpace<dim>::follow_mesh()
-  {
-    for (const auto &cell : background.triangulation().active_cell_iterators())
-      if (knows(cell))
-        for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
-          positions[cell_nodes(cell)[a]] =
-            background.mapping().transform_unit_to_real_cell(
-              cell, unit_node_positions[a]);
+    AssertDimension(displacement.size(), n_nodes());
+    moves.resize(n_nodes());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      moves[node] += displacement[node];
   }
 
 

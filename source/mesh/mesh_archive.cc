@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-// Places of vertices and nodes in archives.
+// Places of vertices and moves of nodes in archives.
 
 #include <moraine/mesh/grid_space.h>
 
@@ -66,18 +66,18 @@ namespace moraine
   GridSpace<dim>::write(Archive &archive) const
   {
     std::vector<unsigned int> ids;
-    std::vector<double>       places;
+    std::vector<double>       values;
     for (const auto &cell : background.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && knows(cell))
+      if (!moves.empty() && cell->is_locally_owned() && knows(cell))
         for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
           {
             ids.push_back(cell->active_cell_index());
             ids.push_back(a);
-            const Point<dim> &x = positions[cell_nodes(cell)[a]];
-            places.insert(places.end(), x.begin_raw(), x.end_raw());
+            const Tensor<1, dim> &move = moves[cell_nodes(cell)[a]];
+            values.insert(values.end(), move.begin_raw(), move.end_raw());
           }
     archive.distribute("nodes", std::move(ids), 2);
-    archive.write("nodes/position", std::move(places), dim);
+    archive.write("nodes/move", std::move(values), dim);
   }
 
 
@@ -90,22 +90,20 @@ namespace moraine
     const auto ids =
       Utilities::MPI::all_gather(communicator(),
                                  archive.integers("nodes/id", 2));
-    const auto places =
+    const auto values =
       Utilities::MPI::all_gather(communicator(),
-                                 archive.numbers("nodes/position", dim));
-    std::vector<CellIterator> cells(
-      background.triangulation().n_active_cells());
-    for (const auto &cell : background.triangulation().active_cell_iterators())
-      cells[cell->active_cell_index()] = cell;
+                                 archive.numbers("nodes/move", dim));
+    moves.clear();
     for (unsigned int rank = 0; rank < ids.size(); ++rank)
       for (unsigned int row = 0; row < ids[rank].size() / 2; ++row)
         {
-          const CellIterator &cell = cells.at(ids[rank][2 * row]);
-          if (knows(cell))
-            std::copy_n(
-              places[rank].begin() + dim * row,
-              dim,
-              positions[cell_nodes(cell)[ids[rank][2 * row + 1]]].begin_raw());
+          const unsigned int cell = ids[rank][2 * row],
+                             a    = ids[rank][2 * row + 1];
+          moves.resize(n_nodes());
+          if (cell_slot.at(cell) != no_cell)
+            std::copy_n(values[rank].begin() + dim * row,
+                        dim,
+                        moves[cell_nodes(cell)[a]].begin_raw());
         }
   }
 

@@ -202,10 +202,7 @@ namespace moraine
       {
         basis.split_domains(points);
         if (move_mesh)
-          {
-            move_mesh();
-            space.follow_mesh();
-          }
+          move_mesh();
         points.find_cells();
       }
   }

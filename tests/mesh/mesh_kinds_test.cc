@@ -229,7 +229,6 @@ TEST(MeshKinds, MovedMeshIsSearchedAnew)
       const double size = mesh.cell_size();
 
       mesh.move_vertices([](const Point<2> &x) { return turned(x, 5.); });
-      space.follow_mesh();
 
       EXPECT_EQ(space.n_dofs(), dofs);
       EXPECT_NEAR(mesh.cell_size(), size, 1e-13);

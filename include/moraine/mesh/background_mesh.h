@@ -70,8 +70,7 @@ namespace moraine
      * Move every vertex x to @p motion(x), the same on all ranks, and renew
      * what searches remember. A box stays one if all its edges only shift or
      * stretch. Points stay where they are and must be searched again
-     * (PointSet::find_cells()), nodes take over the new places by
-     * GridSpace::follow_mesh(). Collective.
+     * (PointSet::find_cells()), nodes are where their vertices are. Collective.
      *
      * @throws ComputationError if a cell would be turned inside out at a
      * corner, naming its centre; nothing has moved then.

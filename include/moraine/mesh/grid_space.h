@@ -102,11 +102,21 @@ namespace moraine
       return first_dof[node];
     }
 
-    /** Where the node is; it moves only if the mesh follows the material. */
-    const dealii::Point<dim> &
+    /**
+     * Where the node is: in the middle of the vertex, edge, face or cell of the
+     * mesh that it belongs to, and as far from there as move_nodes() says.
+     */
+    dealii::Point<dim>
     node_position(const unsigned int node) const
     {
-      return positions[node];
+      const auto        &vertices = background.triangulation().get_vertices();
+      const unsigned int begin    = first_vertex[node],
+                         end      = first_vertex[node + 1];
+      dealii::Point<dim> x;
+      for (unsigned int k = begin; k < end; ++k)
+        x += vertices[vertices_of_nodes[k]];
+      x /= end - begin;
+      return moves.empty() ? x : x + moves[node];
     }
 
     /** Nodal values (node major) of an owned-only vector. Collective. */
@@ -126,18 +136,11 @@ namespace moraine
     LA::Vector
     vector() const;
 
-    /** Move every node by its value in @p displacement. */
+    /** Move every node by its value in @p displacement; the mesh stays. */
     void
     move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);
 
-    /**
-     * Put every node where it is in the mesh, after
-     * BackgroundMesh::move_vertices(). What move_nodes() did is forgotten.
-     */
-    void
-    follow_mesh();
-
-    /** Data set "nodes/position" of the nodes of each active cell. */
+    /** Data set "nodes/move" of the nodes of each active cell, if any moved. */
     void
     write(Archive &archive) const override;
 
@@ -205,17 +208,22 @@ namespace moraine
     dealii::DoFHandler<dim>       dofs;
     /** Index in the finite element of component 0 of each lexicographic node.
      */
-    std::vector<unsigned int>                    fe_index_of_node;
-    std::vector<dealii::Point<dim>>              unit_node_positions;
+    std::vector<unsigned int> fe_index_of_node;
+    /** The corners of a cell in whose middle each lexicographic node is. */
+    std::vector<std::vector<unsigned int>>       corners_around;
     std::vector<unsigned char>                   active_cells;
     std::vector<unsigned char>                   wanted_cells; ///< by this rank
     unsigned int                                 n_active = 0;
     std::vector<unsigned int>                    cell_slot;
     std::vector<unsigned int>                    nodes_of_cells;
     std::vector<dealii::types::global_dof_index> first_dof;
-    std::vector<dealii::Point<dim>>              positions;
-    dealii::IndexSet                             owned;
-    dealii::IndexSet                             relevant;
+    /** Vertices [first_vertex[a], first_vertex[a + 1]) are those of node a. */
+    std::vector<unsigned int> first_vertex;
+    std::vector<unsigned int> vertices_of_nodes;
+    /** From where nodes are in the mesh; empty if none ever moved. */
+    std::vector<dealii::Tensor<1, dim>> moves;
+    dealii::IndexSet                    owned;
+    dealii::IndexSet                    relevant;
     /** All relevant unknowns, and where those of the nodes stand in it. */
     mutable LA::Vector        ghosted;
     std::vector<unsigned int> ghosted_index;
