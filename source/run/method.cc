@@ -3,7 +3,8 @@
 
 #include <moraine/run/method.h>
 
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi1_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/memory.h>
 #include <moraine/core/patterns.h>

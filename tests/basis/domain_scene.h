@@ -5,7 +5,8 @@
 #define moraine_tests_domain_scene_h
 
 #include <moraine/basis/basis.h>
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi1_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/geometry/shapes.h>
 

@@ -3,7 +3,7 @@
 
 #include <moraine/basis/body_parts.h>
 #include <moraine/basis/cell_patch.h>
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi1_basis.h>
 #include <moraine/basis/domain_tools.h>
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/core/exceptions.h>

@@ -6,7 +6,8 @@
 // lines 'name value'.
 
 #include <moraine/assembly/mechanics_system.h>
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi1_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/memory.h>

@@ -12,18 +12,23 @@ namespace moraine
 
   namespace
   {
-    /** Two cells filled with material that is pulled from the bottom. */
-    const std::string scene_text = R"(
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 4
-  set Cell size    = 1
-end
+    const std::string materials_text = R"(
 subsection Materials
   subsection soil
     set Young modulus = 1000
     set Poisson ratio = 0.3
   end
+end
+)";
+
+
+
+    /** Two cells filled with material that is pulled from the bottom. */
+    const std::string scene_text = materials_text + R"(
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 4
+  set Cell size    = 1
 end
 subsection Bodies
   subsection block
@@ -316,17 +321,11 @@ end
 
 
   /** Surfaces and loads carry something from step to step here. */
-  const std::string carrying_scene_text = R"(
+  const std::string carrying_scene_text = materials_text + R"(
 subsection Mesh
   set Lower corner = 0, 0
   set Upper corner = 4, 4
   set Cell size    = 1
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
 end
 subsection Bodies
   subsection block

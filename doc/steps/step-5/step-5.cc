@@ -4,7 +4,8 @@
 // New are the convected particle domains, and a mesh that moves.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi1_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
 #include <moraine/boundary/mesh_motion.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>

@@ -4,7 +4,7 @@
 // Nothing new: implicit boundaries are those of step-3, domains and the mesh
 // that moves those of step-5.
 #include <moraine/assembly/mechanics_system.h>
-#include <moraine/basis/cpdi_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/boundary/mesh_motion.h>
 #include <moraine/geometry/surfaces.h>

@@ -7,6 +7,7 @@
 #include <moraine/points/bodies.h>
 #include <moraine/points/point_set.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -53,6 +54,39 @@ namespace moraine
     average_weights(const CellVertices<dim> &corners,
                     double                  *w,
                     dealii::Tensor<1, dim>  *g);
+
+    template <int dim>
+    double
+    volume(const CellVertices<dim> &corners)
+    {
+      double                 w[1 << dim];
+      dealii::Tensor<1, dim> g[1 << dim];
+      return average_weights<dim>(corners, w, g);
+    }
+
+    /** Ask for n vectors "name_1", ..., lengths each.
+     * @return where they stand among the values of a point. */
+    template <int dim, std::size_t n>
+    std::array<unsigned int, n>
+    request_vectors(PointFields &fields, const std::string &name)
+    {
+      std::array<unsigned int, n> offsets;
+      for (unsigned int i = 0; i < n; ++i)
+        offsets[i] = fields
+                       .request(typename FieldNames<dim>::Vector{
+                         name + "_" + std::to_string(i + 1), "length"})
+                       .offset();
+      return offsets;
+    }
+
+    /** Where the vectors of request_vectors() stand in fields that have them.
+     */
+    template <int dim, std::size_t n>
+    std::array<unsigned int, n>
+    offsets_of_vectors(PointFields fields, const std::string &name)
+    {
+      return request_vectors<dim, n>(fields, name);
+    }
 
     /** The corners @f$x + \sum_i \pm r_i@f$, @f$r_i@f$ the columns. */
     template <int dim>

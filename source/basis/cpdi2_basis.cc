@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/basis/cpdi2_basis.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  Cpdi2Basis<dim>::request_fields(PointFields &fields)
+  {
+    DomainTools::request_vectors<dim, n_corners>(fields, "corner");
+  }
+
+
+
+  template <int dim>
+  Cpdi2Basis<dim>::Cpdi2Basis(const GridSpace<dim>         &space,
+                              const PointSet<dim>          &points,
+                              const CellSeeder<dim>        &seeder,
+                              const std::vector<Body<dim>> &bodies)
+    : CpdiBasis<dim>(space, points, seeder, bodies, "CPDI2")
+    , finite_strain(DomainTools::finite_strain(points))
+    , offsets(DomainTools::offsets_of_vectors<dim, n_corners>(points.fields(),
+                                                              "corner"))
+  {}
+
+
+
+  template <int dim>
+  void
+  Cpdi2Basis<dim>::store_corners(PointSet<dim>           &points,
+                                 const unsigned int       p,
+                                 const CellVertices<dim> &corners) const
+  {
+    for (unsigned int c = 0; c < n_corners; ++c)
+      std::copy_n(corners[c].begin_raw(), dim, points.values(p) + offsets[c]);
+  }
+
+
+
+  template <int dim>
+  void
+  Cpdi2Basis<dim>::initialise_points(PointSet<dim> &points) const
+  {
+    const auto domains = this->initial_domains(points);
+    const auto v_0     = points.fields().find(FieldNames<dim>::initial_volume);
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        store_corners(points, p, domains[p].corners);
+        if (!domains[p].is_cut)
+          points.set_volume(p, DomainTools::volume<dim>(domains[p].corners));
+        if (v_0.exists())
+          v_0.store(points.volume(p), points.values(p));
+      }
+  }
+
+
+
+  template <int dim>
+  CellVertices<dim>
+  Cpdi2Basis<dim>::domain_corners(const unsigned int p) const
+  {
+    CellVertices<dim> corners;
+    for (unsigned int c = 0; c < n_corners; ++c)
+      std::copy_n(this->points.values(p) + offsets[c],
+                  dim,
+                  corners[c].begin_raw());
+    return corners;
+  }
+
+
+
+  template <int dim>
+  void
+  Cpdi2Basis<dim>::weights(const unsigned int p,
+                           double            *w,
+                           Tensor<1, dim>    *g) const
+  {
+    DomainTools::average_weights<dim>(domain_corners(p), w, g);
+  }
+
+
+
+  template <int dim>
+  CellVertices<dim>
+  Cpdi2Basis<dim>::moved_corners(
+    const unsigned int                 p,
+    const std::vector<Tensor<1, dim>> &nodal_increments) const
+  {
+    CellVertices<dim> corners = domain_corners(p);
+    for (unsigned int c = 0; c < n_corners; ++c)
+      corners[c] += this->corner_increment(p, c, nodal_increments);
+    return corners;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Cpdi2Basis<dim>::failure_of(
+    const std::vector<Tensor<1, dim>> &nodal_increments) const
+  {
+    if (!finite_strain)
+      return "";
+    // Averages over a domain with re-entrant corners still make sense, as long
+    // as more of it is the right way round than not.
+    for (unsigned int p = 0; p < this->points.n_local(); ++p)
+      {
+        const auto corners = moved_corners(p, nodal_increments);
+        if (!(DomainTools::volume<dim>(corners) > 0))
+          return DomainTools::name_of(this->points, p) +
+                 ": its domain would turn inside out";
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  void
+  Cpdi2Basis<dim>::move_domains(
+    PointSet<dim>                     &points,
+    const std::vector<Tensor<1, dim>> &nodal_increments,
+    const std::vector<Tensor<2, dim>> &gradients) const
+  {
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (finite_strain)
+        {
+          const auto     corners = moved_corners(p, nodal_increments);
+          Tensor<2, dim> dF      = gradients[p];
+          for (unsigned int d = 0; d < dim; ++d)
+            dF[d][d] += 1;
+          // It has followed the gradient until here.
+          points.set_volume(p,
+                            points.volume(p) *
+                              DomainTools::volume<dim>(corners) /
+                              (determinant(dF) *
+                               DomainTools::volume<dim>(domain_corners(p))));
+          store_corners(points, p, corners);
+        }
+      else
+        {
+          Tensor<1, dim> shift;
+          for (unsigned int c = 0; c < n_corners; ++c)
+            shift += this->function_weight(p, c) *
+                     this->corner_increment(p, c, nodal_increments);
+          auto corners = domain_corners(p);
+          for (Point<dim> &corner : corners)
+            corner += shift;
+          store_corners(points, p, corners);
+        }
+  }
+
+
+
+  template class Cpdi2Basis<2>;
+  template class Cpdi2Basis<3>;
+} // namespace moraine
