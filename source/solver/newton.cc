@@ -26,6 +26,12 @@ namespace moraine
     constexpr double sufficient_decrease = 1e-4;
 
     /**
+     * Or the next correction with the same tangent must be shorter by this
+     * times s (Deuflhard 2004, restricted natural monotonicity test).
+     */
+    constexpr double sufficient_shortening = 0.25;
+
+    /**
      * With a kept tangent, a pass that leaves more than this part of the
      * residual calls for a new one.
      */
@@ -142,6 +148,9 @@ namespace moraine
       take_step(const LA::Vector &dx, const bool line_search);
 
       bool
+      next_is_shorter(const LA::Vector &dx, const double factor);
+
+      bool
       iterate();
 
       bool
@@ -251,8 +260,36 @@ namespace moraine
 
 
     /**
-     * Add dx, or, where that does not reduce the residual, half of it, a
-     * quarter, ...
+     * Whether the tangent that gave dx has a shorter correction for the
+     * residual after a step of factor times dx. Where a stiff part of the
+     * material, as the volume of a nearly incompressible one, meets a rotation
+     * for the first time, the residual grows although the step is a good one:
+     * displacements do not.
+     */
+    bool
+    Iteration::next_is_shorter(const LA::Vector &dx, const double factor)
+    {
+      LA::Vector         next(dx);
+      const LinearReport linear =
+        linear_solver.solve(next,
+                            system.residual(),
+                            measure.weighted_norm(largest_forcing *
+                                                  measure.distance()),
+                            measure.weights());
+      report.linear_iterations += linear.iterations;
+      if (!linear.message.empty())
+        report.message = linear.message;
+      system.apply_constraints(next);
+      return linear.converged &&
+             next.l2_norm() <=
+               (1. - sufficient_shortening * factor) * dx.l2_norm();
+    }
+
+
+
+    /**
+     * Add dx, or, where that reduces neither the residual nor the next
+     * correction, half of it, a quarter, ...
      */
     bool
     Iteration::take_step(const LA::Vector &dx, const bool line_search)
@@ -271,7 +308,8 @@ namespace moraine
           evaluate(false);
           if (measure.finite() &&
               (any_will_do || small() ||
-               measure.ratio_to(start) <= 1. - sufficient_decrease * factor))
+               measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
+               next_is_shorter(dx, factor)))
             return true;
         }
       if (!measure.finite())

@@ -300,6 +300,32 @@ TEST(Newton, NeedsTheLineSearchForAtan)
   EXPECT_FALSE(solve(without, plain).report.converged());
 }
 
+TEST(Newton, TakesAGoodStepAlthoughTheResidualGrows)
+{
+  // A point on a stiff circle is pulled along it. Each correction leaves the
+  // circle a little, and the residual is 40 times as large as before.
+  const double k = 1e4, pull = 8e-3;
+  SmallSystem  system(
+    {1., 0.},
+    [=](const Values &x) {
+      const double off = 0.5 * (x[0] * x[0] + x[1] * x[1] - 1.);
+      return Values{-k * off * x[0], -k * off * x[1] - x[1] + pull};
+    },
+    [=](const Values &x) {
+      const double off = 0.5 * (x[0] * x[0] + x[1] * x[1] - 1.);
+      return two_by_two(k * (off + x[0] * x[0]),
+                        k * x[0] * x[1],
+                        k * x[0] * x[1],
+                        k * (off + x[1] * x[1]) + 1.);
+    });
+  const auto outcome = solve(system);
+  EXPECT_TRUE(outcome.report.converged()) << outcome.report.message;
+  EXPECT_GT(outcome.report.residuals[1], 30 * outcome.report.residuals[0]);
+  EXPECT_LE(outcome.report.iterations, 6u);
+  EXPECT_NEAR(outcome.x[1], pull, 1e-9);
+  EXPECT_NEAR(outcome.x[0], std::sqrt(1. - pull * pull), 1e-12);
+}
+
 TEST(Newton, StepsBackFromAStateThatDoesNotExist)
 {
   // log(x) + 1 = 0 from 3: the full correction leads to negative x.

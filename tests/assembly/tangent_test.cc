@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/mechanics_system.h>
+#include <moraine/basis/cpdi1_basis.h>
+#include <moraine/basis/cpdi2_basis.h>
+#include <moraine/material/linear_elastic.h>
+#include <moraine/material/von_mises.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "../small_scene.h"
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  enum class Method
+  {
+    material_point,
+    quadratic_elements,
+    gimp,
+    cpdi1,
+    cpdi2
+  };
+
+  constexpr double yield_radius = 5.;
+
+  std::shared_ptr<const Material>
+  material(const bool plastic)
+  {
+    if (plastic)
+      return std::make_shared<VonMises>(
+        1000.,
+        0.3,
+        1.,
+        std::vector<std::pair<double, double>>{{0., yield_radius},
+                                               {1., 4 * yield_radius}});
+    return std::make_shared<LinearElastic>(1000., 0.3, 1.);
+  }
+
+
+
+  /** A box at finite strain in a mesh of 3^dim unit cells, cut by its faces. */
+  template <int dim>
+  struct Box
+  {
+    static MeshParameters<dim>
+    mesh_parameters()
+    {
+      MeshParameters<dim> parameters;
+      for (unsigned int d = 0; d < dim; ++d)
+        parameters.upper_corner[d] = 3;
+      parameters.cell_size = 1;
+      return parameters;
+    }
+
+    static PointFields
+    fields(const Method method, const std::shared_ptr<const Material> &material)
+    {
+      PointFields layout;
+      if (method == Method::gimp)
+        GimpBasis<dim>::request_fields(layout);
+      if (method == Method::cpdi1)
+        Cpdi1Basis<dim>::request_fields(layout);
+      if (method == Method::cpdi2)
+        Cpdi2Basis<dim>::request_fields(layout);
+      StateFields<dim>(layout, StrainMeasure::finite, {material});
+      return layout;
+    }
+
+    Box(const Method method, const bool plastic)
+      : law(material(plastic))
+      , mesh(mesh_parameters(), MPI_COMM_WORLD)
+      , space(mesh, method == Method::quadratic_elements ? 2 : 1)
+      , points(mesh, fields(method, law))
+    {
+      const bool            fe = method == Method::quadratic_elements;
+      const unsigned int    n  = fe ? 3 : 2;
+      const CellSeeder<dim> seeder(n,
+                                   fe ? PointLayout::gauss :
+                                        PointLayout::equal);
+      Point<dim>            lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = fe ? 0. : 0.3;
+          upper[d] = fe ? 3. : 2.4;
+        }
+      const std::vector<Body<dim>> bodies{{"box", make_box<dim>(lower, upper)}};
+      seed_bodies(bodies, seeder, points);
+      switch (method)
+        {
+          case Method::material_point:
+            basis = std::make_unique<CellBasis<dim, 1>>(space, points);
+            break;
+          case Method::quadratic_elements:
+            basis = std::make_unique<CellBasis<dim, 2>>(space, points);
+            break;
+          case Method::gimp:
+            basis = std::make_unique<GimpBasis<dim>>(space, points, n);
+            break;
+          case Method::cpdi1:
+            basis =
+              std::make_unique<Cpdi1Basis<dim>>(space, points, seeder, bodies);
+            break;
+          case Method::cpdi2:
+            basis =
+              std::make_unique<Cpdi2Basis<dim>>(space, points, seeder, bodies);
+            break;
+        }
+      basis->initialise_points(points);
+      state  = std::make_unique<State<dim>>(space,
+                                           points,
+                                           *basis,
+                                           std::vector{law},
+                                           fe ? MeshAfterStep::follow_material :
+                                                 MeshAfterStep::reset,
+                                           StrainMeasure::finite);
+      system = std::make_unique<MechanicsSystem<dim>>(
+        *state,
+        make_terms(boundaries, conditions, loads),
+        std::vector<std::string>{"box"});
+      system->begin_step(0);
+      system->set_target(1);
+    }
+
+    /** Displacements of all nodes, by place, that @p seed varies. */
+    LA::Vector
+    displacements(const double scale, const double seed) const
+    {
+      LA::Vector x = space.vector();
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const auto dof = space.node_dof(node) + c;
+            if (!space.locally_owned().is_element(dof))
+              continue;
+            const Point<dim> X     = space.node_position(node);
+            double           phase = seed + 0.7 * c;
+            for (unsigned int d = 0; d < dim; ++d)
+              phase += (1.3 + 0.9 * d * seed) * X[d];
+            x(dof) = scale * std::sin(phase);
+          }
+      x.compress(VectorOperation::insert);
+      return x;
+    }
+
+    LA::Vector
+    residual(const LA::Vector &x)
+    {
+      system->assemble(x, false);
+      return system->residual();
+    }
+
+    const std::shared_ptr<const Material> law;
+    BackgroundMesh<dim>                   mesh;
+    GridSpace<dim>                        space;
+    PointSet<dim>                         points;
+    std::unique_ptr<Basis<dim>>           basis;
+    std::unique_ptr<State<dim>>           state;
+    std::vector<ImplicitBoundary<dim>>    boundaries;
+    std::vector<GridCondition<dim>>       conditions;
+    Loads<dim>                            loads;
+    std::unique_ptr<MechanicsSystem<dim>> system;
+  };
+
+
+
+  /** Against central differences, along two directions. */
+  template <int dim>
+  void
+  check_tangent(const Method method, const bool plastic)
+  {
+    Box<dim>         box(method, plastic);
+    const LA::Vector x = box.displacements(0.03, 0.4);
+    box.system->assemble(x, false); // the next one is not linearised
+    for (const double seed : {1.1, 2.3})
+      {
+        const LA::Vector v = box.displacements(1e-6, seed);
+        box.system->assemble(x, true);
+        LA::Vector Kv = box.space.vector();
+        box.system->tangent()->vmult(Kv, v);
+        const double size = Kv.l2_norm();
+        ASSERT_GT(size, 1e-5);
+
+        LA::Vector there = x;
+        there += v;
+        LA::Vector difference = box.residual(there);
+        there.add(-2., v);
+        difference -= box.residual(there);
+        Kv.add(0.5, difference);
+        EXPECT_LT(Kv.l2_norm(), 1e-7 * size) << "direction " << seed;
+      }
+  }
+
+
+
+  using Case = std::tuple<unsigned int, Method, bool>;
+  class EveryMethod : public testing::TestWithParam<Case>
+  {};
+
+  std::string
+  name_of(const testing::TestParamInfo<Case> &info)
+  {
+    const auto &[dim, method, plastic] = info.param;
+    const std::vector<std::string> names{
+      "MaterialPoint", "QuadraticElements", "Gimp", "Cpdi1", "Cpdi2"};
+    return names[static_cast<int>(method)] + std::to_string(dim) + "D" +
+           (plastic ? "Plastic" : "Elastic");
+  }
+
+  TEST_P(EveryMethod, TangentIsTheDerivativeOfTheForces)
+  {
+    const auto [dim, method, plastic] = GetParam();
+    if (dim == 2)
+      check_tangent<2>(method, plastic);
+    else
+      check_tangent<3>(method, plastic);
+  }
+
+  INSTANTIATE_TEST_SUITE_P(
+    All,
+    EveryMethod,
+    testing::Combine(testing::Values(2u, 3u),
+                     testing::Values(Method::material_point,
+                                     Method::quadratic_elements,
+                                     Method::gimp,
+                                     Method::cpdi1,
+                                     Method::cpdi2),
+                     testing::Bool()),
+    name_of);
+
+
+
+  TEST(PlasticBox, YieldsInTheStateOfTheTest)
+  {
+    LA::Vector f[2];
+    for (const bool plastic : {false, true})
+      {
+        Box<3>           box(Method::material_point, plastic);
+        const LA::Vector x = box.displacements(0.03, 0.4);
+        box.system->assemble(x, false); // the next one is not linearised
+        f[plastic] = box.residual(x);
+      }
+    const double elastic = f[0].l2_norm();
+    f[1] -= f[0];
+    EXPECT_GT(f[1].l2_norm(), 0.3 * elastic);
+  }
+} // namespace
