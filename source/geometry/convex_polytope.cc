@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace moraine
 {
@@ -30,9 +31,12 @@ namespace moraine
 
 
   template <int dim>
-  ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices)
+  ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices,
+                                      const double             round_off,
+                                      const bool               split)
+    : round_off(round_off)
   {
-    make_faces(vertices);
+    make_faces(vertices, split);
   }
 
 
@@ -45,21 +49,43 @@ namespace moraine
     for (unsigned int v = 0; v < vertices.size(); ++v)
       for (unsigned int d = 0; d < dim; ++d)
         vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
-    make_faces(vertices);
+    make_faces(vertices, false);
+  }
+
+
+
+  template <int dim>
+  ConvexPolytope<dim>
+  ConvexPolytope<dim>::polygon(const PointList &vertices,
+                               const double     round_off)
+  {
+    ConvexPolytope<dim> result(vertices[0], vertices[0]);
+    result.corner.assign(vertices.begin(), vertices.end());
+    result.loops.resize(vertices.size());
+    std::iota(result.loops.begin(), result.loops.end(), 0);
+    result.loop_ends = {static_cast<unsigned short>(vertices.size())};
+    result.round_off = round_off;
+    result.set_tolerance();
+    return result;
   }
 
 
 
   template <int dim>
   void
-  ConvexPolytope<dim>::make_faces(const CellVertices<dim> &cell)
+  ConvexPolytope<dim>::make_faces(const CellVertices<dim> &cell,
+                                  const bool               split)
   {
-    if constexpr (dim == 2)
-      corner = {cell[0], cell[1], cell[3], cell[2]};
-    else
-      corner.assign(cell.begin(), cell.end());
+    corner.assign(cell.begin(), cell.end());
+    if (dim == 2)
+      std::swap(corner[2], corner[3]);
     set_tolerance();
-    if constexpr (dim == 3)
+    if constexpr (dim == 2)
+      {
+        loops     = {0, 1, 2, 3};
+        loop_ends = {4};
+      }
+    else
       for (const std::array<unsigned int, 4> &face :
            {std::array<unsigned int, 4>{{0, 4, 6, 2}},
             {{1, 3, 7, 5}},
@@ -67,14 +93,15 @@ namespace moraine
             {{2, 6, 7, 3}},
             {{0, 2, 3, 1}},
             {{4, 5, 7, 6}}})
-        add_face(face);
+        add_face(face, split);
   }
 
 
 
   template <int dim>
   void
-  ConvexPolytope<dim>::add_face(const std::array<unsigned int, 4> &q)
+  ConvexPolytope<dim>::add_face(const std::array<unsigned int, 4> &q,
+                                const bool                         split)
   {
     if constexpr (dim == 3)
       {
@@ -82,7 +109,7 @@ namespace moraine
         const Tensor<1, 3> normal =
           cross_product_3d(diagonal, corner[q[3]] - corner[q[1]]);
         const double height = normal * (corner[q[1]] - corner[q[0]]);
-        if (std::abs(height) <= 4. * round_off * normal.norm())
+        if (!split || std::abs(height) <= 4. * round_off * normal.norm())
           {
             loops.insert(loops.end(), q.begin(), q.end());
             loop_ends.push_back(loops.size());
@@ -120,14 +147,15 @@ namespace moraine
 
   template <int dim>
   void
-  ConvexPolytope<dim>::clip(const Point<dim>     &point,
-                            const Tensor<1, dim> &inward_normal,
-                            PointList            *cut)
+  ConvexPolytope<dim>::clip(const Point<dim>       &point,
+                            const Tensor<1, dim>   &inward_normal,
+                            std::vector<PointList> *cut)
   {
     const double length = inward_normal.norm();
     Assert(length > 0., ExcMessage("The normal of a plane must not vanish."));
-    Distances distance(corner.size());
-    bool      some_in = false, some_out = false;
+    Distances    distance(corner.size());
+    bool         some_in = false, some_out = false;
+    unsigned int n_on = 0;
     for (unsigned int i = 0; i < corner.size(); ++i)
       {
         distance[i] = inward_normal * (corner[i] - point) / length;
@@ -135,6 +163,7 @@ namespace moraine
           distance[i] = 0.;
         some_in |= distance[i] > 0.;
         some_out |= distance[i] < 0.;
+        n_on += distance[i] == 0.;
       }
     if (cut != nullptr)
       cut->clear();
@@ -144,49 +173,16 @@ namespace moraine
         loops.clear();
         loop_ends.clear();
       }
-    else if (some_out)
-      {
-        if constexpr (dim == 2)
-          clip_polygon(distance, cut);
-        else
-          clip_polyhedron(distance, cut);
-      }
+    else if (some_out || (cut != nullptr && n_on >= dim))
+      clip_faces(distance, cut);
   }
 
 
 
   template <int dim>
   void
-  ConvexPolytope<dim>::clip_polygon(const Distances &distance, PointList *cut)
-  {
-    const auto         old = corner;
-    const unsigned int n   = old.size();
-    corner.clear();
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const unsigned int j = (i + 1) % n;
-        if (distance[i] >= 0.)
-          corner.push_back(old[i]);
-        if (distance[i] == 0. && cut != nullptr)
-          cut->push_back(old[i]);
-        if (distance[i] * distance[j] < 0.)
-          {
-            corner.push_back(
-              distance[i] > 0. ?
-                crossing(old[i], distance[i], old[j], distance[j]) :
-                crossing(old[j], distance[j], old[i], distance[i]));
-            if (cut != nullptr)
-              cut->push_back(corner.back());
-          }
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  ConvexPolytope<dim>::clip_polyhedron(const Distances &distance,
-                                       PointList       *cut)
+  ConvexPolytope<dim>::clip_faces(const Distances        &distance,
+                                  std::vector<PointList> *cut)
   {
     const auto    old       = corner;
     const Indices old_loops = loops;
@@ -195,10 +191,10 @@ namespace moraine
     loops.clear();
     loop_ends.clear();
 
-    constexpr unsigned short                   none = -1;
-    Indices                                    renumber(old.size(), none);
-    std::vector<std::array<unsigned short, 3>> cut_edges;
-    std::vector<bool>                          on_plane;
+    constexpr unsigned short none = -1;
+    Indices                  renumber(old.size(), none);
+    boost::container::small_vector<std::array<unsigned short, 3>, 16> cut_edges;
+    boost::container::small_vector<bool, 32>                          on_plane;
 
     const auto kept_vertex = [&](const unsigned short i) {
       if (renumber[i] == none)
@@ -266,8 +262,14 @@ namespace moraine
   void
   ConvexPolytope<dim>::close_cut(
     std::vector<std::array<unsigned short, 2>> &rim,
-    PointList                                  *cut)
+    std::vector<PointList>                     *cut)
   {
+    if (dim == 2)
+      {
+        if (cut != nullptr && !rim.empty())
+          cut->push_back({corner[rim[0][0]], corner[rim[0][1]]});
+        return;
+      }
     // edges used in both directions are interior to the kept faces; the
     // others, reversed, bound the new face
     for (unsigned int i = 0; i < rim.size(); ++i)
@@ -281,7 +283,7 @@ namespace moraine
           }
     while (!rim.empty())
       {
-        const unsigned int   first = loops.size();
+        PointList            face;
         const unsigned short start = rim.back()[1];
         unsigned short       at    = start;
         do
@@ -292,14 +294,14 @@ namespace moraine
               });
             Assert(edge != rim.end(), ExcMessage("A clipped face is open."));
             loops.push_back(at);
+            face.push_back(corner[at]);
             at = (*edge)[0];
             rim.erase(edge);
           }
         while (at != start);
         loop_ends.push_back(loops.size());
-        if (cut != nullptr && cut->empty())
-          for (unsigned int k = first; k < loops.size(); ++k)
-            cut->push_back(corner[loops[k]]);
+        if (cut != nullptr)
+          cut->push_back(face);
       }
   }
 

@@ -175,12 +175,12 @@ namespace moraine
           const Point<dim>          &foot,
           const Tensor<1, dim>      &slope)
       {
-        typename ConvexPolytope<dim>::PointList face;
-        ConvexPolytope<dim>                     part = cell;
-        part.clip(foot, slope, &face);
-        if (face.size() >= dim)
+        std::vector<typename ConvexPolytope<dim>::PointList> faces;
+        ConvexPolytope<dim>                                  part = cell;
+        part.clip(foot, slope, &faces);
+        if (!faces.empty())
           {
-            const double mean = mean_on_cut<dim>(face, level);
+            const double mean = mean_on_cut<dim>(faces[0], level);
             part              = cell;
             part.clip(linear_zero<dim>(foot, mean, slope), slope);
           }

@@ -4,7 +4,6 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 
-#include <moraine/geometry/cell_cut.h>
 #include <moraine/geometry/curve_subdivision.h>
 #include <moraine/geometry/round_moments.h>
 #include <moraine/geometry/shapes.h>
@@ -97,14 +96,6 @@ namespace moraine
         return -1. / radius * radial(x - centre);
       }
 
-      SymmetricTensor<2, dim>
-      hessian(const Point<dim> &, const double) const override
-      {
-        return -1. / radius *
-               (unit_symmetric_tensor<dim>() -
-                symmetrize(outer_product(axis, axis)));
-      }
-
       NearestPoint<dim>
       nearest(const Point<dim> &x) const override
       {
@@ -180,31 +171,6 @@ namespace moraine
         // step ~ eps^(1/3)
         return central_gradient<dim>(
           [this](const Point<dim> &p) { return value(p); }, x, 1e-5 * length);
-      }
-
-      SymmetricTensor<2, dim>
-      hessian(const Point<dim> &x, const double length) const override
-      {
-        // step ~ eps^(1/4)
-        const double            h = 2e-4 * length;
-        SymmetricTensor<2, dim> hessian;
-        const double            middle = expression.value(x);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const Tensor<1, dim> a = h * Point<dim>::unit_vector(d);
-            hessian[d][d]          = (expression.value(x + a) - 2. * middle +
-                             expression.value(x - a)) /
-                            (h * h);
-            for (unsigned int e = d + 1; e < dim; ++e)
-              {
-                const Tensor<1, dim> b = h * Point<dim>::unit_vector(e);
-                hessian[d][e] =
-                  (expression.value(x + a + b) - expression.value(x + a - b) -
-                   expression.value(x - a + b) + expression.value(x - a - b)) /
-                  (4. * h * h);
-              }
-          }
-        return hessian;
       }
 
       NearestPoint<dim>

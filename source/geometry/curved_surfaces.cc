@@ -3,7 +3,6 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/cell_cut.h>
 #include <moraine/geometry/curve_subdivision.h>
 #include <moraine/geometry/shapes.h>
 #include <moraine/geometry/surfaces.h>
@@ -59,15 +58,18 @@ namespace moraine
       SymmetricTensor<2, dim>
       hessian(const Point<dim> &xi, const unsigned int = 0) const override
       {
-        const Point<dim>        x        = map.place(xi);
-        const Tensor<2, dim>    J        = map.jacobian(xi);
-        const Tensor<1, dim>    gradient = shape.gradient(x, length);
-        const Tensor<2, dim>    H        = shape.hessian(x, length);
-        SymmetricTensor<2, dim> result   = symmetrize(transpose(J) * H * J);
+        // differences serve, as this only bounds how φ bends
+        constexpr double        step = 1e-3;
+        SymmetricTensor<2, dim> result;
         for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = d + 1; e < dim; ++e)
-            result[d][e] += gradient * map.second(xi, d, e);
-        return sign * result;
+          {
+            const Tensor<1, dim> shift = step * Point<dim>::unit_vector(d);
+            const Tensor<1, dim> change =
+              gradient(xi + shift) - gradient(xi - shift);
+            for (unsigned int e = d; e < dim; ++e)
+              result[d][e] = change[e] / (2. * step);
+          }
+        return result;
       }
 
     private:
@@ -225,7 +227,7 @@ namespace moraine
              const unsigned int              n_gauss,
              std::vector<SurfacePoint<dim>> &out) const override
       {
-        if (!may_touch<dim>(cell, this->box))
+        if (!this->may_touch(cell))
           return;
         const CellMap<dim> map(cell);
         const double       size = cell_size<dim>(cell);
@@ -282,8 +284,6 @@ namespace moraine
     {
       double middle, half_angle;
       bool   cell_within;
-      /** Crossings on the edge or so near that they may be. */
-      std::vector<double> breaks;
     };
 
 
@@ -311,14 +311,6 @@ namespace moraine
       edge.half_angle = half_chord > 0. ? std::atan2(half_chord, -height) :
                         height > 0.     ? 4. :
                                           0.;
-      if (half_chord > 0.)
-        for (const double side : {-1., 1.})
-          {
-            const double abscissa = (centre - a) * t - side * half_chord;
-            // one break too many does no harm, one too few does
-            if (abscissa >= -1e-3 * length && abscissa <= 1.001 * length)
-              edge.breaks.push_back(edge.middle + side * edge.half_angle);
-          }
       return edge;
     }
 
@@ -382,7 +374,7 @@ namespace moraine
              const unsigned int            n_gauss,
              std::vector<SurfacePoint<2>> &out) const override
       {
-        if (!may_touch<2>(cell, box))
+        if (!this->may_touch(cell))
           return;
         constexpr unsigned int    cycle[5] = {0, 1, 3, 2, 0};
         std::vector<EdgeOnCircle> edges;
@@ -391,9 +383,13 @@ namespace moraine
           {
             edges.push_back(edge_on_circle(
               cell[cycle[e]], cell[cycle[e + 1]], centre, radius));
-            for (const double angle : edges.back().breaks)
-              if (from_start(angle) < sweep)
-                breaks.push_back(from_start(angle));
+            for (const double side : {-1., 1.})
+              {
+                const double angle = from_start(edges.back().middle +
+                                                side * edges.back().half_angle);
+                if (angle < sweep)
+                  breaks.push_back(angle);
+              }
           }
         std::sort(breaks.begin(), breaks.end());
 

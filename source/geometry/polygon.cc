@@ -128,28 +128,16 @@ namespace moraine
 
 
 
-  Polygon
-  clip_polygon(const Polygon &polygon, const Polygon &convex)
+  PlaneFrame::PlaneFrame(const Point<3> &origin, const Tensor<1, 3> &normal)
+    : origin(origin)
   {
-    Polygon result = polygon;
-    for (unsigned int e = 0; e < convex.size(); ++e)
-      {
-        const Point<2>     a         = convex[e];
-        const Tensor<1, 2> direction = convex[(e + 1) % convex.size()] - a;
-        const auto         subject   = std::move(result);
-        result.clear();
-        for (unsigned int i = 0; i < subject.size(); ++i)
-          {
-            const Point<2> p = subject[i],
-                           q = subject[(i + 1) % subject.size()];
-            const double f_p = cross(direction, p - a),
-                         f_q = cross(direction, q - a);
-            if (f_p >= 0.)
-              result.push_back(p);
-            if ((f_p >= 0.) != (f_q >= 0.))
-              result.push_back(p + (f_p / (f_p - f_q)) * (q - p));
-          }
-      }
-    return result;
+    unsigned int smallest = 0;
+    for (unsigned int d = 1; d < 3; ++d)
+      if (std::abs(normal[d]) < std::abs(normal[smallest]))
+        smallest = d;
+    first = Point<3>::unit_vector(smallest);
+    first -= (first * normal) * normal;
+    first /= first.norm();
+    second = cross_product_3d(normal, first);
   }
 } // namespace moraine

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 
 namespace moraine
 {
@@ -17,21 +17,6 @@ namespace moraine
 
   namespace
   {
-    using Edge = std::pair<Tensor<1, 2>, Tensor<1, 2>>;
-
-    // angle - sin(angle) without cancellation
-    double
-    angle_minus_sine(const double angle)
-    {
-      const double s = angle * angle;
-      if (s > 0.04)
-        return angle - std::sin(angle);
-      return angle * s / 6. *
-             (1. - s / 20. * (1. - s / 42. * (1. - s / 72. * (1. - s / 110.))));
-    }
-
-
-
     // the values of t in [0, 1] between which |a + t (b - a)|^2 < square
     template <int dim>
     std::pair<double, double>
@@ -53,55 +38,144 @@ namespace moraine
 
 
 
-    // Moments about 0 of the region enclosed by edges, given in any order,
-    // within a disc about centre: the polygon of the edges, with what is
-    // outside projected on the circle, plus a circular segment per such edge.
-    VolumeMoments<2>
-    disc_moments(const std::vector<Edge> &edges,
-                 const Tensor<1, 2>      &centre,
-                 const double             radius)
+    /**
+     * Quadrature of the part of a plane polygon in space whose projection on
+     * the first two coordinates lies in a disc; exact for quadratic functions.
+     * The weights are areas of the projection, negative where it runs
+     * clockwise. Where the rim is outside of the disc, a circular segment joins
+     * the end of a chord with the start of the next. Its points are taken
+     * across this chord, so nothing cancels on faces that are nearly upright.
+     */
+    class DiscRule
     {
-      VolumeMoments<2> sum;
-      const auto       add_triangle = [&](const Tensor<1, 2> &p,
-                                    const Tensor<1, 2> &q) {
-        const double area = cross(p, q) / 2.;
-        sum.volume += area;
-        sum.first += area / 3. * (p + q);
-      };
-      const auto add_outside = [&](const Tensor<1, 2> &p,
-                                   const Tensor<1, 2> &q) {
-        const Tensor<1, 2> u = p / p.norm(), v = q / q.norm();
-        add_triangle(centre + radius * u, centre + radius * v);
-        const double angle = std::atan2(cross(u, v), u * v);
-        const double area  = radius * radius / 2. * angle_minus_sine(angle);
-        const double half  = std::sin(angle / 2.);
-        const Tensor<1, 2> middle({std::cos(angle / 2.) * u[0] - half * u[1],
-                                   half * u[0] + std::cos(angle / 2.) * u[1]});
-        sum.volume += area;
-        sum.first +=
-          area * centre + 2. / 3. * std::pow(radius * half, 3) * middle;
-      };
-      for (const auto &[from, to] : edges)
+    public:
+      using Action = std::function<void(const Point<3> &, const double)>;
+
+      DiscRule(const Point<2> &centre, const double radius, const Action &add)
+        : centre(centre)
+        , radius(radius)
+        , add(add)
+      {}
+
+      /** Call @p add(x, weight) for each point of a face that is not upright.
+       */
+      void
+      apply(const ConvexPolytope<3>::PointList &face)
+      {
+        struct Chord
         {
-          const Tensor<1, 2> a = from - centre, b = to - centre;
-          const auto [begin, end]  = inside_circle(a, b, radius * radius);
-          const Tensor<1, 2> enter = a + begin * (b - a);
-          const Tensor<1, 2> leave = a + end * (b - a);
-          if (begin == end)
-            {
-              if (a != b)
-                add_outside(a, b);
-              continue;
-            }
-          if (begin > 0.)
-            add_outside(a, enter);
-          add_triangle(begin > 0. ? centre + enter : from,
-                       end < 1. ? centre + leave : to);
-          if (end < 1.)
-            add_outside(leave, b);
-        }
-      return sum;
-    }
+          Point<3> enter, leave;
+          double   angle_after;
+        };
+        std::vector<Chord> chords;
+        double             angle_before = 0.;
+        normal                          = 0.;
+        for (unsigned int i = 0; i < face.size(); ++i)
+          {
+            const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
+            const auto [begin, end] =
+              inside_circle(flat(a), flat(b), radius * radius);
+            const Point<3> enter = a + begin * (b - a),
+                           leave = a + end * (b - a);
+            normal += cross_product_3d(a - face[0], b - face[0]);
+            double &angle =
+              chords.empty() ? angle_before : chords.back().angle_after;
+            if (begin == end)
+              angle += angle_between(a, b);
+            else
+              {
+                if (begin > 0.)
+                  angle += angle_between(a, enter);
+                chords.push_back(
+                  {enter, leave, end < 1. ? angle_between(leave, b) : 0.});
+              }
+          }
+        if (std::abs(normal[2]) <= 1e-14 * normal.norm())
+          return;
+        if (chords.empty() && std::abs(angle_before) > numbers::PI)
+          {
+            // all of the disc
+            const Point<3> start(centre[0] + radius, centre[1], 0.);
+            const double   height = (face[0] - start) * normal / normal[2];
+            chords.push_back({start, start, 0.});
+            chords[0].enter[2] = chords[0].leave[2] = height;
+          }
+        if (chords.empty())
+          return;
+        chords.back().angle_after += angle_before;
+        for (unsigned int i = 0; i < chords.size(); ++i)
+          {
+            const auto &[enter, leave, angle] = chords[i];
+            const Point<3> &next = chords[(i + 1) % chords.size()].enter;
+            add_triangle(chords[0].enter, enter, leave);
+            add_triangle(chords[0].enter, leave, next);
+            if (angle != 0.)
+              add_segment(leave, next, angle / 2.);
+          }
+      }
+
+    private:
+      Tensor<1, 2>
+      flat(const Point<3> &x) const
+      {
+        return Point<2>(x[0], x[1]) - centre;
+      }
+
+      double
+      angle_between(const Point<3> &a, const Point<3> &b) const
+      {
+        return std::atan2(cross(flat(a), flat(b)), flat(a) * flat(b));
+      }
+
+      void
+      add_triangle(const Point<3> &a,
+                   const Point<3> &b,
+                   const Point<3> &c) const
+      {
+        const double area = cross(flat(b) - flat(a), flat(c) - flat(a)) / 2.;
+        if (area != 0.)
+          for (const auto &[p, q] : {std::make_pair(a, b), {b, c}, {c, a}})
+            add(p + .5 * (q - p), area / 3.);
+      }
+
+      /**
+       * Between the chord from a to b and its arc of twice the angle @p half;
+       * R (cos f - cos(half)) high where f is seen from the centre.
+       */
+      void
+      add_segment(const Point<3> &a, const Point<3> &b, const double half) const
+      {
+        static const QGauss<1> around(20), across(2);
+
+        const Tensor<1, 2> u = flat(a) / flat(a).norm();
+        const double       c = std::cos(half), s = std::sin(half);
+        Tensor<1, 3>       up({c * u[0] - s * u[1], s * u[0] + c * u[1], 0.});
+        Tensor<1, 3>       along({-up[1], up[0], 0.});
+        up[2] = -(normal * up) / normal[2];
+        // of a short chord its own direction is the more exact one
+        if (std::abs(half) < numbers::PI_2)
+          along = (b - a) / (2. * radius * s);
+        else
+          along[2] = -(normal * along) / normal[2];
+        const Point<3> middle = a + (b - a) / 2.;
+        for (unsigned int q = 0; q < around.size(); ++q)
+          {
+            const double f      = half * (2. * around.point(q)[0] - 1.);
+            const double height = 2. * radius * std::sin((half + f) / 2.) *
+                                  std::sin((half - f) / 2.);
+            for (unsigned int k = 0; k < across.size(); ++k)
+              add(middle + radius * std::sin(f) * along +
+                    across.point(k)[0] * height * up,
+                  2. * half * around.weight(q) * across.weight(k) * radius *
+                    std::cos(f) * height);
+          }
+      }
+
+      const Point<2> centre;
+      const double   radius;
+      const Action   add;
+      Tensor<1, 3>   normal; ///< of the face, of any length
+    };
 
 
 
@@ -208,160 +282,6 @@ namespace moraine
       double       distance = 0.;
       double       square   = 0.;
     };
-
-
-
-    // Area, first moments and area times height, integrated over the height of
-    // a polyhedron given in the frame of a cylinder (third axis = its axis).
-    class CylinderInPolyhedron
-    {
-    public:
-      using Values = Tensor<1, 4>;
-
-      CylinderInPolyhedron(
-        const std::vector<ConvexPolytope<3>::PointList> &faces,
-        const Tensor<1, 2>                              &centre,
-        const double                                     radius,
-        const Values                                    &tolerance)
-        : faces(faces)
-        , centre(centre)
-        , radius(radius)
-        , tolerance(tolerance)
-        , rule(8)
-      {}
-
-      Values
-      integrate() const
-      {
-        const std::vector<double> heights = kinks();
-        Values                    sum;
-        for (unsigned int i = 0; i + 1 < heights.size(); ++i)
-          if (heights[i] < heights[i + 1])
-            sum += adapt({heights[i], heights[i + 1]},
-                         0.,
-                         1.,
-                         gauss({heights[i], heights[i + 1]}, 0., 1.),
-                         max_halvings);
-        return sum;
-      }
-
-    private:
-      static constexpr unsigned int max_halvings = 20;
-
-      Values
-      slice(const double height) const
-      {
-        std::vector<Edge> edges;
-        for (const auto &face : faces)
-          {
-            boost::container::small_vector<Tensor<1, 2>, 2> up, down;
-            for (unsigned int i = 0; i < face.size(); ++i)
-              {
-                const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
-                if ((a[2] < height) == (b[2] < height))
-                  continue;
-                const double       t = (height - a[2]) / (b[2] - a[2]);
-                const Tensor<1, 2> x(
-                  {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
-                (b[2] > a[2] ? up : down).push_back(x);
-              }
-            // seen from outside, a loop goes up on the right-hand side
-            for (unsigned int i = 0; i < up.size(); ++i)
-              edges.emplace_back(down[i], up[i]);
-          }
-        const VolumeMoments<2> m = disc_moments(edges, centre, radius);
-        return Values({m.volume, m.first[0], m.first[1], m.volume * height});
-      }
-
-      // Heights between which the slice's moments are smooth: of vertices, of
-      // edges that meet the cylinder and of faces that touch it.
-      std::vector<double>
-      kinks() const
-      {
-        std::vector<double> heights;
-        double              lowest  = std::numeric_limits<double>::infinity();
-        double              highest = -lowest;
-        for (const auto &face : faces)
-          for (const auto &x : face)
-            {
-              lowest  = std::min(lowest, x[2]);
-              highest = std::max(highest, x[2]);
-            }
-        for (const auto &face : faces)
-          {
-            Tensor<1, 3> normal;
-            for (unsigned int i = 0; i < face.size(); ++i)
-              {
-                const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
-                const auto [begin, end] =
-                  inside_circle(Tensor<1, 2>({a[0], a[1]}) - centre,
-                                Tensor<1, 2>({b[0], b[1]}) - centre,
-                                radius * radius);
-                heights.push_back(a[2]);
-                heights.push_back(a[2] + begin * (b[2] - a[2]));
-                heights.push_back(a[2] + end * (b[2] - a[2]));
-                normal += cross_product_3d(a - face[0], b - face[0]);
-              }
-            const double across = std::hypot(normal[0], normal[1]);
-            const double to_axis =
-              normal * (face[0] - Point<3>(centre[0], centre[1], 0.));
-            for (const double side : {-1., 1.})
-              {
-                const double touch =
-                  (to_axis + side * radius * across) / normal[2];
-                if (touch > lowest && touch < highest)
-                  heights.push_back(touch);
-              }
-          }
-        std::sort(heights.begin(), heights.end());
-        return heights;
-      }
-
-      // Over the part (s, e) of an interval of heights, mapped from [0, 1]
-      // with zero slope at both ends: there, moments may grow like a root
-      // (x - end)^(3/2), which becomes a smooth function of s.
-      Values
-      gauss(const std::pair<double, double> &interval,
-            const double                     begin,
-            const double                     end) const
-      {
-        const double length = interval.second - interval.first;
-        Values       sum;
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const double s = begin + (end - begin) * rule.point(q)[0];
-            sum += (end - begin) * rule.weight(q) * length * 6. * s * (1. - s) *
-                   slice(interval.first + length * s * s * (3. - 2. * s));
-          }
-        return sum;
-      }
-
-      Values
-      adapt(const std::pair<double, double> &interval,
-            const double                     begin,
-            const double                     end,
-            const Values                    &whole,
-            const unsigned int               n_halvings) const
-      {
-        const double middle = (begin + end) / 2.;
-        const Values lower  = gauss(interval, begin, middle);
-        const Values upper  = gauss(interval, middle, end);
-        const Values change = lower + upper - whole;
-        bool         fine   = true;
-        for (unsigned int i = 0; i < 4; ++i)
-          fine &= std::abs(change[i]) <= tolerance[i];
-        if (fine || n_halvings == 0)
-          return lower + upper;
-        return adapt(interval, begin, middle, lower, n_halvings - 1) +
-               adapt(interval, middle, end, upper, n_halvings - 1);
-      }
-
-      const std::vector<ConvexPolytope<3>::PointList> &faces;
-      const Tensor<1, 2>                               centre;
-      const double                                     radius;
-      const Values                                     tolerance;
-      const QGauss<1>                                  rule;
-    };
   } // namespace
 
 
@@ -375,12 +295,18 @@ namespace moraine
   {
     if constexpr (dim == 2)
       {
-        std::vector<Edge> edges;
-        const auto       &x = cell.vertices();
-        for (unsigned int i = 0; i < x.size(); ++i)
-          edges.emplace_back(x[i] - reference,
-                             x[(i + 1) % x.size()] - reference);
-        return disc_moments(edges, centre - reference, radius);
+        VolumeMoments<2>             sum;
+        ConvexPolytope<3>::PointList face;
+        for (const auto &x : cell.vertices())
+          face.emplace_back(x[0] - reference[0], x[1] - reference[1], 0.);
+        DiscRule(Point<2>(centre - reference),
+                 radius,
+                 [&](const Point<3> &x, const double weight) {
+                   sum.volume += weight;
+                   sum.first += weight * Point<2>(x[0], x[1]);
+                 })
+          .apply(face);
+        return sum;
       }
     else
       {
@@ -398,39 +324,26 @@ namespace moraine
                       const double             radius,
                       const Point<3>          &reference)
   {
-    unsigned int across = 0;
-    for (unsigned int d = 1; d < 3; ++d)
-      if (std::abs(axis[d]) < std::abs(axis[across]))
-        across = d;
-    std::array<Tensor<1, 3>, 3> frame;
-    frame[2] = axis;
-    frame[0] = cross_product_3d(Point<3>::unit_vector(across), axis);
-    frame[0] /= frame[0].norm();
-    frame[1] = cross_product_3d(axis, frame[0]);
-
-    std::vector<ConvexPolytope<3>::PointList> faces;
+    const PlaneFrame frame(reference, axis);
+    VolumeMoments<3> sum;
+    DiscRule         rule(frame.to_plane(start),
+                  radius,
+                  [&](const Point<3> &x, const double weight) {
+                    sum.volume += weight * x[2];
+                    sum.first += weight * x[2] *
+                                 (x[0] * frame.first + x[1] * frame.second +
+                                  x[2] / 2. * axis);
+                  });
+    // by the divergence theorem, as nothing flows along the axis through the
+    // cylinder itself
     cell.for_each_face([&](ConvexPolytope<3>::PointList loop) {
       for (auto &x : loop)
         {
-          const Tensor<1, 3> arm = x - reference;
-          x = Point<3>(arm * frame[0], arm * frame[1], arm * frame[2]);
+          const Point<2> p = frame.to_plane(x);
+          x                = {p[0], p[1], (x - reference) * axis};
         }
-      faces.push_back(loop);
+      rule.apply(loop);
     });
-    const Tensor<1, 3> arm    = start - reference;
-    const double       volume = cell.volume();
-    const double       size   = cell.radius(cell.vertex_mean());
-    const auto         m =
-      CylinderInPolyhedron(faces,
-                           Tensor<1, 2>({arm * frame[0], arm * frame[1]}),
-                           radius,
-                           1e-10 * volume *
-                             Tensor<1, 4>({1., size, size, size}))
-        .integrate();
-    VolumeMoments<3> sum;
-    sum.volume = m[0];
-    for (unsigned int d = 0; d < 3; ++d)
-      sum.first += m[d + 1] * frame[d];
     return sum;
   }
 

@@ -84,14 +84,11 @@ namespace moraine
           }
         if (kind == "expression")
           {
-            const auto limits = p.use == ShapeUse::surface ?
-                                  expression_box() :
-                                  unlimited_box<dim>();
+            const auto box = extent().box;
             return make_expression<dim>(p.text("Expression"),
                                         place(section, "Expression"),
-                                        is_finite(limits) ?
-                                          limits.side_length(0) :
-                                          0.);
+                                        is_finite(box) ? box.side_length(0) :
+                                                         0.);
           }
         if (kind == "mesh")
           return make_space<dim>();
@@ -117,8 +114,7 @@ namespace moraine
                             p.number("End angle", section));
         return shape()->rim(kind == "cylinder" ? "side" : "",
                             !flip && !outside,
-                            kind == "expression" ? extent_of_expression() :
-                                                   Extent<dim>());
+                            extent());
       }
 
     private:
@@ -285,37 +281,33 @@ namespace moraine
         return surface;
       }
 
-      BoundingBox<dim>
-      expression_box() const
+      /** The one the user gives to the surface of an expression. */
+      Extent<dim>
+      extent() const
       {
-        auto corners = unlimited_box<dim>().get_boundary_points();
-        if (p.given("Extent lower corner"))
-          corners.first = point("Extent lower corner");
-        if (p.given("Extent upper corner"))
-          corners.second = point("Extent upper corner");
+        Extent<dim> extent;
+        if (kind != "expression" || p.use == ShapeUse::body)
+          return extent;
+        auto corners = extent.box.get_boundary_points();
+        for (const bool upper : {false, true})
+          {
+            const std::string key =
+              upper ? "Extent upper corner" : "Extent lower corner";
+            if (!p.given(key))
+              continue;
+            (upper ? corners.second : corners.first) = point(key);
+            for (unsigned int d = 0; d < dim; ++d)
+              extent.limits.push_back(
+                {make_half_space<dim>(
+                   point(key), (upper ? 1. : -1.) * Point<dim>::unit_vector(d)),
+                 true,
+                 Extent<dim>::Along::inner});
+          }
         for (unsigned int d = 0; d < dim; ++d)
           if (!(corners.first[d] < corners.second[d]))
             wrong("Extent upper corner",
                   "above the lower corner in every direction");
-        return BoundingBox<dim>(corners);
-      }
-
-      Extent<dim>
-      extent_of_expression() const
-      {
-        Extent<dim> extent;
-        extent.box         = expression_box();
-        const auto corners = extent.box.get_boundary_points();
-        for (unsigned int d = 0; d < dim; ++d)
-          for (const double side : {-1., 1.})
-            if (p.given(side < 0. ? "Extent lower corner" :
-                                    "Extent upper corner"))
-              extent.limits.push_back(
-                {make_half_space<dim>(side < 0. ? corners.first :
-                                                  corners.second,
-                                      side * Point<dim>::unit_vector(d)),
-                 true,
-                 Extent<dim>::Along::inner});
+        extent.box = BoundingBox<dim>(corners);
         return extent;
       }
 

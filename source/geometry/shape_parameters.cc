@@ -11,8 +11,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
+#include <sstream>
 
 namespace moraine
 {
@@ -103,31 +103,6 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       std::vector<std::string> needs, may_have;
     };
 
-
-
-    template <int dim>
-    const std::vector<Kind> &
-    all_kinds(const ShapeUse use)
-    {
-      const auto read = [](const ShapeUse use) {
-        std::vector<Kind> kinds;
-        for (auto &line : lines_of(kind_table, use, dim))
-          {
-            line.resize(5);
-            kinds.push_back({line[1],
-                             line[2],
-                             Utilities::split_string_list(line[3], ','),
-                             Utilities::split_string_list(line[4], ',')});
-          }
-        return kinds;
-      };
-      static const auto bodies   = read(ShapeUse::body),
-                        surfaces = read(ShapeUse::surface);
-      return use == ShapeUse::body ? bodies : surfaces;
-    }
-
-
-
     struct Key
     {
       std::string name, holds, text;
@@ -138,12 +113,11 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
 
 
 
-    template <int dim>
-    const std::vector<Key> &
-    all_keys(const ShapeUse use)
+    /** What there is for a use in a dimension. */
+    struct Tables
     {
-      const auto read = [](const ShapeUse use) {
-        std::vector<Key> keys;
+      Tables(const ShapeUse use, const int dim)
+      {
         for (const auto &line : lines_of(key_table, use, dim))
           {
             const bool zero = use == ShapeUse::body &&
@@ -153,10 +127,38 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                             line[3],
                             line[2] == "flag" ? "false" : (zero ? "0" : "")});
           }
-        return keys;
-      };
-      static const auto bodies   = read(ShapeUse::body),
-                        surfaces = read(ShapeUse::surface);
+        for (auto &line : lines_of(kind_table, use, dim))
+          {
+            line.resize(5);
+            kinds.push_back(
+              {line[1], line[2], known_in(line[3]), known_in(line[4])});
+          }
+      }
+
+      std::vector<Kind> kinds;
+      std::vector<Key>  keys;
+
+    private:
+      std::vector<std::string>
+      known_in(const std::string &list) const
+      {
+        std::vector<std::string> result;
+        for (const auto &name : Utilities::split_string_list(list, ','))
+          for (const Key &key : keys)
+            if (key.name == name)
+              result.push_back(name);
+        return result;
+      }
+    };
+
+
+
+    template <int dim>
+    const Tables &
+    tables(const ShapeUse use)
+    {
+      static const Tables bodies(ShapeUse::body, dim),
+        surfaces(ShapeUse::surface, dim);
       return use == ShapeUse::body ? bodies : surfaces;
     }
 
@@ -210,45 +212,21 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
 
 
     /** Finite numbers separated by commas or blanks. */
-    std::vector<double>
-    numbers_in(std::string        text,
-               const unsigned int n,
-               const std::string &section,
-               const std::string &key,
-               const std::string &allowed)
-    {
-      const std::string   found = text;
-      std::vector<double> result;
-      std::replace(text.begin(), text.end(), ',', ' ');
-      for (const auto &word : Utilities::break_text_into_lines(text, 1))
-        try
-          {
-            result.push_back(Utilities::string_to_double(word));
-          }
-        catch (const ExceptionBase &)
-          {
-            reject(section, key, found, allowed);
-          }
-      if (result.size() != n ||
-          !std::all_of(result.begin(), result.end(), [](const double x) {
-            return std::isfinite(x);
-          }))
-        reject(section, key, found, allowed);
-      return result;
-    }
-
-
-
     template <int n>
     Point<n>
-    point_in(const std::string &text,
+    point_in(std::string        text,
              const std::string &section,
              const std::string &key,
              const std::string &allowed)
     {
-      const auto numbers = numbers_in(text, n, section, key, allowed);
-      Point<n>   x;
-      std::copy(numbers.begin(), numbers.end(), x.begin_raw());
+      const std::string found = text;
+      std::replace(text.begin(), text.end(), ',', ' ');
+      std::istringstream stream(text);
+      Point<n>           x;
+      for (unsigned int d = 0; d < n; ++d)
+        stream >> x[d];
+      if (stream.fail() || !(stream >> std::ws).eof())
+        reject(section, key, found, allowed);
       return x;
     }
   } // namespace
@@ -260,7 +238,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
     : use(use)
   {
     texts[kind_key(use)] = default_kind(use, dim);
-    for (const Key &key : all_keys<dim>(use))
+    for (const Key &key : tables<dim>(use).keys)
       texts[key.name] = key.usual;
   }
 
@@ -272,7 +250,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   {
     std::string text =
       use == ShapeUse::body ? "The region the body fills:" : "Kind of surface:";
-    for (const Kind &kind : all_kinds<dim>(use))
+    for (const Kind &kind : tables<dim>(use).kinds)
       if (kind.name != rim)
         text += " " + kind.name + " = " + kind.description + ";";
     text.back() = '.';
@@ -280,7 +258,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
                       texts[kind_key(use)],
                       text,
                       patterns::selection(kinds()));
-    for (const Key &key : all_keys<dim>(use))
+    for (const Key &key : tables<dim>(use).keys)
       prm.add_parameter(key.name,
                         texts[key.name],
                         key.text,
@@ -294,7 +272,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   ShapeParameters<dim>::kinds() const
   {
     std::vector<std::string> names;
-    for (const Kind &kind : all_kinds<dim>(use))
+    for (const Kind &kind : tables<dim>(use).kinds)
       if (kind.name != rim)
         names.push_back(kind.name);
     return names;
@@ -315,7 +293,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   bool
   ShapeParameters<dim>::given(const std::string &name) const
   {
-    for (const Key &key : all_keys<dim>(use))
+    for (const Key &key : tables<dim>(use).keys)
       if (key.name == name)
         return text(name) != key.usual &&
                (key.usual != "0" ||
@@ -330,7 +308,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   ShapeParameters<dim>::check_keys(const std::string &section) const
   {
     const std::string name = kind(), of = kind_key(use);
-    const auto       &known = all_kinds<dim>(use);
+    const auto       &known = tables<dim>(use).kinds;
     const auto        found =
       std::find_if(known.begin(), known.end(), [&](const Kind &k) {
         return k.name == name;
@@ -339,17 +317,10 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       throw InputError(place(section, of) + ": found '" + name +
                        "', not known in " + std::to_string(dim) + "D" +
                        suggest(name, kinds()));
-    const auto here = [&](std::vector<std::string> keys) {
-      const auto absent = [&](const auto &key) {
-        return texts.count(key) == 0;
-      };
-      keys.erase(std::remove_if(keys.begin(), keys.end(), absent), keys.end());
-      return keys;
-    };
-    const auto needs = here(found->needs), may_have = here(found->may_have);
+    const auto       &needs = found->needs, &may_have = found->may_have;
     const std::string what =
       (use == ShapeUse::body ? "shape '" : "surface '") + name + "'";
-    for (const Key &key : all_keys<dim>(use))
+    for (const Key &key : tables<dim>(use).keys)
       {
         const bool is_given = given(key.name), is_needed = has(needs, key.name);
         if (!is_given && is_needed)
@@ -375,7 +346,7 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
   ShapeParameters<dim>::number(const std::string &key,
                                const std::string &section) const
   {
-    return numbers_in(text(key), 1, section, key, "one number")[0];
+    return point_in<1>(text(key), section, key, "one number")[0];
   }
 
 

@@ -28,15 +28,6 @@ namespace moraine
 
 
 
-    template <int dim>
-    struct HalfSpace
-    {
-      Point<dim>     point;
-      Tensor<1, dim> outward; ///< of unit length
-    };
-
-
-
     /** The intersection of half spaces; one of them if it has no limits. */
     template <int dim>
     class ConvexShape : public Shape<dim>
@@ -92,12 +83,19 @@ namespace moraine
         typename Shape<dim>::Faces faces;
         for (unsigned int i = 0; i < sides.size(); ++i)
           if (part.empty() || this->parts()[i] == part)
-            faces.push_back(
-              is_finite(this->bounding_box()) ?
-                make_flat_face(corners_of(i), !body_inside, extent) :
+            {
+              Extent<dim> limited = extent;
+              limited.box         = intersection(extent.box, box_of(sides[i]));
+              std::vector<HalfSpace<dim>> ends;
+              for (const auto &side : sides)
+                if (std::abs(side.outward * sides[i].outward) < .5)
+                  ends.push_back(side);
+              faces.push_back(
                 make_plane<dim>(sides[i].point,
                                 (body_inside ? 1. : -1.) * sides[i].outward,
-                                extent));
+                                limited,
+                                ends));
+            }
         return faces;
       }
 
@@ -116,24 +114,16 @@ namespace moraine
       }
 
     private:
-      /** The corners of a side as make_flat_face() wants them; bounded shapes.
-       */
-      std::vector<Point<dim>>
-      corners_of(const unsigned int side) const
+      /** One that holds a side. */
+      BoundingBox<dim>
+      box_of(const HalfSpace<dim> &side) const
       {
-        // a larger box, so that its own sides are not the shape's
-        const auto corners = this->bounding_box().get_boundary_points();
-        const auto widen   = corners.second - corners.first;
-        ConvexPolytope<dim> part(corners.first - widen, corners.second + widen);
-        for (unsigned int i = 0; i < sides.size(); ++i)
-          if (i != side)
-            part.clip(sides[i].point, -sides[i].outward);
-        typename ConvexPolytope<dim>::PointList cut;
-        part.clip(sides[side].point, -sides[side].outward, &cut);
-        if constexpr (dim == 2)
-          if (cross(cut[1] - cut[0], sides[side].outward) > 0.)
-            std::swap(cut[0], cut[1]);
-        return {cut.begin(), cut.end()};
+        const auto             &box = this->bounding_box();
+        std::vector<Point<dim>> corners;
+        for (unsigned int v = 0; v < (1 << dim); ++v)
+          if (side.outward * (box.vertex(v) - side.point) == 0.)
+            corners.push_back(box.vertex(v));
+        return corners.empty() ? box : BoundingBox<dim>(corners);
       }
 
       std::vector<HalfSpace<dim>> sides;
@@ -184,32 +174,17 @@ namespace moraine
                      parts_of<dim>(vertices))
         , vertices(vertices)
         , heights(heights)
-        , reversed(polygon_area(vertices) < 0.)
+        , clockwise(polygon_area(vertices) < 0.)
+        , line(vertices)
       {
-        if (reversed)
-          std::reverse(this->vertices.begin(), this->vertices.end());
+        line.push_back(line[0]);
+        outline = make_flat_face<2>(line, clockwise);
       }
 
       double
       level(const Point<dim> &p) const override
       {
-        const Point<2> x(p[0], p[1]);
-        double         square = std::numeric_limits<double>::infinity();
-        bool           inside = false;
-        for (unsigned int i = 0; i < vertices.size(); ++i)
-          {
-            const Point<2>    &a    = vertices[i];
-            const Point<2>    &b    = vertices[(i + 1) % vertices.size()];
-            const Tensor<1, 2> edge = b - a;
-            const double       t =
-              std::min(1., std::max(0., (x - a) * edge / edge.norm_square()));
-            square = std::min(square, (a + t * edge - x).norm_square());
-            // a ray to the right crosses this edge
-            if ((a[1] > x[1]) != (b[1] > x[1]) &&
-                (cross(edge, x - a) > 0.) == (b[1] > a[1]))
-              inside = !inside;
-          }
-        const double value = inside ? std::sqrt(square) : -std::sqrt(square);
+        const double value = outline->level(Point<2>(p[0], p[1]));
         if constexpr (dim == 3)
           return std::min({value, p[2] - heights.first, heights.second - p[2]});
         else
@@ -223,43 +198,38 @@ namespace moraine
       {
         typename Shape<dim>::Faces faces;
         const auto add = [&](const std::vector<Point<dim>> &corners) {
-          faces.push_back(make_flat_face(corners, !body_inside, extent));
+          faces.push_back(
+            make_flat_face(corners, body_inside == clockwise, extent));
         };
-        const unsigned int n = vertices.size();
+        const auto [low, high] = heights;
         if constexpr (dim == 2)
           if (part.empty())
             {
-              auto line = vertices;
-              line.push_back(vertices[0]);
               add(line);
               return faces;
             }
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < vertices.size(); ++i)
           if (part.empty() || part == std::to_string(i + 1))
             {
-              // the edge from vertex i in the order given
-              const unsigned int a = reversed ? (2 * n - 2 - i) % n : i;
-              const Point<2>    &x = vertices[a], &y = vertices[(a + 1) % n];
+              const Point<2> &x = line[i], &y = line[i + 1];
               if constexpr (dim == 2)
                 add({x, y});
               else
-                add({{x[0], x[1], heights.first},
-                     {y[0], y[1], heights.first},
-                     {y[0], y[1], heights.second},
-                     {x[0], x[1], heights.second}});
+                add({{x[0], x[1], low},
+                     {y[0], y[1], low},
+                     {y[0], y[1], high},
+                     {x[0], x[1], high}});
             }
         if constexpr (dim == 3)
           for (const bool top : {false, true})
             if (part.empty() || part == (top ? "top" : "bottom"))
               {
-                std::vector<Point<3>> outline;
+                std::vector<Point<3>> corners;
                 for (const auto &x : vertices)
-                  outline.emplace_back(x[0],
-                                       x[1],
-                                       top ? heights.second : heights.first);
+                  corners.emplace_back(x[0], x[1], top ? high : low);
                 if (!top)
-                  std::reverse(outline.begin(), outline.end());
-                add(outline);
+                  std::reverse(corners.begin(), corners.end());
+                add(corners);
               }
         return faces;
       }
@@ -300,14 +270,16 @@ namespace moraine
                           lift<dim>(Point<2>(-edge[1], edge[0])));
               }
             if (area != 0. && !part.empty())
-              pieces.push_back({sign * turn, part});
+              pieces.push_back({clockwise ? -sign * turn : sign * turn, part});
           }
       }
 
     private:
-      std::vector<Point<2>>     vertices; ///< counter-clockwise
+      std::vector<Point<2>>     vertices;
       std::pair<double, double> heights;
-      bool                      reversed;
+      bool                      clockwise;
+      std::vector<Point<2>>     line; ///< the vertices, closed
+      SurfacePointer<2>         outline;
     };
   } // namespace
 

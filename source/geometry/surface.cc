@@ -3,7 +3,6 @@
 
 #include <moraine/geometry/surface.h>
 
-#include <moraine/geometry/cell_cut.h>
 #include <moraine/geometry/shapes.h>
 
 #include <algorithm>
@@ -13,6 +12,21 @@
 namespace moraine
 {
   using namespace dealii;
+
+  template <int dim>
+  bool
+  Surface<dim>::may_touch(const CellVertices<dim> &cell) const
+  {
+    const BoundingBox<dim> around(cell);
+    const double           slack = 1e-6 * cell_size<dim>(cell);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (around.lower_bound(d) > box.upper_bound(d) + slack ||
+          around.upper_bound(d) < box.lower_bound(d) - slack)
+        return false;
+    return true;
+  }
+
+
 
   template <int dim>
   double
@@ -223,6 +237,7 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)            \
+  template class Surface<dim>;      \
   template struct Extent<dim>;      \
   template class MovedSurface<dim>; \
   template SurfacePointer<dim> join(const std::vector<SurfacePointer<dim>> &);

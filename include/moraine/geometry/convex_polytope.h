@@ -55,22 +55,34 @@ namespace moraine
   public:
     using PointList = boost::container::small_vector<dealii::Point<dim>, 8>;
 
-    /** A cell by its vertices in deal.II's (lexicographic) order. */
-    explicit ConvexPolytope(const CellVertices<dim> &vertices);
+    /**
+     * A cell by its vertices in deal.II's (lexicographic) order. Lengths below
+     * @p round_off count as zero, if that is more than the usual. Bent faces
+     * stay whole without @p split: then a plane's trace on one joins where it
+     * crosses the edges, and volumes are not exact.
+     */
+    explicit ConvexPolytope(const CellVertices<dim> &vertices,
+                            const double             round_off = 0.,
+                            const bool               split     = true);
 
     /** The box with these two opposite corners, lower <= upper. */
     ConvexPolytope(const dealii::Point<dim> &lower,
                    const dealii::Point<dim> &upper);
 
+    /** A convex polygon (2D), counter-clockwise. */
+    static ConvexPolytope
+    polygon(const PointList &vertices, const double round_off);
+
     /**
      * Keep the part with inward_normal . (x - point) >= 0. The normal need not
-     * have unit length. If the plane cuts the interior, the vertices of the
-     * new face (2D: its two ends) are written to @p cut.
+     * have unit length. The faces of what is kept that lie in the plane are
+     * written to @p cut: loops as in for_each_face(), usually one (2D: the two
+     * ends).
      */
     void
     clip(const dealii::Point<dim>     &point,
          const dealii::Tensor<1, dim> &inward_normal,
-         PointList                    *cut = nullptr);
+         std::vector<PointList>       *cut = nullptr);
 
     bool
     empty() const
@@ -143,10 +155,11 @@ namespace moraine
 
   private:
     void
-    make_faces(const CellVertices<dim> &cell);
+    make_faces(const CellVertices<dim> &cell, const bool split);
 
     void
-    add_face(const std::array<unsigned int, 4> &quadrilateral);
+    add_face(const std::array<unsigned int, 4> &quadrilateral,
+             const bool                         split);
 
     void
     set_tolerance();
@@ -155,17 +168,15 @@ namespace moraine
     using Indices   = boost::container::small_vector<unsigned short, 64>;
 
     void
-    clip_polygon(const Distances &distance, PointList *cut);
+    clip_faces(const Distances &distance, std::vector<PointList> *cut);
 
     void
-    clip_polyhedron(const Distances &distance, PointList *cut);
-
-    void
-    close_cut(std::vector<std::array<unsigned short, 2>> &rim, PointList *cut);
+    close_cut(std::vector<std::array<unsigned short, 2>> &rim,
+              std::vector<PointList>                     *cut);
 
     boost::container::small_vector<dealii::Point<dim>, 16> corner;
 
-    // 3D only: the loops one after the other, and where each ends
+    // the loops of the faces (2D: one) one after the other, where each ends
     Indices                                            loops;
     boost::container::small_vector<unsigned short, 16> loop_ends;
 
@@ -177,24 +188,15 @@ namespace moraine
   void
   ConvexPolytope<dim>::for_each_face(const Action &action) const
   {
-    PointList loop;
-    if constexpr (dim == 2)
+    PointList    loop;
+    unsigned int begin = 0;
+    for (const unsigned int end : loop_ends)
       {
-        loop.assign(corner.begin(), corner.end());
-        if (!loop.empty())
-          action(loop);
-      }
-    else
-      {
-        unsigned int begin = 0;
-        for (const unsigned int end : loop_ends)
-          {
-            loop.clear();
-            for (unsigned int i = begin; i < end; ++i)
-              loop.push_back(corner[loops[i]]);
-            action(loop);
-            begin = end;
-          }
+        loop.clear();
+        for (unsigned int i = begin; i < end; ++i)
+          loop.push_back(corner[loops[i]]);
+        action(loop);
+        begin = end;
       }
   }
 

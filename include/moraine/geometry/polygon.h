@@ -42,9 +42,27 @@ namespace moraine
   std::vector<Polygon>
   triangulate(Polygon polygon);
 
-  /** The part of a polygon inside a convex counter-clockwise polygon. */
-  Polygon
-  clip_polygon(const Polygon &polygon, const Polygon &convex);
+  /** A plane's own coordinates; first x second = normal, of unit length. */
+  struct PlaneFrame
+  {
+    PlaneFrame(const dealii::Point<3>     &origin,
+               const dealii::Tensor<1, 3> &normal);
+
+    dealii::Point<2>
+    to_plane(const dealii::Point<3> &x) const
+    {
+      return {(x - origin) * first, (x - origin) * second};
+    }
+
+    dealii::Point<3>
+    to_space(const dealii::Point<2> &p) const
+    {
+      return origin + p[0] * first + p[1] * second;
+    }
+
+    dealii::Point<3>     origin;
+    dealii::Tensor<1, 3> first, second;
+  };
 } // namespace moraine
 
 #endif

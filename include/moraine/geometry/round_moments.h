@@ -21,8 +21,7 @@ namespace moraine
 
   /**
    * The same of the part in an endless cylinder about the line through
-   * @p start along the unit vector @p axis: the integral along the axis of
-   * exact slices, to 1e-10 of the cell's volume.
+   * @p start along the unit vector @p axis; exact.
    */
   VolumeMoments<3>
   moments_in_cylinder(const ConvexPolytope<3>    &cell,

@@ -198,9 +198,6 @@ namespace moraine
     virtual dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x, const double length) const = 0;
 
-    virtual dealii::SymmetricTensor<2, dim>
-    hessian(const dealii::Point<dim> &x, const double length) const = 0;
-
     /** Distance from φ = 0, an estimate for expressions, and outward normal. */
     virtual NearestPoint<dim>
     nearest(const dealii::Point<dim> &x) const = 0;

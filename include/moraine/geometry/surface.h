@@ -7,6 +7,9 @@
 #include <moraine/geometry/placement.h>
 #include <moraine/mesh/cell_map.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,6 +37,28 @@ namespace moraine
   {
     const double length = v.norm();
     return length > 0. ? v / length : dealii::Point<dim>::unit_vector(0);
+  }
+
+  /** The largest distance of a vertex from the first one. */
+  template <int dim>
+  double
+  cell_size(const CellVertices<dim> &cell)
+  {
+    double size = 0.;
+    for (const auto &vertex : cell)
+      size = std::max(size, vertex.distance(cell[0]));
+    return size;
+  }
+
+  /** Largest absolute coordinate. */
+  template <int dim>
+  double
+  coordinate_magnitude(const dealii::Point<dim> &x)
+  {
+    double magnitude = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      magnitude = std::max(magnitude, std::abs(x[d]));
+    return magnitude;
   }
 
   /** What is known of the point of a surface nearest to a place. */
@@ -116,6 +141,10 @@ namespace moraine
       : box(box)
       , is_curved(is_curved)
     {}
+
+    /** Whether a cell comes near the box at all; quick and on the safe side. */
+    bool
+    may_touch(const CellVertices<dim> &cell) const;
 
     dealii::BoundingBox<dim> box;
 

@@ -10,16 +10,25 @@
 
 namespace moraine
 {
+  /** All behind a plane. */
+  template <int dim>
+  struct HalfSpace
+  {
+    dealii::Point<dim>     point;
+    dealii::Tensor<1, dim> outward; ///< of unit length
+  };
+
   /**
-   * The plane (2D: the straight line) without ends through @p point with
-   * @p normal, of any length, pointing out of the body. Throws InputError if it
-   * is zero.
+   * The plane (2D: the straight line) through @p point with @p normal, of any
+   * length, pointing out of the body, as far as it is in all of @p ends, whose
+   * planes are across it. Throws InputError if the normal is zero.
    */
   template <int dim>
   SurfacePointer<dim>
-  make_plane(const dealii::Point<dim>     &point,
-             const dealii::Tensor<1, dim> &normal,
-             const Extent<dim>            &extent = {});
+  make_plane(const dealii::Point<dim>          &point,
+             const dealii::Tensor<1, dim>      &normal,
+             const Extent<dim>                 &extent = {},
+             const std::vector<HalfSpace<dim>> &ends   = {});
 
   /**
    * The flat face with these corners; @p flip puts the body on the other side.

@@ -30,7 +30,7 @@ namespace moraine
     {
       dealii::Point<dim> x;
       for (unsigned int v = 0; v < cell.size(); ++v)
-        x += factor(v, xi, dim, dim) * cell[v];
+        x += factor(v, xi, dim) * cell[v];
       return x;
     }
 
@@ -42,40 +42,25 @@ namespace moraine
       for (unsigned int v = 0; v < cell.size(); ++v)
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double f = factor(v, xi, d, dim);
+            const double f = factor(v, xi, d);
             for (unsigned int k = 0; k < dim; ++k)
               J[k][d] += f * cell[v][k];
           }
       return J;
     }
 
-    /** ∂²x/∂ξ_d∂ξ_e, zero for d = e */
-    dealii::Tensor<1, dim>
-    second(const dealii::Point<dim> &xi,
-           const unsigned int        d,
-           const unsigned int        e) const
-    {
-      dealii::Tensor<1, dim> result;
-      if (d != e)
-        for (unsigned int v = 0; v < cell.size(); ++v)
-          result += factor(v, xi, d, e) * cell[v];
-      return result;
-    }
-
   private:
-    /** Shape function of vertex v, differentiated in ξ_d and ξ_e (dim: not).
-     */
+    /** Shape function of vertex v, differentiated in ξ_d (dim: not). */
     double
     factor(const unsigned int        v,
            const dealii::Point<dim> &xi,
-           const unsigned int        d,
-           const unsigned int        e) const
+           const unsigned int        d) const
     {
       double f = 1.;
       for (unsigned int i = 0; i < dim; ++i)
         {
           const bool upper = (v >> i) & 1u;
-          if (i == d || i == e)
+          if (i == d)
             f *= upper ? 1. : -1.;
           else
             f *= upper ? xi[i] : 1. - xi[i];
