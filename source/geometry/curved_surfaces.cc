@@ -151,9 +151,9 @@ namespace moraine
            BoundingBox<dim>                  &box,
            bool                              &exact) const
       {
-        const CellVertices<dim>   vertices = image(box);
-        const ConvexPolytope<dim> polytope(vertices);
-        const Overlap             overlap = limit.shape->overlap(polytope);
+        const CellVertices<dim> vertices = image(box);
+        const Overlap           overlap =
+          limit.shape->overlap(ConvexPolytope<dim>(vertices));
         if (overlap != Overlap::part)
           return (overlap == Overlap::all) == limit.inside;
         const auto margin = [&](const Point<dim> &x) {
@@ -163,18 +163,18 @@ namespace moraine
         for (unsigned int v = 0; v < vertices.size(); ++v)
           margins[v] = margin(vertices[v]);
         // a limit along the axes changes the margin in one direction only
-        unsigned int along = dim, n_along = 0;
+        unsigned int along    = dim;
+        bool         straight = limit.shape->is_straight();
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int v = 0; v < vertices.size(); ++v)
             if (std::abs(margins[v] - margins[v ^ (1u << d)]) > tolerance)
               {
-                along = d;
-                ++n_along;
-                break;
+                straight = straight && (along == dim || along == d);
+                along    = d;
               }
         const double low  = margins[0],
-                     high = n_along == 1 ? margins[1u << along] : low;
-        if (!limit.shape->is_straight() || low * high >= 0. ||
+                     high = along == dim ? low : margins[1u << along];
+        if (!straight || low * high >= 0. ||
             std::abs(2. * margin(map.place(box.center())) - low - high) >
               2. * tolerance)
           {

@@ -263,11 +263,7 @@ namespace moraine
           {
             magnitude = std::max(magnitude, coordinate_magnitude(facet.point));
             for (const auto &end : facet.ends)
-              {
-                magnitude =
-                  std::max(magnitude, coordinate_magnitude(end.point));
-                diameter = std::max(diameter, end.point.distance(facet.point));
-              }
+              magnitude = std::max(magnitude, coordinate_magnitude(end.point));
           }
       }
 
@@ -302,7 +298,7 @@ namespace moraine
         NearestPoint<dim> point{-((x - facet->point) * facet->normal),
                                 facet->normal,
                                 true};
-        if (beyond > 1e-10 * diameter)
+        if (beyond > 1e-10 * magnitude)
           {
             point.in_extent = end->corner_normal.norm_square() > 0.;
             // at a corner the mean normal tells inside from outside
@@ -364,7 +360,6 @@ namespace moraine
       std::vector<Facet<dim>> facets;
       Extent<dim>             extent;
       double                  magnitude = 0.; ///< of the coordinates
-      double                  diameter  = 0.;
     };
   } // namespace
 

@@ -54,8 +54,8 @@ namespace moraine
    *
    * A shape knows its part of any convex polytope (a cell or sub-cell of the
    * mesh): exactly, but for round-off, for straight-sided shapes, discs,
-   * spheres and their combinations in which at most one operand is curved in
-   * a cell; to about 1e-9 of the polytope for cylinders; otherwise by
+   * spheres, cylinders and their combinations in which at most one operand is
+   * curved in a cell; otherwise by
    * subdivision (see add_curved_pieces()).
    */
   template <int dim>

@@ -55,12 +55,11 @@ namespace moraine
   /**
    * Disc (2D) or sphere (3D), or what is within @p radius of the endless line
    * through @p centre along @p axis if that is not zero. Its part of a polytope
-   * is exact for discs and spheres (per edge, triangles and circular segments
-   * in 2D; per face and edge, the part within the sphere of the cone from its
-   * centre in 3D). For cylinders it is the integral along the axis of exact
-   * slices, to 1e-10 of the polytope's volume; exact if the axis is parallel to
-   * the edges that the cylinder cuts. Throws InputError for a radius that is
-   * not positive.
+   * is exact: in 2D and for cylinders by triangles and circular segments of the
+   * polygons, or of the faces seen along the axis (the height over them is
+   * integrated, by the divergence theorem); for spheres, per face and edge, the
+   * part within the sphere of the cone from its centre. Throws InputError for a
+   * radius that is not positive.
    */
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
@@ -81,9 +80,9 @@ namespace moraine
 
   /**
    * Where an expression in x, y and z is positive. What is smaller than a
-   * sub-cell between its vertices is not seen. Gradient and Hessian are central
-   * differences (errors about 1e-9 and 1e-7 relative to φ's variation over a
-   * cell). @p place: where the text stands, for messages. @p length: scale of
+   * sub-cell between its vertices is not seen. The gradient is by central
+   * differences (errors about 1e-9 relative to φ's variation over a cell).
+   * @p place: where the text stands, for messages. @p length: scale of
    * differences where no cell is at hand; 0: the coordinates' size.
    *
    * Throws InputError if the text cannot be understood; later where it has no
