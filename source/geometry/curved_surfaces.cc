@@ -4,6 +4,7 @@
 #include <moraine/core/exceptions.h>
 
 #include <moraine/geometry/curve_subdivision.h>
+#include <moraine/geometry/round_moments.h>
 #include <moraine/geometry/shapes.h>
 #include <moraine/geometry/surfaces.h>
 
@@ -273,61 +274,6 @@ namespace moraine
 
 
 
-    /**
-     * The line of a cell's edge as a circle sees it: points of the circle
-     * within
-     * @p half_angle of the direction @p middle lie on the cell's side if
-     * @p cell_within, else on the other. Computed from the ends in an order
-     * that neighbours share, so both see the same angles, even where it grazes.
-     */
-    struct EdgeOnCircle
-    {
-      double middle, half_angle;
-      bool   cell_within;
-    };
-
-
-
-    EdgeOnCircle
-    edge_on_circle(Point<2>        a,
-                   Point<2>        b,
-                   const Point<2> &centre,
-                   const double    radius)
-    {
-      EdgeOnCircle edge;
-      edge.cell_within =
-        std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
-      if (!edge.cell_within)
-        std::swap(a, b);
-      const double       length = a.distance(b);
-      const Tensor<1, 2> t      = (b - a) / length;
-      const Tensor<1, 2> left   = Point<2>(-t[1], t[0]);
-      const double       height = (centre - a) * left;
-      // (R − h)(R + h) keeps the digits of a grazing line
-      const double half_chord =
-        std::sqrt(std::max(0., (radius - height) * (radius + height)));
-      edge.middle = std::atan2(left[1], left[0]);
-      // a line that does not cross leaves every angle on one side, ±π too
-      edge.half_angle = half_chord > 0. ? std::atan2(half_chord, -height) :
-                        height > 0.     ? 4. :
-                                          0.;
-      return edge;
-    }
-
-
-
-    bool
-    contains(const std::vector<EdgeOnCircle> &edges, const double angle)
-    {
-      return std::all_of(edges.begin(), edges.end(), [angle](const auto &edge) {
-        const double off =
-          std::remainder(angle - edge.middle, 2. * numbers::PI);
-        return (std::abs(off) < edge.half_angle) == edge.cell_within;
-      });
-    }
-
-
-
     class Arc : public SmoothFace<2>
     {
     public:
@@ -376,39 +322,25 @@ namespace moraine
       {
         if (!this->may_touch(cell))
           return;
-        constexpr unsigned int    cycle[5] = {0, 1, 3, 2, 0};
-        std::vector<EdgeOnCircle> edges;
-        std::vector<double>       breaks{0., sweep};
-        for (unsigned int e = 0; e < 4; ++e)
-          {
-            edges.push_back(edge_on_circle(
-              cell[cycle[e]], cell[cycle[e + 1]], centre, radius));
-            for (const double side : {-1., 1.})
-              {
-                const double angle = from_start(edges.back().middle +
-                                                side * edges.back().half_angle);
-                if (angle < sweep)
-                  breaks.push_back(angle);
-              }
-          }
-        std::sort(breaks.begin(), breaks.end());
-
         const double tolerance = 1e-9 * cell_size<2>(cell);
-        for (unsigned int i = 0; i + 1 < breaks.size();)
+        for (const auto &chord : chords_in_disc<2>(
+               {cell[0], cell[1], cell[3], cell[2]}, centre, radius))
           {
-            unsigned int j = i + 1;
-            while (j < breaks.size() &&
-                   contains(edges, start + .5 * (breaks[j - 1] + breaks[j])))
-              ++j;
-            const Stretch piece{breaks[i], breaks[j - 1]};
-            i = j;
-            if (piece.to - piece.from > 4e-15)
-              for (const Stretch &part : extent.stretches(
-                     piece, tolerance, [this](const double angle) {
-                       const Point<2> x = at_angle(angle);
-                       return std::make_pair(x, normal_at(x));
-                     }))
-                add_points(part.from, part.to, n_gauss, out);
+            const Tensor<1, 2> arm  = chord.leave - centre;
+            const double       from = from_start(std::atan2(arm[1], arm[0]));
+            for (const double turn : {0., 2. * numbers::PI})
+              {
+                const Stretch piece{std::max(from - turn, 0.),
+                                    std::min(from - turn + chord.angle_after,
+                                             sweep)};
+                if (piece.to - piece.from > 4e-15)
+                  for (const Stretch &part : extent.stretches(
+                         piece, tolerance, [this](const double angle) {
+                           const Point<2> x = at_angle(angle);
+                           return std::make_pair(x, normal_at(x));
+                         }))
+                    add_points(part.from, part.to, n_gauss, out);
+              }
           }
       }
 

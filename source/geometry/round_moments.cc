@@ -17,13 +17,20 @@ namespace moraine
 
   namespace
   {
-    // the values of t in [0, 1] between which |a + t (b - a)|^2 < square
+    // the values of t in [0, 1] between which |a + t (b - a)|^2 < square;
+    // decided in the same way from both ends
     template <int dim>
     std::pair<double, double>
     inside_circle(const Tensor<1, dim> &a,
                   const Tensor<1, dim> &b,
                   const double          square)
     {
+      if (std::lexicographical_compare(
+            b.begin_raw(), b.end_raw(), a.begin_raw(), a.end_raw()))
+        {
+          const auto [begin, end] = inside_circle(b, a, square);
+          return {1. - end, 1. - begin};
+        }
       const Tensor<1, dim> edge   = b - a;
       const double         ee     = edge.norm_square();
       const double         ae     = a * edge;
@@ -62,47 +69,15 @@ namespace moraine
       void
       apply(const ConvexPolytope<3>::PointList &face)
       {
-        struct Chord
-        {
-          Point<3> enter, leave;
-          double   angle_after;
-        };
-        std::vector<Chord> chords;
-        double             angle_before = 0.;
-        normal                          = 0.;
-        for (unsigned int i = 0; i < face.size(); ++i)
-          {
-            const Point<3> &a = face[i], &b = face[(i + 1) % face.size()];
-            const auto [begin, end] =
-              inside_circle(flat(a), flat(b), radius * radius);
-            const Point<3> enter = a + begin * (b - a),
-                           leave = a + end * (b - a);
-            normal += cross_product_3d(a - face[0], b - face[0]);
-            double &angle =
-              chords.empty() ? angle_before : chords.back().angle_after;
-            if (begin == end)
-              angle += angle_between(a, b);
-            else
-              {
-                if (begin > 0.)
-                  angle += angle_between(a, enter);
-                chords.push_back(
-                  {enter, leave, end < 1. ? angle_between(leave, b) : 0.});
-              }
-          }
+        normal = 0.;
+        for (unsigned int i = 1; i + 1 < face.size(); ++i)
+          normal += cross_product_3d(face[i] - face[0], face[i + 1] - face[0]);
         if (std::abs(normal[2]) <= 1e-14 * normal.norm())
           return;
-        if (chords.empty() && std::abs(angle_before) > numbers::PI)
-          {
-            // all of the disc
-            const Point<3> start(centre[0] + radius, centre[1], 0.);
-            const double   height = (face[0] - start) * normal / normal[2];
-            chords.push_back({start, start, 0.});
-            chords[0].enter[2] = chords[0].leave[2] = height;
-          }
-        if (chords.empty())
-          return;
-        chords.back().angle_after += angle_before;
+        auto chords = chords_in_disc<3>(face, centre, radius);
+        for (auto &[enter, leave, angle] : chords)
+          if (enter == leave)
+            enter[2] = leave[2] += normal * (face[0] - enter) / normal[2];
         for (unsigned int i = 0; i < chords.size(); ++i)
           {
             const auto &[enter, leave, angle] = chords[i];
@@ -119,12 +94,6 @@ namespace moraine
       flat(const Point<3> &x) const
       {
         return Point<2>(x[0], x[1]) - centre;
-      }
-
-      double
-      angle_between(const Point<3> &a, const Point<3> &b) const
-      {
-        return std::atan2(cross(flat(a), flat(b)), flat(a) * flat(b));
       }
 
       void
@@ -287,6 +256,53 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<DiscChord<dim>>
+  chords_in_disc(const typename ConvexPolytope<dim>::PointList &polygon,
+                 const Point<2>                                &centre,
+                 const double                                   radius)
+  {
+    const auto flat = [&](const Point<dim> &x) -> Tensor<1, 2> {
+      return Point<2>(x[0], x[1]) - centre;
+    };
+    const auto angle_between = [&](const Point<dim> &a, const Point<dim> &b) {
+      return std::atan2(cross(flat(a), flat(b)), flat(a) * flat(b));
+    };
+    std::vector<DiscChord<dim>> chords;
+    double                      angle_before = 0.;
+    for (unsigned int i = 0; i < polygon.size(); ++i)
+      {
+        const Point<dim> &a = polygon[i],
+                         &b = polygon[(i + 1) % polygon.size()];
+        const auto [begin, end] =
+          inside_circle(flat(a), flat(b), radius * radius);
+        const Point<dim> enter = a + begin * (b - a), leave = a + end * (b - a);
+        double          &angle =
+          chords.empty() ? angle_before : chords.back().angle_after;
+        if (begin == end)
+          angle += angle_between(a, b);
+        else
+          {
+            if (begin > 0.)
+              angle += angle_between(a, enter);
+            chords.push_back(
+              {enter, leave, end < 1. ? angle_between(leave, b) : 0.});
+          }
+      }
+    if (chords.empty() && std::abs(angle_before) > numbers::PI)
+      {
+        Point<dim> start;
+        start[0] = centre[0] + radius;
+        start[1] = centre[1];
+        chords.push_back({start, start, 0.});
+      }
+    if (!chords.empty())
+      chords.back().angle_after += angle_before;
+    return chords;
+  }
+
+
+
+  template <int dim>
   VolumeMoments<dim>
   moments_in_ball(const ConvexPolytope<dim> &cell,
                   const Point<dim>          &centre,
@@ -349,10 +365,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &, \
-                                              const Point<dim> &,          \
-                                              const double,                \
+#define INSTANTIATE(dim)                                                     \
+  template std::vector<DiscChord<dim>> chords_in_disc<dim>(                  \
+    const ConvexPolytope<dim>::PointList &, const Point<2> &, const double); \
+  template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &,   \
+                                              const Point<dim> &,            \
+                                              const double,                  \
                                               const Point<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

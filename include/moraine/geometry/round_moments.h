@@ -8,6 +8,26 @@
 
 namespace moraine
 {
+  /** An edge's part in a disc, and the way from its end to the next one's start
+   * as the angle [rad] at the centre; of an arc that lies in the polygon. */
+  template <int dim>
+  struct DiscChord
+  {
+    dealii::Point<dim> enter, leave;
+    double             angle_after;
+  };
+
+  /**
+   * The rim of a polygon within a disc, as seen in the first two coordinates:
+   * all chords in order, or an empty one before the whole circle. Polygons that
+   * share an edge agree on its chord, even where the circle grazes it.
+   */
+  template <int dim>
+  std::vector<DiscChord<dim>>
+  chords_in_disc(const typename ConvexPolytope<dim>::PointList &polygon,
+                 const dealii::Point<2>                        &centre,
+                 const double                                   radius);
+
   /**
    * Volume and first moment about @p reference of the part of @p cell in a
    * disc (2D) or sphere (3D); exact.
