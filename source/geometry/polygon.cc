@@ -52,18 +52,6 @@ namespace moraine
 
 
 
-  bool
-  is_convex(const Polygon &p)
-  {
-    const unsigned int n = p.size();
-    for (unsigned int i = 0; i < n; ++i)
-      if (cross(p[(i + 1) % n] - p[i], p[(i + 2) % n] - p[(i + 1) % n]) < 0.)
-        return false;
-    return true;
-  }
-
-
-
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &vertices)
   {
@@ -92,8 +80,16 @@ namespace moraine
 
   // by cutting ears
   std::vector<Polygon>
-  triangulate(Polygon p)
+  convex_parts(Polygon p)
   {
+    bool is_convex = true;
+    for (unsigned int i = 0; i < p.size(); ++i)
+      {
+        const Point<2> &b = p[(i + 1) % p.size()], &c = p[(i + 2) % p.size()];
+        is_convex = is_convex && cross(b - p[i], c - b) >= 0.;
+      }
+    if (is_convex)
+      return {p};
     std::vector<Polygon> triangles;
     const auto           is_ear = [&p](const unsigned int i) {
       const unsigned int n = p.size();

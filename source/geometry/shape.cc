@@ -54,17 +54,11 @@ namespace moraine
   Shape<dim>::moments(const ConvexPolytope<dim> &cell,
                       const Point<dim>          &reference) const
   {
-    if (!cell.empty())
-      switch (overlap(cell))
-        {
-          case Overlap::all:
-            return cell.moments(reference);
-          case Overlap::part:
-            return moments_of_part(cell, reference);
-          case Overlap::none:
-            break;
-        }
-    return {};
+    const Overlap answer = cell.empty() ? Overlap::none : overlap(cell);
+    if (answer == Overlap::part)
+      return moments_of_part(cell, reference);
+    return answer == Overlap::all ? cell.moments(reference) :
+                                    VolumeMoments<dim>();
   }
 
 
@@ -75,18 +69,11 @@ namespace moraine
                          const double               sign,
                          SignedPieces<dim>         &pieces) const
   {
-    if (!cell.empty())
-      switch (overlap(cell))
-        {
-          case Overlap::all:
-            pieces.push_back({sign, cell});
-            break;
-          case Overlap::part:
-            add_pieces_of_part(cell, sign, pieces);
-            break;
-          case Overlap::none:
-            break;
-        }
+    const Overlap answer = cell.empty() ? Overlap::none : overlap(cell);
+    if (answer == Overlap::all)
+      pieces.push_back({sign, cell});
+    else if (answer == Overlap::part)
+      add_pieces_of_part(cell, sign, pieces);
   }
 
 

@@ -179,6 +179,8 @@ namespace moraine
       {
         line.push_back(line[0]);
         outline = make_flat_face<2>(line, clockwise);
+        convex  = convex_parts(
+          clockwise ? Polygon(vertices.rbegin(), vertices.rend()) : vertices);
       }
 
       double
@@ -235,10 +237,6 @@ namespace moraine
       }
 
     protected:
-      /**
-       * The triangles from the first vertex, each counted with the sign of its
-       * area, clipped with the cell.
-       */
       void
       add_pieces_of_part(const ConvexPolytope<dim> &cell,
                          const double               sign,
@@ -249,28 +247,20 @@ namespace moraine
           {
             const Tensor<1, dim> up = Point<dim>::unit_vector(2);
             slice.clip(Point<dim>(heights.first * up), up);
-            if (!slice.empty())
-              slice.clip(Point<dim>(heights.second * up), -up);
+            slice.clip(Point<dim>(heights.second * up), -up);
           }
-        for (unsigned int i = 1; i + 1 < vertices.size(); ++i)
+        for (const auto &polygon : convex)
           {
-            const std::array<Point<2>, 3> corner{
-              {vertices[0], vertices[i], vertices[i + 1]}};
-            const double area =
-              cross(corner[1] - corner[0], corner[2] - corner[0]);
-            const double        turn = area > 0. ? 1. : -1.;
             ConvexPolytope<dim> part = slice;
-            for (unsigned int k = 0; k < 3 && area != 0. && !part.empty(); ++k)
+            for (unsigned int i = 0; i < polygon.size(); ++i)
               {
-                // the same end for the two triangles that share an edge
-                const unsigned int j      = (k + 1) % 3;
-                const Tensor<1, 2> edge   = turn * (corner[j] - corner[k]);
-                const Point<2>    &anchor = k == 2 ? corner[0] : corner[k];
-                part.clip(lift<dim>(anchor),
+                const Tensor<1, 2> edge =
+                  polygon[(i + 1) % polygon.size()] - polygon[i];
+                part.clip(lift<dim>(polygon[i]),
                           lift<dim>(Point<2>(-edge[1], edge[0])));
               }
-            if (area != 0. && !part.empty())
-              pieces.push_back({clockwise ? -sign * turn : sign * turn, part});
+            if (!part.empty())
+              pieces.push_back({sign, part});
           }
       }
 
@@ -280,6 +270,7 @@ namespace moraine
       bool                      clockwise;
       std::vector<Point<2>>     line; ///< the vertices, closed
       SurfacePointer<2>         outline;
+      std::vector<Polygon>      convex; ///< parts
     };
   } // namespace
 

@@ -110,9 +110,7 @@ namespace moraine
       if (first_crossing(outline).first < outline.size())
         throw InputError("the edges of a plane patch cross each other");
       std::vector<Facet<3>> facets;
-      for (const auto &part : is_convex(outline) ?
-                                std::vector<Polygon>{outline} :
-                                triangulate(outline))
+      for (const auto &part : convex_parts(outline))
         {
           facets.push_back({vertices[0], (flip ? -1. : 1.) * normal, {}});
           for (unsigned int i = 0; i < part.size(); ++i)

@@ -25,10 +25,6 @@ namespace moraine
   double
   polygon_area(const Polygon &polygon);
 
-  /** Of a counter-clockwise polygon. */
-  bool
-  is_convex(const Polygon &polygon);
-
   /**
    * The numbers, from 0, of two edges (edge i goes from vertex i to the next)
    * of a closed polygon that meet elsewhere than in a common end, or fold back
@@ -38,9 +34,9 @@ namespace moraine
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &polygon);
 
-  /** Triangles of a counter-clockwise simple polygon. */
+  /** What makes up a counter-clockwise simple polygon: itself or triangles. */
   std::vector<Polygon>
-  triangulate(Polygon polygon);
+  convex_parts(Polygon polygon);
 
   /** A plane's own coordinates; first x second = normal, of unit length. */
   struct PlaneFrame
