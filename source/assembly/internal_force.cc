@@ -153,7 +153,7 @@ namespace moraine
      */
     template <int dim, unsigned int fixed_n_nodes>
     void
-    sum_moments(const PointSet<dim>     &points,
+    sum_moments(const State<dim>        &state,
                 const StencilBlock<dim> &block,
                 const unsigned int       begin,
                 const unsigned int       end,
@@ -163,7 +163,7 @@ namespace moraine
         dim * (fixed_n_nodes > 0 ? fixed_n_nodes : block.n_nodes);
       for (unsigned int p = begin; p < end; ++p)
         {
-          const double                   v = points.volume(block.points[p]);
+          const double v = state.integration_volume(block.points[p]);
           const double *DEAL_II_RESTRICT g = block.grad_N(p)->begin_raw();
           for (unsigned int r = 0; r < n; ++r)
             {
@@ -178,7 +178,7 @@ namespace moraine
 
     template <int dim>
     void
-    sum_moments(const PointSet<dim>     &points,
+    sum_moments(const State<dim>        &state,
                 const StencilBlock<dim> &block,
                 const unsigned int       begin,
                 const unsigned int       end,
@@ -186,9 +186,9 @@ namespace moraine
     {
       moments.assign(dim * block.n_nodes * dim * block.n_nodes, 0.);
       if (block.n_nodes == 1 << dim)
-        sum_moments<dim, 1 << dim>(points, block, begin, end, moments.data());
+        sum_moments<dim, 1 << dim>(state, block, begin, end, moments.data());
       else
-        sum_moments<dim, 0>(points, block, begin, end, moments.data());
+        sum_moments<dim, 0>(state, block, begin, end, moments.data());
     }
 
 
@@ -259,7 +259,7 @@ namespace moraine
         if (state.strain_measure() == StrainMeasure::small &&
             material.is_linear())
           {
-            sum_moments(points, block, begin, end, local.moments);
+            sum_moments(state, block, begin, end, local.moments);
             add_stiffness<dim>(local.moments,
                                block.n_nodes,
                                material.elastic_stiffness(),

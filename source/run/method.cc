@@ -73,6 +73,7 @@ namespace moraine
       method.allowed_after_step = "follow material or keep with finite "
                                   "elements, whose points stay in their cells";
       method.largest_degree     = 2;
+      method.can_fit_weights    = false;
       method.can_split_domains  = false;
       method.must_split_domains = false;
       method.make_seeder        = gauss_points<dim>;
@@ -92,6 +93,7 @@ namespace moraine
       method.text               = "points that move through the mesh.";
       method.mesh_after_step    = MeshAfterStep::reset;
       method.largest_degree     = 1;
+      method.can_fit_weights    = true;
       method.can_split_domains  = false;
       method.must_split_domains = false;
       method.make_seeder        = material_points<dim>;
@@ -110,6 +112,7 @@ namespace moraine
       Method<dim> method        = material_point<dim>();
       method.name               = name;
       method.text               = text;
+      method.can_fit_weights    = false;
       method.refused_after_step = "follow material";
       method.allowed_after_step = "reset or keep with method '" + name + "'";
       return method;
@@ -263,6 +266,16 @@ namespace moraine
       "material with finite elements, reset otherwise.",
       patterns::selection({"default", "reset", "follow material", "keep"}));
     prm.add_parameter(
+      "Point weights",
+      point_weights,
+      "Of method 'material point' with mesh after step 'reset': over what "
+      "the stress of a point is integrated. volumes: its own. fitted to cells: "
+      "in cells with points all around, volumes times factors by which the "
+      "points of the cell integrate linear functions exactly, wherever they "
+      "have moved; then results converge with the size of cells. Best with 3 "
+      "or more points per direction.",
+      patterns::selection({"volumes", "fitted to cells"}));
+    prm.add_parameter(
       "Domain update",
       domain_update,
       "Of GIMP at finite strain, how the box of a point changes. frozen: not. "
@@ -367,6 +380,16 @@ namespace moraine
              "Mesh after step",
              mesh_after_step,
              "reset or follow material with finite strain");
+    if (weights() != PointWeights::volumes &&
+        !(kind.can_fit_weights && after_step() == MeshAfterStep::reset))
+      reject("Method",
+             "Point weights",
+             point_weights,
+             "volumes with method '" + method + "' and mesh after step '" +
+               mesh_after_step + "'; " +
+               names_where<dim>([](const auto &m) { return m.can_fit_weights; },
+                                "") +
+               " with 'reset' fits");
     if (split_domains == "true" && !kind.can_split_domains)
       reject("Method",
              "Split domains",

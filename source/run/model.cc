@@ -105,7 +105,8 @@ namespace moraine
                                          *basis,
                                          materials,
                                          scene.method.after_step(),
-                                         scene.method.strain_measure());
+                                         scene.method.strain_measure(),
+                                         scene.method.weights());
     boundaries      = make_boundaries(scene);
     grid_conditions = make_grid_conditions(scene, *mesh);
     loads           = make_loads(scene, *mesh, body_names);

@@ -3,6 +3,8 @@
 
 #include <moraine/state/state.h>
 
+#include <moraine/state/fitted_weights.h>
+
 #include <algorithm>
 
 namespace moraine
@@ -34,13 +36,15 @@ namespace moraine
                     Basis<dim>                                  &basis,
                     std::vector<std::shared_ptr<const Material>> materials_,
                     const MeshAfterStep mesh_after_step,
-                    const StrainMeasure measure)
+                    const StrainMeasure measure,
+                    const PointWeights  weights)
     : space(space)
     , points(points)
     , basis(basis)
     , materials(std::move(materials_))
     , after_step(mesh_after_step)
     , measure(measure)
+    , weights(weights)
     , state_fields(find_fields(points, measure, materials))
   {
     for (unsigned int p = 0; p < points.n_local(); ++p)
@@ -102,6 +106,8 @@ namespace moraine
         changed    = space.set_active_cells(std::move(active));
         changed    = basis.batch_points() || changed;
         first_step = false;
+        if (weights == PointWeights::fitted_to_cells)
+          factors = fitted_weights(space, points);
       }
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());

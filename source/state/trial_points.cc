@@ -152,7 +152,7 @@ namespace moraine
       {
         const unsigned int p  = block.points[begin + i];
         points[i].J_increment = 1;
-        points[i].weight      = set.volume(p);
+        points[i].weight      = state.integration_volume(p);
         points[i].stress      = set.stress_field()(set.values(p)) +
                            C * symmetric_part(points[i].gradient);
       }
@@ -175,7 +175,7 @@ namespace moraine
         const unsigned int p  = block.points[begin + i];
         TrialPoint        &at = points[i];
         at.J_increment        = 1;
-        at.weight             = set.volume(p);
+        at.weight             = state.integration_volume(p);
         at.principal =
           spectrum<dim>(C.strain_of(set.stress_field()(set.values(p))) +
                         symmetric_part(at.gradient));
@@ -203,7 +203,7 @@ namespace moraine
     const Tensor<1, dim> *gradients = block.grad_N(begin + i);
     for (unsigned int a = 0; a < n_nodes; ++a)
       moved[i * n_nodes + a] = gradients[a] * inverse;
-    at.weight = state.material_points().volume(p) / state.volume_ratio(p);
+    at.weight = state.integration_volume(p) / state.volume_ratio(p);
     return dF;
   }
 
@@ -305,7 +305,7 @@ namespace moraine
         else
           {
             at.J_increment      = 1;
-            at.weight           = set.volume(p);
+            at.weight           = state.integration_volume(p);
             to.strain_increment = symmetric_part(at.gradient);
           }
         to.stress   = set.stress_field()(set.values(p));

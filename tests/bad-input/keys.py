@@ -94,6 +94,12 @@ refused("time in a shape", settings={
 refused("table with one component",
         settings={"Boundaries/left/Translation": "0: 0, 1: 2"})
 refused("too few components", settings={"Loads/weight/Value": "-1"})
+refused("weights fitted to cells with GIMP",
+        settings={"Method/Method": "GIMP",
+                  "Method/Point weights": "fitted to cells"})
+refused("weights fitted to cells that do not change",
+        settings={"Method/Mesh after step": "keep",
+                  "Method/Point weights": "fitted to cells"})
 refused("GIMP of degree 2",
         settings={"Method/Method": "GIMP", "Method/Degree": 2})
 refused("GIMP on a mesh that moves",

@@ -33,6 +33,7 @@ namespace moraine
     std::string  point_layout         = "equally spaced";
     std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
+    std::string  point_weights        = "volumes";
     double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";
@@ -52,6 +53,13 @@ namespace moraine
 
     MeshAfterStep
     after_step() const;
+
+    PointWeights
+    weights() const
+    {
+      return point_weights == "volumes" ? PointWeights::volumes :
+                                          PointWeights::fitted_to_cells;
+    }
 
     /** Boxes keep their size at small strain. */
     DomainUpdate
@@ -93,6 +101,7 @@ namespace moraine
     std::string  refused_after_step;
     std::string  allowed_after_step;
     unsigned int largest_degree;
+    bool         can_fit_weights;
     bool         can_split_domains;
     /** A domain beyond the limit ends the run. */
     bool must_split_domains;

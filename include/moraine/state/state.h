@@ -28,6 +28,15 @@ namespace moraine
     keep
   };
 
+  /** Over what the stress of points is integrated. */
+  enum class PointWeights
+  {
+    /** Their volumes. */
+    volumes,
+    /** In filled cells fitted_weights() times them. */
+    fitted_to_cells
+  };
+
   /**
    * The state of a step. Committed values live at the points; the trial state
    * is the nodal increment @f$\Delta u@f$ alone, because trial stresses and
@@ -47,7 +56,8 @@ namespace moraine
           Basis<dim>                                  &basis,
           std::vector<std::shared_ptr<const Material>> materials,
           const MeshAfterStep                          mesh_after_step,
-          const StrainMeasure measure = StrainMeasure::small);
+          const StrainMeasure measure = StrainMeasure::small,
+          const PointWeights  weights = PointWeights::volumes);
 
     /**
      * Bring cells, unknowns and batches up to date with the points.
@@ -167,6 +177,14 @@ namespace moraine
                points.volume(p);
     }
 
+    /** The volume over which the stress of a point is integrated: its own, or
+     * what weights fitted to the cell make of it. */
+    double
+    integration_volume(const unsigned int p) const
+    {
+      return factors.empty() ? points.volume(p) : factors[p] * points.volume(p);
+    }
+
     /** Whether the tangent is that of the elastic stiffness everywhere. */
     bool
     is_linear() const;
@@ -185,10 +203,13 @@ namespace moraine
     const std::vector<std::shared_ptr<const Material>> materials;
     const MeshAfterStep                                after_step;
     const StrainMeasure                                measure;
+    const PointWeights                                 weights;
     const StateFields<dim>                             state_fields;
     StepTime                                           times;
     bool                                               first_step = true;
-    std::vector<dealii::Tensor<1, dim>>                trial;
+    /** Of fitted_weights(); empty without them. */
+    std::vector<double>                 factors;
+    std::vector<dealii::Tensor<1, dim>> trial;
   };
 } // namespace moraine
 
