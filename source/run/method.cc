@@ -272,8 +272,7 @@ namespace moraine
       "the stress of a point is integrated. volumes: its own. fitted to cells: "
       "in cells with points all around, volumes times factors by which the "
       "points of the cell integrate linear functions exactly, wherever they "
-      "have moved; then results converge with the size of cells. Best with 3 "
-      "or more points per direction.",
+      "have moved. Best with 3 or more points per direction.",
       patterns::selection({"volumes", "fitted to cells"}));
     prm.add_parameter(
       "Domain update",

@@ -146,33 +146,52 @@ namespace moraine
 
 
   template <int dim>
+  FittedWeights<dim>::FittedWeights(const PointSet<dim> &points)
+    : full_at_start(points.mesh().triangulation().n_active_cells())
+  {
+    constexpr double round_off = 1e-10;
+    for (const auto &in_cell : points.cells())
+      {
+        double volume = 0;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          volume += points.volume(p);
+        full_at_start[in_cell.cell->active_cell_index()] =
+          volume >= (1 - round_off) * in_cell.cell->measure();
+      }
+  }
+
+
+
+  template <int dim>
   std::vector<double>
-  fitted_weights(const GridSpace<dim> &space, const PointSet<dim> &points)
+  FittedWeights<dim>::factors(const GridSpace<dim> &space,
+                              const PointSet<dim>  &points) const
   {
     const QGauss<dim>         rule(2);
     const std::vector<Around> around = surroundings(space);
-    std::vector<double>       factors(points.n_local(), 1.);
+    std::vector<double>       result(points.n_local(), 1.);
     for (const auto &in_cell : points.cells())
       {
         const unsigned int first = in_cell.first, last = in_cell.last;
         Around             worst = Around::filled;
         for (const unsigned int v : in_cell.cell->vertex_indices())
           worst = std::max(worst, around[in_cell.cell->vertex_index(v)]);
-        if (worst == Around::empty || !one_body(points, first, last))
+        if (worst == Around::empty ||
+            (worst == Around::edge &&
+             !full_at_start[in_cell.cell->active_cell_index()]) ||
+            !one_body(points, first, last))
           continue;
         const Moments<dim> cell =
           moments_of_cell(vertices_of<dim>(in_cell.cell), rule);
         const Moments<dim> sum = moments_of_points(points, first, last);
-        if (sum.volume > (worst == Around::edge ? 0.9 : 0.5) * cell.volume)
-          fit(points, first, last, cell, sum, factors);
+        if (sum.volume > 0.5 * cell.volume)
+          fit(points, first, last, cell, sum, result);
       }
-    return factors;
+    return result;
   }
 
 
 
-  template std::vector<double>
-  fitted_weights(const GridSpace<2> &, const PointSet<2> &);
-  template std::vector<double>
-  fitted_weights(const GridSpace<3> &, const PointSet<3> &);
+  template class FittedWeights<2>;
+  template class FittedWeights<3>;
 } // namespace moraine

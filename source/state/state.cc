@@ -3,8 +3,6 @@
 
 #include <moraine/state/state.h>
 
-#include <moraine/state/fitted_weights.h>
-
 #include <algorithm>
 
 namespace moraine
@@ -44,7 +42,9 @@ namespace moraine
     , materials(std::move(materials_))
     , after_step(mesh_after_step)
     , measure(measure)
-    , weights(weights)
+    , fitted_weights(weights == PointWeights::fitted_to_cells ?
+                       std::make_optional<FittedWeights<dim>>(points) :
+                       std::nullopt)
     , state_fields(find_fields(points, measure, materials))
   {
     for (unsigned int p = 0; p < points.n_local(); ++p)
@@ -106,8 +106,8 @@ namespace moraine
         changed    = space.set_active_cells(std::move(active));
         changed    = basis.batch_points() || changed;
         first_step = false;
-        if (weights == PointWeights::fitted_to_cells)
-          factors = fitted_weights(space, points);
+        if (fitted_weights)
+          factors = fitted_weights->factors(space, points);
       }
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());

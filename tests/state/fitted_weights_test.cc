@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "../small_scene.h"
 
 namespace
@@ -28,6 +30,8 @@ namespace
         x[0] += 0.005 * X[0] * (4 - X[0]) * X[1];
         return x;
       });
+      this->points.find_cells();
+      fitted.emplace(this->points);
       Tensor<1, dim> u;
       for (unsigned int d = 0; d < dim; ++d)
         u[d] = (d + 1) * shift;
@@ -35,6 +39,12 @@ namespace
         this->points.set_position(p, this->points.position(p) + u);
       this->points.find_cells();
       activate({});
+    }
+
+    std::vector<double>
+    factors() const
+    {
+      return fitted->factors(this->space, this->points);
     }
 
     void
@@ -69,6 +79,8 @@ namespace
             rule.point(q));
       return sum;
     }
+
+    std::optional<FittedWeights<dim>> fitted;
   };
 
   template <int dim>
@@ -83,8 +95,7 @@ namespace
   expect_linear_exactness()
   {
     const ShiftedScene<dim>   scene(3, 0.03);
-    const std::vector<double> factors =
-      fitted_weights(scene.space, scene.points);
+    const std::vector<double> factors = scene.factors();
     for (const auto &in_cell : scene.points.cells())
       if (!at_edge_of_mesh<dim>(in_cell))
         {
@@ -116,7 +127,7 @@ TEST(FittedWeights, AreNeverNegative)
   for (const double shift : {0.24, 0.3, 0.4})
     {
       const ShiftedScene<2> scene(2, shift);
-      const auto            factors = fitted_weights(scene.space, scene.points);
+      const auto            factors = scene.factors();
       for (const double f : factors)
         EXPECT_GT(f, 0.);
       for (const auto &in_cell : scene.points.cells())
@@ -132,7 +143,7 @@ TEST(FittedWeights, AreNeverNegative)
 TEST(FittedWeights, OnePointTakesTheVolumeOfItsCell)
 {
   const ShiftedScene<2> scene(1, 0.1);
-  const auto            factors = fitted_weights(scene.space, scene.points);
+  const auto            factors = scene.factors();
   for (const auto &in_cell : scene.points.cells())
     if (!at_edge_of_mesh<2>(in_cell))
       {
@@ -150,7 +161,7 @@ TEST(FittedWeights, BesideEmptyCellsAreOne)
   for (const auto &cell : scene.mesh.triangulation().active_cell_iterators())
     if (cell->vertex_index(0) == 0)
       scene.activate({cell->active_cell_index()});
-  const auto factors = fitted_weights(scene.space, scene.points);
+  const auto factors = scene.factors();
   for (const auto &in_cell : scene.points.cells())
     {
       const bool beside = in_cell.cell->vertex(0).norm() < 1.5;

@@ -60,3 +60,16 @@ for scene, cells in (
     elif name == "mpm":
         at_least("mpm: error with 64 cells over that with 4",
                  errors[-1] / errors[0], 1)
+
+errors = []
+for n in (4, 16, 64):
+    result = run("prm/large-deformation/column-mpm.prm",
+                 {"Mesh/Cells": f"1, {n}", "Output/Points": "false",
+                  "Output/Mesh": "false",
+                  "Method/Point weights": "fitted to cells"})
+    errors.append(result.errors["mean_sigma"] / SCALE)
+    number(f"mpm fitted to cells, {n} cells: mean stress error", errors[-1], 3)
+    bound(f"mpm fitted to cells, {n} cells: base reaction over weight - 1",
+          result.reactions["base"][1] / SCALE - 1, 1e-8)
+at_least("mpm fitted to cells: order from 4 to 64 cells",
+         log2(errors[0] / errors[2]) / 4, 1.5)

@@ -26,16 +26,25 @@ namespace moraine
    * error that does not depend on the size of cells.
    *
    * A cell is filled if all cells around it have points, its points belong to
-   * one body and fill at least half of it; at the edge of the mesh, nine
-   * tenths, for a surface may run through it there. Points of other cells have
-   * the factor 1. Al-Kafaji (2013) takes one Gauss point with the mean stress
-   * in filled cells; here points keep their stress.
-   *
-   * @return one factor for each local point.
+   * one body and fill at least half of it; at the edge of the mesh, where a
+   * surface may run through it unseen, also only if it was full at the start.
+   * Points of other cells have the factor 1. Al-Kafaji (2013) takes one Gauss
+   * point with the mean stress in filled cells; here points keep their stress.
    */
   template <int dim>
-  std::vector<double>
-  fitted_weights(const GridSpace<dim> &space, const PointSet<dim> &points);
+  class FittedWeights
+  {
+  public:
+    /** With the points of the start. */
+    explicit FittedWeights(const PointSet<dim> &points);
+
+    /** One factor for each local point. */
+    std::vector<double>
+    factors(const GridSpace<dim> &space, const PointSet<dim> &points) const;
+
+  private:
+    std::vector<bool> full_at_start; ///< by active_cell_index()
+  };
 } // namespace moraine
 
 #endif

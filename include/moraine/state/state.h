@@ -9,10 +9,12 @@
 #include <moraine/material/material.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
+#include <moraine/state/fitted_weights.h>
 #include <moraine/state/trial_points.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace moraine
@@ -33,7 +35,7 @@ namespace moraine
   {
     /** Their volumes. */
     volumes,
-    /** In filled cells fitted_weights() times them. */
+    /** In filled cells times the factors of FittedWeights. */
     fitted_to_cells
   };
 
@@ -203,11 +205,11 @@ namespace moraine
     const std::vector<std::shared_ptr<const Material>> materials;
     const MeshAfterStep                                after_step;
     const StrainMeasure                                measure;
-    const PointWeights                                 weights;
+    const std::optional<FittedWeights<dim>>            fitted_weights;
     const StateFields<dim>                             state_fields;
     StepTime                                           times;
     bool                                               first_step = true;
-    /** Of fitted_weights(); empty without them. */
+    /** Of fitted_weights; empty without them. */
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;
   };
