@@ -198,12 +198,12 @@ namespace
 
 
 
-  using Case = std::tuple<unsigned int, Method, bool>;
-  class EveryMethod : public testing::TestWithParam<Case>
+  using TangentCase = std::tuple<unsigned int, Method, bool>;
+  class EveryMethod : public testing::TestWithParam<TangentCase>
   {};
 
   std::string
-  name_of(const testing::TestParamInfo<Case> &info)
+  name_of(const testing::TestParamInfo<TangentCase> &info)
   {
     const auto &[dim, method, plastic] = info.param;
     const std::vector<std::string> names{
