@@ -1,7 +1,6 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-# ranks: 2
-# debug: no
 """A cantilever bent to a quarter turn: all 50 steps, near to finite elements."""
 
 SCENE = "prm/large-deformation/beam-gimp.prm"
