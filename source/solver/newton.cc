@@ -309,7 +309,7 @@ namespace moraine
           if (measure.finite() &&
               (any_will_do || small() ||
                measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
-               next_is_shorter(dx, factor)))
+               (i == 0 && next_is_shorter(dx, factor))))
             return true;
         }
       if (!measure.finite())
