@@ -26,8 +26,9 @@ namespace moraine
     constexpr double sufficient_decrease = 1e-4;
 
     /**
-     * Or the next correction with the same tangent must be shorter by this
-     * times s (Deuflhard 2004, restricted natural monotonicity test).
+     * Or, after a whole correction, the next with the same tangent must be
+     * shorter by this (Deuflhard 2004, restricted natural monotonicity test).
+     * Parts of corrections would lead past limit points.
      */
     constexpr double sufficient_shortening = 0.25;
 
@@ -148,7 +149,7 @@ namespace moraine
       take_step(const LA::Vector &dx, const bool line_search);
 
       bool
-      next_is_shorter(const LA::Vector &dx, const double factor);
+      next_is_shorter(const LA::Vector &dx);
 
       bool
       iterate();
@@ -261,13 +262,13 @@ namespace moraine
 
     /**
      * Whether the tangent that gave dx has a shorter correction for the
-     * residual after a step of factor times dx. Where a stiff part of the
+     * residual after it. Where a stiff part of the
      * material, as the volume of a nearly incompressible one, meets a rotation
      * for the first time, the residual grows although the step is a good one:
      * displacements do not.
      */
     bool
-    Iteration::next_is_shorter(const LA::Vector &dx, const double factor)
+    Iteration::next_is_shorter(const LA::Vector &dx)
     {
       LA::Vector         next(dx);
       const LinearReport linear =
@@ -281,15 +282,14 @@ namespace moraine
         report.message = linear.message;
       system.apply_constraints(next);
       return linear.converged &&
-             next.l2_norm() <=
-               (1. - sufficient_shortening * factor) * dx.l2_norm();
+             next.l2_norm() <= (1. - sufficient_shortening) * dx.l2_norm();
     }
 
 
 
     /**
-     * Add dx, or, where that reduces neither the residual nor the next
-     * correction, half of it, a quarter, ...
+     * Add dx if that reduces the residual or the next correction, else half of
+     * it, a quarter, ..., the first that reduces the residual.
      */
     bool
     Iteration::take_step(const LA::Vector &dx, const bool line_search)
@@ -309,7 +309,7 @@ namespace moraine
           if (measure.finite() &&
               (any_will_do || small() ||
                measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
-               (i == 0 && next_is_shorter(dx, factor))))
+               (i == 0 && next_is_shorter(dx))))
             return true;
         }
       if (!measure.finite())

@@ -47,7 +47,7 @@ for refinements, mesh in ((1, "10x36"), (2, "20x72")):
               at_20[method] / at_20["fe"] - 1, 0.03)
 
 # Without it the run ends, and says what to do.
-ended = run(SCENES["cpdi2"], {**QUIET, "Mesh/Refinements": 1}, expect=1)
+ended = run(SCENES["mpm"], {**QUIET, "Mesh/Refinements": 1}, expect=1)
 # Every tenth degree of the ring is the same: which is named is round-off.
 text("stop", sub(r"at \([^)]*\)", "at (...)",
                  plain(ended.output.splitlines()[-1].strip())))

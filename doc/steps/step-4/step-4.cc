@@ -189,11 +189,9 @@ main(int argc, char **argv)
                               {"beam"});
 
   // Round-off in the membrane forces of a slender beam is large against the
-  // forces that bend it. We do not try to get below it. A step that takes more
-  // than 15 corrections is better made in two.
+  // forces that bend it. We do not try to get below it.
   NewtonParameters how;
-  how.tolerance          = 1e-8;
-  how.maximum_iterations = 15;
+  how.tolerance = 1e-8;
   Newton       newton(how);
   LinearSolver linear_solver(LinearSolverParameters(), dim);
 
