@@ -1,5 +1,4 @@
-# ranks: 1 2
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Studies of large deformation, shortened: what their page says of methods."""

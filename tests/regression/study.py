@@ -1,4 +1,4 @@
-# ranks: 1 2 # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Studies, shortened: rows, errors, the table, the plot and what fails."""
@@ -6,8 +6,9 @@
 import csv
 
 
-def study(scene, settings, expect=0):
-    result = run(scene, settings, command="study", expect=expect)
+def study(scene, settings, expect=0, on_ranks=1):
+    result = run(scene, settings, command="study", expect=expect,
+                 on_ranks=on_ranks)
     with open(result.folder / "study.csv") as file:
         result.rows = list(csv.DictReader(file))
     return result
@@ -54,7 +55,7 @@ text("table", f"{len(table)} lines, {' '.join(table[0].split())}")
 # curves that do not join different steps, errors over the largest stress.
 column = study("prm/studies/large-column.prm",
                {"Mesh/Cells": "{{1, 8|1, 32}}", "Time/Steps": "{{5|10}}",
-                "Study/Panels": "Steps = 5, | Steps = 10, FE"})
+                "Study/Panels": "Steps = 5, | Steps = 10, FE"}, on_ranks=2)
 header, *rows = ([cell.strip() for cell in line.split("|")[1:-1]]
                  for line in column.output.splitlines() if line.startswith("|"))
 for row in rows:
@@ -97,7 +98,7 @@ bound("direct and amg-cg differ by", float(solvers.rows[0]["error"]) -
 
 failing = study("prm/studies/solvers.prm",
                 {"Mesh/Cell size": "2.5", "Solver/Maximum linear iterations": 1,
-                 "Time/Smallest step": 0.5}, expect=1)
+                 "Time/Smallest step": 0.5}, expect=1, on_ranks=2)
 show(failing, "Series", "status")
 wrong = study("prm/studies/solvers.prm",
               {"Mesh/Cell size": "5", "Bodies/beam/Upper corner":
@@ -123,6 +124,6 @@ alone = run("tests/bad-input/base.prm", {
     "Mesh/Cell size": "{{1|2}}", "Grid conditions/foot/Lower corner": "0, 0",
     "Grid conditions/foot/Upper corner": "1, 1",
     "Grid conditions/foot/Displacement": "0; sqrt(0.6-t)-sqrt(0.6)"},
-    command="study", expect=2)
+    command="study", expect=2, on_ranks=2)
 text("one rank's mistake is named",
      "section 'Grid conditions/foot', key 'Displacement'" in alone.output)

@@ -1,6 +1,6 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-# debug: no
 """A block of plastic material collapses: every step has an equilibrium."""
 
 SCENE = "prm/large-deformation/collapse.prm"

@@ -1,6 +1,6 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-# debug: no
 """Scenes of soil with default keys: a slope goes far beyond first yield; a pile
 that cannot be pushed on ends in order, with the place and what to change; a
 lining fits into its tunnel."""

@@ -1,6 +1,6 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-# debug: no
 """A soft column under its own weight comes down to half its height."""
 
 from math import exp, log2

@@ -1,5 +1,4 @@
-# ranks: 1 2
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A body turned by 360 degrees in 36 steps comes back without stress."""
