@@ -411,10 +411,10 @@ namespace moraine
         x              = 0.;
         return report;
       }
+    unsigned int in_vain = 0;
     if (!s.direct)
       {
-        LinearReport report  = s.solve_iteratively(x, b, enough, weights);
-        unsigned int in_vain = 0;
+        LinearReport report = s.solve_iteratively(x, b, enough, weights);
         if (!report.converged && !s.hierarchy_is_new)
           {
             in_vain = report.iterations;
@@ -429,6 +429,7 @@ namespace moraine
           report.message.swap(s.unsaid);
         if (report.converged || s.parameters.solver != "auto")
           return report;
+        in_vain            = report.iterations;
         s.fall_back_reason = report.message;
         s.choice.give_up();
         s.method = Implementation::Method::direct;
@@ -437,6 +438,7 @@ namespace moraine
         s.direct.emplace(*s.matrix);
       }
     LinearReport report = s.direct->solve(x, b);
+    report.iterations += in_vain;
     if (!report.converged)
       x = 0.;
     if (report.message.empty())

@@ -281,6 +281,7 @@ TEST(LinearSolver, AutoChoosesBySizeAndFallsBack)
   EXPECT_EQ(report.message,
             "direct from linear system 1 on, 2178 unknowns: amg-cg did not "
             "converge in 3 iterations");
+  EXPECT_EQ(report.iterations, 3u);
   EXPECT_LT(true_residual(problem, x), 1e-11);
   // It does not try again at once, and said why.
   impatient.set_up(problem.matrix, true, problem.modes);
