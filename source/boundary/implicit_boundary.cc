@@ -58,6 +58,27 @@ namespace moraine
 
 
 
+    /** What lies beyond a face of a cell, by no more than @p thickness. */
+    template <int dim>
+    CellVertices<dim>
+    layer_beyond(const unsigned int       face,
+                 const CellVertices<dim> &cell,
+                 const double             thickness)
+    {
+      const unsigned int across = 1u << (face / 2);
+      CellVertices<dim>  layer  = cell;
+      for (unsigned int v = 0; v < cell.size(); ++v)
+        if (((v & across) != 0) == (face % 2 == 1))
+          {
+            const Tensor<1, dim> edge = cell[v] - cell[v ^ across];
+            layer[v ^ across]         = cell[v];
+            layer[v] += thickness / edge.norm() * edge;
+          }
+      return layer;
+    }
+
+
+
     template <int dim>
     BoundingBox<dim>
     box_of(const CellVertices<dim> &vertices)
@@ -164,22 +185,31 @@ namespace moraine
   ImplicitBoundary<dim>::find_pieces(const GridSpace<dim> &space,
                                      const double          search_tolerance)
   {
-    const BoundingBox<dim> surface_box = at_start.bounding_box();
-    for (const auto &cell :
-         space.mesh().triangulation().active_cell_iterators())
+    const auto &tria = space.mesh().triangulation();
+    if (!space.nodes_moved())
       {
-        const bool own_active =
-          cell->is_locally_owned() && space.is_active(cell);
-        if (!own_active && space.is_active(cell))
-          continue;
-        const CellVertices<dim> vertices =
-          own_active ? present_vertices(space, cell->active_cell_index()) :
-                       vertices_of<dim>(cell);
-        if (overlap(box_of<dim>(vertices),
-                    surface_box,
-                    1e-9 * cell->diameter()))
-          add_pieces(space, cell, vertices, search_tolerance);
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned() || !space.is_active(cell))
+            add_pieces(cell, vertices_of<dim>(cell), [&](const Point<dim> &x) {
+              return nearest_active_cell(space, cell, x, search_tolerance);
+            });
       }
+    else
+      // Cells without material stay where material once was: here those beside
+      // it end a little beyond it.
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned() && space.is_active(cell))
+          {
+            const CellVertices<dim> vertices =
+              present_vertices(space, cell->active_cell_index());
+            const auto itself = [&](const Point<dim> &) { return cell; };
+            add_pieces(cell, vertices, itself);
+            for (const unsigned int f : cell->face_indices())
+              if (cell->at_boundary(f) || !space.is_active(cell->neighbor(f)))
+                add_pieces(cell,
+                           layer_beyond(f, vertices, search_tolerance),
+                           itself);
+          }
     std::stable_sort(boundary_points.begin(),
                      boundary_points.end(),
                      [](const auto &a, const auto &b) {
@@ -196,12 +226,14 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::add_pieces(
-    const GridSpace<dim>                        &space,
-    const typename GridSpace<dim>::CellIterator &cell,
-    const CellVertices<dim>                     &vertices,
-    const double                                 search_tolerance)
+  ImplicitBoundary<dim>::add_pieces(const CellIterator      &cell,
+                                    const CellVertices<dim> &vertices,
+                                    const Owner             &owner_of)
   {
+    if (!overlap(box_of<dim>(vertices),
+                 at_start.bounding_box(),
+                 1e-9 * cell->diameter()))
+      return;
     std::vector<SurfacePoint<dim>> pieces;
     // The mesh as it was built decides, so that the points stay the same ones.
     at_start.pieces(vertices,
@@ -209,8 +241,7 @@ namespace moraine
                     pieces);
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        const auto owner =
-          nearest_active_cell(space, cell, piece.x, search_tolerance);
+        const CellIterator owner = owner_of(piece.x);
         if (owner.state() != IteratorState::valid || !owner->is_locally_owned())
           continue;
         BoundaryPoint<dim> point;

@@ -267,11 +267,18 @@ namespace moraine
     void
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);
 
+    using CellIterator = typename GridSpace<dim>::CellIterator;
+    using Owner = std::function<CellIterator(const dealii::Point<dim> &)>;
+
+    /**
+     * Points on the surface inside of @p vertices, a cell or a layer at one.
+     * Their owner's functions hold them; without one on this rank they are
+     * left out.
+     */
     void
-    add_pieces(const GridSpace<dim>                        &space,
-               const typename GridSpace<dim>::CellIterator &cell,
-               const CellVertices<dim>                     &vertices,
-               const double                                 search_tolerance);
+    add_pieces(const CellIterator      &cell,
+               const CellVertices<dim> &vertices,
+               const Owner             &owner_of);
 
     /** Evaluate the functions of active cell @p cell_index at every point. */
     void

@@ -140,6 +140,12 @@ namespace moraine
     void
     move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);
 
+    bool
+    nodes_moved() const
+    {
+      return !moves.empty();
+    }
+
     /** Data set "nodes/move" of the nodes of each active cell, if any moved. */
     void
     write(Archive &archive) const override;
