@@ -17,6 +17,7 @@ Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """
 
 import csv
+import itertools
 import json
 import os
 import pathlib
@@ -31,6 +32,9 @@ ranks = 1
 printed = []
 _folder = None
 _count = 0
+# Of scenes that must be refused every fourth runs on as many ranks as the test
+# has: starting them takes longest.
+_refused = itertools.count()
 
 
 class Run:
@@ -61,7 +65,8 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     _count += 1
     folder = _folder / str(_count)
     words = [str(program), command, str(root / scene)]
-    n = on_ranks or ranks
+    on_one = expect == 2 and next(_refused) % 4 > 0
+    n = on_ranks or (1 if on_one else ranks)
     if n > 1:
         words = ["mpirun", "-q", "-n", str(n)] + words
     if command in ("run", "study"):

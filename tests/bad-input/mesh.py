@@ -3,8 +3,6 @@
 # Copyright (C) 2026 by the Moraine authors
 """Meshes of generators and files that are wrong: each has its message."""
 
-import itertools
-
 base = (root / "tests/bad-input/base.prm").read_text()
 start = base.index("subsection Mesh")
 box = base[start:base.index("end\n", start)]
@@ -16,15 +14,10 @@ square = {"Mesh/Type": "generator", "Mesh/Generator": "subdivided_hyper_rectangl
           "Mesh/Arguments": "8, 8 : 0, 0 : 8, 8 : true"}
 
 
-# Every fourth on as many ranks as the test has: starting them takes longest.
-cases = itertools.count()
-
-
 def refused(name, settings, scene=plane, until="\n"):
     file = folder / "scene.prm"
     file.write_text(scene)
-    result = run(file, settings, expect=2,
-                 on_ranks=None if next(cases) % 4 == 0 else 1)
+    result = run(file, settings, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)).split(until)[0])
     if (result.folder / "history.csv").exists():

@@ -3,17 +3,11 @@
 # Copyright (C) 2026 by the Moraine authors
 """Scenes whose parts do not fit together: each has its message."""
 
-import itertools
-
 scene = "tests/bad-input/base.prm"
-
-# Every third on as many ranks as the test has: starting them takes longest.
-cases = itertools.count()
 
 
 def refused(name, settings, command="run"):
-    result = run(scene, settings, expect=2, command=command,
-                 on_ranks=None if next(cases) % 3 == 0 else 1)
+    result = run(scene, settings, expect=2, command=command)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)))
     if (result.folder / "history.csv").exists():
