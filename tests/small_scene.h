@@ -17,6 +17,20 @@
 
 namespace moraine
 {
+  /** A mesh of n^dim unit cells from the origin. */
+  template <int dim>
+  MeshParameters<dim>
+  unit_cells(const unsigned int n)
+  {
+    MeshParameters<dim> parameters;
+    for (unsigned int d = 0; d < dim; ++d)
+      parameters.upper_corner[d] = n;
+    parameters.cell_size = 1;
+    return parameters;
+  }
+
+
+
   /**
    * A mesh of 4^dim unit cells with a box body of n^dim points per full cell,
    * from 0.3 to 3.4 in every direction, for tests.
@@ -24,16 +38,6 @@ namespace moraine
   template <int dim>
   struct SmallScene
   {
-    static MeshParameters<dim>
-    mesh_parameters()
-    {
-      MeshParameters<dim> parameters;
-      for (unsigned int d = 0; d < dim; ++d)
-        parameters.upper_corner[d] = 4;
-      parameters.cell_size = 1;
-      return parameters;
-    }
-
     static PointFields
     fields(const bool                                          gimp,
            const StrainMeasure                                 measure,
@@ -51,7 +55,7 @@ namespace moraine
       const unsigned int  n       = 2,
       const StrainMeasure measure = StrainMeasure::small,
       const std::vector<std::shared_ptr<const Material>> &materials = {})
-      : mesh(mesh_parameters(), MPI_COMM_WORLD)
+      : mesh(unit_cells<dim>(4), MPI_COMM_WORLD)
       , space(mesh, 1)
       , points(mesh, fields(gimp, measure, materials))
     {

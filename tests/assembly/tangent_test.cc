@@ -48,16 +48,6 @@ namespace
   template <int dim>
   struct Box
   {
-    static MeshParameters<dim>
-    mesh_parameters()
-    {
-      MeshParameters<dim> parameters;
-      for (unsigned int d = 0; d < dim; ++d)
-        parameters.upper_corner[d] = 3;
-      parameters.cell_size = 1;
-      return parameters;
-    }
-
     static PointFields
     fields(const Method method, const std::shared_ptr<const Material> &material)
     {
@@ -74,7 +64,7 @@ namespace
 
     Box(const Method method, const bool plastic)
       : law(material(plastic))
-      , mesh(mesh_parameters(), MPI_COMM_WORLD)
+      , mesh(unit_cells<dim>(3), MPI_COMM_WORLD)
       , space(mesh, method == Method::quadratic_elements ? 2 : 1)
       , points(mesh, fields(method, law))
     {

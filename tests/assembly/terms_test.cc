@@ -311,7 +311,7 @@ namespace
   {
     Bodies(const std::vector<std::pair<Point<2>, Point<2>>> &boxes,
            const MeshAfterStep                               after_step)
-      : mesh(SmallScene<2>::mesh_parameters(), MPI_COMM_WORLD)
+      : mesh(unit_cells<2>(4), MPI_COMM_WORLD)
       , space(mesh, 1)
       , points(mesh,
                SmallScene<2>::fields(

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <memory>
 
+#include "../small_scene.h"
+
 namespace moraine
 {
   enum class Method
@@ -43,16 +45,6 @@ namespace moraine
   struct DomainScene
   {
     using Options = DomainSceneOptions;
-
-    static MeshParameters<dim>
-    mesh_parameters()
-    {
-      MeshParameters<dim> parameters;
-      for (unsigned int d = 0; d < dim; ++d)
-        parameters.upper_corner[d] = 4;
-      parameters.cell_size = 1;
-      return parameters;
-    }
 
     static PointFields
     fields(const Options &options)
@@ -154,7 +146,7 @@ namespace moraine
 
     explicit DomainScene(const Options &options)
       : options(options)
-      , mesh(mesh_parameters(), MPI_COMM_WORLD)
+      , mesh(unit_cells<dim>(4), MPI_COMM_WORLD)
       , is_distorted(distort(mesh, options))
       , space(mesh, 1)
       , points(mesh, fields(options))

@@ -618,8 +618,7 @@ namespace
   {
     for (const bool turned : {false, true})
       {
-        BackgroundMesh<2> mesh(DomainScene<2>::mesh_parameters(),
-                               MPI_COMM_WORLD);
+        BackgroundMesh<2> mesh(unit_cells<2>(4), MPI_COMM_WORLD);
         GridSpace<2>      space(mesh, 1);
         PointFields       fields;
         Cpdi1Basis<2>::request_fields(fields);
