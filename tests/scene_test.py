@@ -32,8 +32,8 @@ ranks = 1
 printed = []
 _folder = None
 _count = 0
-# Of scenes that must be refused every fourth runs on as many ranks as the test
-# has: starting them takes longest.
+# Of scenes that must be refused every fourth runs on two ranks: starting them
+# takes longest.
 _refused = itertools.count()
 
 
@@ -65,8 +65,9 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     _count += 1
     folder = _folder / str(_count)
     words = [str(program), command, str(root / scene)]
-    on_one = expect == 2 and next(_refused) % 4 > 0
-    n = on_ranks or (1 if on_one else ranks)
+    n = on_ranks or ranks
+    if expect == 2 and not on_ranks:
+        n = 2 if next(_refused) % 4 == 0 else 1
     if n > 1:
         words = ["mpirun", "-q", "-n", str(n)] + words
     if command in ("run", "study"):

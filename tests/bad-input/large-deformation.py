@@ -1,4 +1,4 @@
-# ranks: 1 2
+# ranks: 1
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Mistakes and faults of finite strain, domains and moving meshes."""

@@ -1,4 +1,4 @@
-# ranks: 1 2
+# ranks: 1
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Rows of a point file that are wrong are named by their line."""

@@ -1,3 +1,4 @@
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A nearly incompressible layer that cuts the cells of its mesh: multigrid

@@ -1,4 +1,4 @@
-# ranks: 2  # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 # Deep beam (Cortis et al. 2017, section 5.2, tables 2 and 3): u_y at the right

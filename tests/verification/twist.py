@@ -1,4 +1,4 @@
-# ranks: 2  # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Doughnut twist (Wang et al. 2018, section 3.2). To 10 degrees: torque and
