@@ -151,18 +151,15 @@ namespace moraine
         for (const unsigned int k : {0, 1})
           {
             const Shape<dim> &operand = k == 0 ? *a : *b;
-            std::string       own     = part == names[k] ? "" : part;
-            if (!own.empty())
-              {
-                const std::string prefix = prefix_of(names[k]);
-                if (own.rfind(prefix, 0) != 0)
-                  continue;
-                own.erase(0, prefix.size());
-                if (std::find(operand.parts().begin(),
-                              operand.parts().end(),
-                              own) == operand.parts().end())
-                  continue;
-              }
+            const bool        whole   = part.empty() || part == names[k];
+            const auto        own =
+              std::find_if(operand.parts().begin(),
+                           operand.parts().end(),
+                           [&](const std::string &name) {
+                             return prefix_of(names[k]) + name == part;
+                           });
+            if (!whole && own == operand.parts().end())
+              continue;
             Extent<dim> limited = extent;
             limited.box = intersection(extent.box, this->bounding_box());
             // a rim that both have belongs to the first, if it bounds the
@@ -175,7 +172,9 @@ namespace moraine
                  k == 1 ? Along::never :
                           (outer ? Along::outer : Along::inner)});
             const auto more =
-              operand.faces(own, body_inside != (k == 1 && takes_off), limited);
+              operand.faces(whole ? "" : *own,
+                            body_inside != (k == 1 && takes_off),
+                            limited);
             result.insert(result.end(), more.begin(), more.end());
           }
         return result;
@@ -187,12 +186,16 @@ namespace moraine
                       const Point<dim>          &reference) const override
       {
         VolumeMoments<dim> sum;
-        if (operation != Operation::intersect)
-          sum = a->moments(cell, reference);
-        if (operation == Operation::unite)
-          sum.add(1., b->moments(cell, reference));
-        sum.add(operation == Operation::intersect ? 1. : -1.,
-                common_moments(cell, reference));
+        const auto         add =
+          [&](const double sign, const auto &shape, const auto &part) {
+            sum.add(sign, shape.moments(part, reference));
+          };
+        // pieces are exact for the straight one, moments also for many curved
+        // ones
+        if (a->is_straight())
+          for_each_term(cell, *a, *b, add);
+        else
+          for_each_term(cell, *b, *a, add);
         return sum;
       }
 
@@ -201,16 +204,14 @@ namespace moraine
                          const double               sign,
                          SignedPieces<dim>         &pieces) const override
       {
-        if (operation != Operation::intersect)
-          a->add_pieces(cell, sign, pieces);
-        if (operation == Operation::unite)
-          b->add_pieces(cell, sign, pieces);
-        const double common = operation == Operation::intersect ? sign : -sign;
-        if (operation == Operation::hollow_out)
-          b->add_pieces(cell, common, pieces);
-        else
-          for (const auto &piece : pieces_of(*a, *b, cell))
-            b->add_pieces(piece.polytope, common * piece.sign, pieces);
+        for_each_term(cell,
+                      *a,
+                      *b,
+                      [&](const double own,
+                          const auto  &shape,
+                          const auto  &part) {
+                        shape.add_pieces(part, sign * own, pieces);
+                      });
       }
 
     private:
@@ -236,33 +237,30 @@ namespace moraine
         return result;
       }
 
-      /** Those of the first shape, if the other is in the cell at all. */
-      static SignedPieces<dim>
-      pieces_of(const Shape<dim>          &first,
-                const Shape<dim>          &other,
-                const ConvexPolytope<dim> &cell)
+      /**
+       * Call @p action(sign, shape, polytope) for parts of polytopes in a or b
+       * that sum up to the part of a cell in the combination. What both share
+       * is that in the @p second of the pieces of the @p first.
+       */
+      template <typename Action>
+      void
+      for_each_term(const ConvexPolytope<dim> &cell,
+                    const Shape<dim>          &first,
+                    const Shape<dim>          &second,
+                    const Action              &action) const
       {
-        SignedPieces<dim> pieces;
-        if (other.overlap(cell) != Overlap::none)
-          first.add_pieces(cell, 1., pieces);
-        return pieces;
-      }
-
-      /** Of ab, or of b where it lies inside a. */
-      VolumeMoments<dim>
-      common_moments(const ConvexPolytope<dim> &cell,
-                     const Point<dim>          &reference) const
-      {
+        const double sign = operation == Operation::intersect ? 1. : -1.;
+        if (operation != Operation::intersect)
+          action(1., *a, cell);
+        if (operation == Operation::unite)
+          action(1., *b, cell);
         if (operation == Operation::hollow_out)
-          return b->moments(cell, reference);
-        // pieces are exact for the straight one, moments also for many curved
-        // ones
-        const Shape<dim>  &first  = a->is_straight() ? *a : *b;
-        const Shape<dim>  &second = a->is_straight() ? *b : *a;
-        VolumeMoments<dim> sum;
-        for (const auto &piece : pieces_of(first, second, cell))
-          sum.add(piece.sign, second.moments(piece.polytope, reference));
-        return sum;
+          return action(sign, *b, cell);
+        SignedPieces<dim> pieces;
+        if (second.overlap(cell) != Overlap::none)
+          first.add_pieces(cell, 1., pieces);
+        for (const auto &piece : pieces)
+          action(sign * piece.sign, second, piece.polytope);
       }
 
       Operation                  operation;

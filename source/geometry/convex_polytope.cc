@@ -3,7 +3,9 @@
 
 #include <moraine/geometry/convex_polytope.h>
 
-#include <moraine/geometry/polygon.h>
+#include <deal.II/boost_adaptors/segment.h>
+
+#include <boost/geometry/algorithms/intersects.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +16,100 @@ namespace moraine
 {
   using namespace dealii;
 
-  namespace
+  double
+  polygon_area(const Polygon &polygon)
   {
-    // where the edge from a (kept, at distance da) to b leaves the half space
-    template <int dim>
-    Point<dim>
-    crossing(const Point<dim> &a,
-             const double      da,
-             const Point<dim> &b,
-             const double      db)
-    {
-      return a + (da / (da - db)) * (b - a);
-    }
-  } // namespace
+    double area = 0.;
+    for (unsigned int i = 2; i < polygon.size(); ++i)
+      area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    return area;
+  }
+
+
+
+  std::pair<unsigned int, unsigned int>
+  first_crossing(const Polygon &vertices)
+  {
+    const unsigned int n    = vertices.size();
+    const auto         next = [n](const unsigned int i) { return (i + 1) % n; };
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Point<2> &a = vertices[i], &b = vertices[next(i)];
+        const Point<2> &c = vertices[next(next(i))];
+        if (a == b)
+          return {i, i};
+        if (cross(b - a, c - b) == 0. && (b - a) * (c - b) < 0.)
+          return {i, next(i)};
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i + 2; j < n; ++j)
+        if (next(j) != i && boost::geometry::intersects(
+                              Segment<2>(vertices[i], vertices[i + 1]),
+                              Segment<2>(vertices[j], vertices[next(j)])))
+          return {i, j};
+    return {n, n};
+  }
+
+
+
+  // by cutting ears
+  std::vector<Polygon>
+  convex_parts(Polygon p)
+  {
+    bool is_convex = true;
+    for (unsigned int i = 0; i < p.size(); ++i)
+      {
+        const Point<2> &b = p[(i + 1) % p.size()], &c = p[(i + 2) % p.size()];
+        is_convex = is_convex && cross(b - p[i], c - b) >= 0.;
+      }
+    if (is_convex)
+      return {p};
+    std::vector<Polygon> triangles;
+    const auto           is_ear = [&p](const unsigned int i) {
+      const unsigned int n = p.size();
+      const Point<2>     a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
+      if (cross(b - a, c - b) <= 0.)
+        return false;
+      return std::none_of(p.begin(), p.end(), [&](const Point<2> &x) {
+        return x != a && x != b && x != c && cross(b - a, x - a) >= 0. &&
+               cross(c - b, x - b) >= 0. && cross(a - c, x - c) >= 0.;
+      });
+    };
+    while (p.size() >= 3)
+      {
+        const unsigned int n   = p.size();
+        unsigned int       ear = 0;
+        while (ear < n && !is_ear(ear))
+          ++ear;
+        if (ear == n)
+          {
+            // only vertices along one straight line are left
+            AssertThrow(std::abs(polygon_area(p)) <= 1e-12 *
+                                                       p[0].distance(p[n / 2]) *
+                                                       p[0].distance(p[n / 2]),
+                        ExcInternalError());
+            break;
+          }
+        triangles.push_back({p[(ear + n - 1) % n], p[ear], p[(ear + 1) % n]});
+        p.erase(p.begin() + ear);
+      }
+    return triangles;
+  }
+
+
+
+  PlaneFrame::PlaneFrame(const Point<3> &origin, const Tensor<1, 3> &normal)
+    : origin(origin)
+  {
+    unsigned int smallest = 0;
+    for (unsigned int d = 1; d < 3; ++d)
+      if (std::abs(normal[d]) < std::abs(normal[smallest]))
+        smallest = d;
+    first = Point<3>::unit_vector(smallest);
+    first -= (first * normal) * normal;
+    first /= first.norm();
+    second = cross_product_3d(normal, first);
+  }
 
 
 
@@ -34,9 +117,25 @@ namespace moraine
   ConvexPolytope<dim>::ConvexPolytope(const CellVertices<dim> &vertices,
                                       const double             round_off,
                                       const bool               split)
-    : round_off(round_off)
+    : corner(vertices.begin(), vertices.end())
+    , round_off(round_off)
   {
-    make_faces(vertices, split);
+    set_tolerance();
+    if constexpr (dim == 2)
+      {
+        std::swap(corner[2], corner[3]);
+        loops     = {0, 1, 2, 3};
+        loop_ends = {4};
+      }
+    else
+      for (const std::array<unsigned int, 4> &face :
+           {std::array<unsigned int, 4>{{0, 4, 6, 2}},
+            {{1, 3, 7, 5}},
+            {{0, 1, 5, 4}},
+            {{2, 6, 7, 3}},
+            {{0, 2, 3, 1}},
+            {{4, 5, 7, 6}}})
+        add_face(face, split);
   }
 
 
@@ -44,13 +143,8 @@ namespace moraine
   template <int dim>
   ConvexPolytope<dim>::ConvexPolytope(const Point<dim> &lower,
                                       const Point<dim> &upper)
-  {
-    CellVertices<dim> vertices;
-    for (unsigned int v = 0; v < vertices.size(); ++v)
-      for (unsigned int d = 0; d < dim; ++d)
-        vertices[v][d] = ((v >> d) & 1) ? upper[d] : lower[d];
-    make_faces(vertices, false);
-  }
+    : ConvexPolytope(cell_of<dim>({{lower, upper}}), 0., false)
+  {}
 
 
 
@@ -67,33 +161,6 @@ namespace moraine
     result.round_off = round_off;
     result.set_tolerance();
     return result;
-  }
-
-
-
-  template <int dim>
-  void
-  ConvexPolytope<dim>::make_faces(const CellVertices<dim> &cell,
-                                  const bool               split)
-  {
-    corner.assign(cell.begin(), cell.end());
-    if (dim == 2)
-      std::swap(corner[2], corner[3]);
-    set_tolerance();
-    if constexpr (dim == 2)
-      {
-        loops     = {0, 1, 2, 3};
-        loop_ends = {4};
-      }
-    else
-      for (const std::array<unsigned int, 4> &face :
-           {std::array<unsigned int, 4>{{0, 4, 6, 2}},
-            {{1, 3, 7, 5}},
-            {{0, 1, 5, 4}},
-            {{2, 6, 7, 3}},
-            {{0, 2, 3, 1}},
-            {{4, 5, 7, 6}}})
-        add_face(face, split);
   }
 
 
@@ -212,13 +279,11 @@ namespace moraine
           return edge[2];
       const unsigned short index = corner.size();
       cut_edges.push_back({{in, out, index}});
-      corner.push_back(
-        crossing(old[in], distance[in], old[out], distance[out]));
+      const double way = distance[in] / (distance[in] - distance[out]);
+      corner.push_back(old[in] + way * (old[out] - old[in]));
       on_plane.push_back(true);
       return index;
     };
-
-
 
     // the edges of the kept faces that lie in the plane
     std::vector<std::array<unsigned short, 2>> rim;

@@ -4,10 +4,8 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 
-#include <moraine/geometry/curve_subdivision.h>
-#include <moraine/geometry/round_moments.h>
+#include <moraine/geometry/curved_parts.h>
 #include <moraine/geometry/shapes.h>
-#include <moraine/geometry/surfaces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +17,16 @@ namespace moraine
 
   namespace
   {
+    /** How far a disc across an axis goes in each direction; a ball if the axis
+     * is zero. */
     template <int dim>
-    BoundingBox<dim>
-    box_around(const Point<dim> &centre, const double radius)
+    Tensor<1, dim>
+    arm(const double radius, const Tensor<1, dim> &axis)
     {
-      Tensor<1, dim> arm;
+      Tensor<1, dim> result;
       for (unsigned int d = 0; d < dim; ++d)
-        arm[d] = radius;
-      return BoundingBox<dim>(std::make_pair(centre - arm, centre + arm));
+        result[d] = radius * std::sqrt(std::max(0., 1. - axis[d] * axis[d]));
+      return result;
     }
 
 
@@ -47,8 +47,6 @@ namespace moraine
         if (!(radius > 0.) || !std::isfinite(radius))
           throw InputError("a radius must be positive, found " +
                            std::to_string(radius));
-        if (axis.norm() > 0.)
-          this->axis /= axis.norm();
       }
 
       double
@@ -111,10 +109,7 @@ namespace moraine
       moments_of_part(const ConvexPolytope<dim> &cell,
                       const Point<dim>          &reference) const override
       {
-        if constexpr (dim == 3)
-          if (axis.norm() > 0.)
-            return moments_in_cylinder(cell, centre, axis, radius, reference);
-        return moments_in_ball(cell, centre, radius, reference);
+        return moments_in_round(cell, centre, axis, radius, reference);
       }
 
     private:
@@ -159,18 +154,12 @@ namespace moraine
           [this](const Point<dim> &p) { return level(p); }, cell);
       }
 
-      double
-      value(const Point<dim> &x) const override
-      {
-        return expression.value(x);
-      }
-
       Tensor<1, dim>
       gradient(const Point<dim> &x, const double length) const override
       {
         // step ~ eps^(1/3)
         return central_gradient<dim>(
-          [this](const Point<dim> &p) { return value(p); }, x, 1e-5 * length);
+          [this](const Point<dim> &p) { return level(p); }, x, 1e-5 * length);
       }
 
       NearestPoint<dim>
@@ -180,7 +169,7 @@ namespace moraine
           length > 0. ? length : std::max(coordinate_magnitude<dim>(x), 1e-3);
         const Tensor<1, dim> g     = gradient(x, scale);
         const double         slope = g.norm();
-        const double         phi   = value(x);
+        const double         phi   = level(x);
         return {slope > 0. ? phi / slope : phi, -unit_or_any<dim>(g), true};
       }
 
@@ -221,32 +210,15 @@ namespace moraine
 
 
   template <int dim>
-  typename Shape<dim>::Faces
-  SmoothShape<dim>::faces(const std::string &,
-                          const bool         body_inside,
-                          const Extent<dim> &extent) const
-  {
-    return {
-      make_smooth_face<dim>(std::static_pointer_cast<const SmoothShape<dim>>(
-                              this->shared_from_this()),
-                            body_inside,
-                            extent)};
-  }
-
-
-
-  template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
-  make_ball(const Point<dim>     &centre,
-            const double          radius,
-            const Tensor<1, dim> &axis)
+  make_ball(const Point<dim> &centre, const double radius)
   {
-    return std::make_shared<RoundShape<dim>>(centre,
-                                             radius,
-                                             axis,
-                                             axis.norm() > 0. ?
-                                               unlimited_box<dim>() :
-                                               box_around(centre, radius));
+    const Tensor<1, dim> axis, across = arm(radius, axis);
+    return std::make_shared<RoundShape<dim>>(
+      centre,
+      radius,
+      axis,
+      BoundingBox<dim>({centre - across, centre + across}));
   }
 
   ShapePointer<3>
@@ -257,15 +229,11 @@ namespace moraine
   {
     if (start == end)
       throw InputError("the axis of a cylinder must have a length");
-    const Tensor<1, 3> axis = end - start;
-    Tensor<1, 3>       arm;
-    for (unsigned int d = 0; d < 3; ++d)
-      arm[d] =
-        radius *
-        std::sqrt(std::max(0., 1. - axis[d] * axis[d] / axis.norm_square()));
-    const BoundingBox<3> box(
-      std::vector<Point<3>>{start - arm, start + arm, end - arm, end + arm});
-    const auto round = [&](const double r) {
+    const Tensor<1, 3>   axis   = (end - start) / start.distance(end);
+    const Tensor<1, 3>   across = arm(radius, axis);
+    const BoundingBox<3> box(std::vector<Point<3>>{
+      start - across, start + across, end - across, end + across});
+    const auto           round = [&](const double r) {
       return std::make_shared<RoundShape<3>>(start, r, axis, box);
     };
     ShapePointer<3> outer = round(radius);
@@ -275,7 +243,9 @@ namespace moraine
                          round(inner_radius),
                          {{"outer", "inner"}});
     return combine<3>(Operation::intersect,
-                      make_slab(start, end, box),
+                      make_convex<3>({{start, -axis}, {end, axis}},
+                                     box,
+                                     {"bottom", "top"}),
                       outer,
                       {{"", inner_radius > 0. ? "" : "side"}});
   }
@@ -294,9 +264,8 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)                                                 \
-  template class SmoothShape<dim>;                                       \
   template std::shared_ptr<const SmoothShape<dim>> make_ball(            \
-    const Point<dim> &, const double, const Tensor<1, dim> &);           \
+    const Point<dim> &, const double);                                   \
   template std::shared_ptr<const SmoothShape<dim>> make_expression<dim>( \
     const std::string &, const std::string &, const double);
   INSTANTIATE(2)

@@ -3,10 +3,8 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/curve_subdivision.h>
-#include <moraine/geometry/round_moments.h>
+#include <moraine/geometry/curved_parts.h>
 #include <moraine/geometry/shapes.h>
-#include <moraine/geometry/surfaces.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -86,19 +84,8 @@ namespace moraine
 
     /** Boxes that make up the part of a cell within an extent. */
     template <int dim>
-    class BoxesWithin
+    struct BoxesWithin
     {
-    public:
-      BoxesWithin(const SmoothShape<dim> &shape,
-                  const CellMap<dim>     &map,
-                  const double            cell_size,
-                  const Extent<dim>      &extent)
-        : shape(shape)
-        , map(map)
-        , tolerance(1e-12 * cell_size)
-        , extent(extent)
-      {}
-
       void
       add(BoundingBox<dim> box, const unsigned int halvings)
       {
@@ -115,15 +102,12 @@ namespace moraine
             add(box.child(child), halvings - 1);
       }
 
-      std::vector<BoundingBox<dim>> boxes;
-
-    private:
       CellVertices<dim>
       image(const BoundingBox<dim> &box) const
       {
-        CellVertices<dim> vertices;
-        for (unsigned int v = 0; v < vertices.size(); ++v)
-          vertices[v] = map.place(box.vertex(v));
+        CellVertices<dim> vertices = cell_of(box);
+        for (auto &x : vertices)
+          x = map.place(x);
         return vertices;
       }
 
@@ -194,8 +178,12 @@ namespace moraine
 
       const SmoothShape<dim> &shape;
       const CellMap<dim>     &map;
-      const double            tolerance;
       const Extent<dim>      &extent;
+
+      /** Lengths below are round-off. */
+      const double tolerance;
+
+      std::vector<BoundingBox<dim>> boxes = {};
     };
 
 
@@ -233,7 +221,7 @@ namespace moraine
           return;
         const CellMap<dim> map(cell);
         const double       size = cell_size<dim>(cell);
-        BoxesWithin<dim>   within(*shape, map, size, extent);
+        BoxesWithin<dim>   within{*shape, map, extent, 1e-12 * size};
         within.add(create_unit_bounding_box<dim>(), 4);
         if (within.boxes.empty())
           return;
@@ -306,10 +294,9 @@ namespace moraine
       NearestPoint<2>
       nearest(const Point<2> &x) const override
       {
-        constexpr double   tolerance = 1e-10;
-        NearestPoint<2>    point     = SmoothFace<2>::nearest(x);
-        const Tensor<1, 2> arm       = x - centre;
-        const double       angle     = from_start(std::atan2(arm[1], arm[0]));
+        constexpr double tolerance = 1e-10;
+        NearestPoint<2>  point     = SmoothFace<2>::nearest(x);
+        const double     angle     = from_start(x);
         point.in_extent =
           point.in_extent &&
           (angle <= sweep + tolerance || angle >= 2. * numbers::PI - tolerance);
@@ -327,30 +314,30 @@ namespace moraine
         for (const auto &chord : chords_in_disc<2>(
                {cell[0], cell[1], cell[3], cell[2]}, centre, radius))
           {
-            const Tensor<1, 2> arm  = chord.leave - centre;
-            const double       from = from_start(std::atan2(arm[1], arm[0]));
+            const double from = from_start(chord.leave);
             for (const double turn : {0., 2. * numbers::PI})
               {
                 const Stretch piece{std::max(from - turn, 0.),
                                     std::min(from - turn + chord.angle_after,
                                              sweep)};
-                if (piece.to - piece.from > 4e-15)
+                if (piece.second - piece.first > 4e-15)
                   for (const Stretch &part : extent.stretches(
                          piece, tolerance, [this](const double angle) {
                            const Point<2> x = at_angle(angle);
                            return std::make_pair(x, normal_at(x));
                          }))
-                    add_points(part.from, part.to, n_gauss, out);
+                    add_points(part.first, part.second, n_gauss, out);
               }
           }
       }
 
     private:
-      /** An angle as seen from the start of the arc, in [0, 2π). */
+      /** The angle to x from the start of the arc, in [0, 2π). */
       double
-      from_start(const double angle) const
+      from_start(const Point<2> &x) const
       {
-        constexpr double turn = 2. * numbers::PI;
+        constexpr double turn  = 2. * numbers::PI;
+        const double     angle = std::atan2(x[1] - centre[1], x[0] - centre[0]);
         return angle - start - turn * std::floor((angle - start) / turn);
       }
 
@@ -398,13 +385,19 @@ namespace moraine
 
 
   template <int dim>
-  SurfacePointer<dim>
-  make_smooth_face(const std::shared_ptr<const SmoothShape<dim>> &shape,
-                   const bool                                     body_inside,
-                   const Extent<dim>                             &extent)
+  typename Shape<dim>::Faces
+  SmoothShape<dim>::faces(const std::string &,
+                          const bool         body_inside,
+                          const Extent<dim> &extent) const
   {
-    return std::make_shared<SmoothFace<dim>>(shape, body_inside, extent);
+    return {std::make_shared<SmoothFace<dim>>(
+      std::static_pointer_cast<const SmoothShape<dim>>(
+        this->shared_from_this()),
+      body_inside,
+      extent)};
   }
+
+
 
   SurfacePointer<2>
   make_arc(const Point<2>  &centre,
@@ -420,12 +413,6 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                             \
-  template SurfacePointer<dim> make_smooth_face(     \
-    const std::shared_ptr<const SmoothShape<dim>> &, \
-    const bool,                                      \
-    const Extent<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template class SmoothShape<2>;
+  template class SmoothShape<3>;
 } // namespace moraine

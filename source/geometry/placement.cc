@@ -6,10 +6,10 @@
 #include <moraine/core/exceptions.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <deal.II/physics/transformations.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace moraine
@@ -56,11 +56,6 @@ namespace moraine
   }
 
 
-
-  template <int dim>
-  Placement<dim>::Placement()
-    : matrix(unit_symmetric_tensor<dim>())
-  {}
 
   template <int dim>
   Placement<dim>::Placement(const double          degrees,
@@ -132,36 +127,24 @@ namespace moraine
 
 
 
-  namespace
-  {
-    double
-    evaluate(const std::function<double(const double)> &curve,
-             const double                               t,
-             const std::string                         &what)
-    {
-      if (!curve)
-        return 0.;
-      const double value = curve(t);
-      if (!std::isfinite(value))
-        throw InputError("the prescribed " + what +
-                         " is not a number at t = " + std::to_string(t));
-      return value;
-    }
-  } // namespace
-
-
-
   template <int dim>
   Placement<dim>
   RigidMotion<dim>::pose(const double t) const
   {
     if (!moves())
       return Placement<dim>();
+    const auto value = [t](const Curve &curve, const std::string &what) {
+      const double result = curve ? curve(t) : 0.;
+      if (!std::isfinite(result))
+        throw InputError("the prescribed " + what +
+                         " is not a number at t = " + std::to_string(t));
+      return result;
+    };
     Tensor<1, dim> shift;
     for (unsigned int d = 0; d < dim; ++d)
       shift[d] =
-        evaluate(translation[d], t, std::string("translation in ") + "xyz"[d]);
-    const double degrees = evaluate(angle, t, "rotation angle");
+        value(translation[d], std::string("translation in ") + "xyz"[d]);
+    const double degrees = value(angle, "rotation angle");
     return Placement<dim>(degrees, centre, axis, shift);
   }
 
@@ -171,10 +154,9 @@ namespace moraine
   bool
   RigidMotion<dim>::moves() const
   {
-    for (const auto &curve : translation)
-      if (curve)
-        return true;
-    return static_cast<bool>(angle);
+    return angle || std::any_of(translation.begin(),
+                                translation.end(),
+                                [](const Curve &curve) { return bool(curve); });
   }
 
 

@@ -5,9 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/nearest.h>
-#include <moraine/geometry/polygon.h>
 #include <moraine/geometry/shapes.h>
-#include <moraine/geometry/surfaces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,8 +72,16 @@ namespace moraine
         if (kind == "disc" || kind == "ring" || kind == "sphere" ||
             kind == "circle")
           return ball();
-        if (kind == "cylinder")
-          return cylinder();
+        if constexpr (dim == 3)
+          if (kind == "cylinder")
+            {
+              if (point("Axis start") == point("Axis end"))
+                wrong("Axis end", "another point than Axis start");
+              return make_cylinder(point("Axis start"),
+                                   point("Axis end"),
+                                   radius("Radius"),
+                                   inner_radius());
+            }
         if (kind == "half-space" || kind == "plane")
           {
             if (point("Normal").norm() == 0.)
@@ -207,20 +213,6 @@ namespace moraine
       }
 
       ShapePointer<dim>
-      cylinder() const
-      {
-        if (point("Axis start") == point("Axis end"))
-          wrong("Axis end", "another point than Axis start");
-        if constexpr (dim == 3)
-          return make_cylinder(point("Axis start"),
-                               point("Axis end"),
-                               radius("Radius"),
-                               inner_radius());
-        Assert(false, ExcInternalError());
-        return nullptr;
-      }
-
-      ShapePointer<dim>
       combination() const
       {
         const std::vector<std::string> names = p.words("Operands");
@@ -286,9 +278,7 @@ namespace moraine
       extent() const
       {
         Extent<dim> extent;
-        if (kind != "expression" || p.use == ShapeUse::body)
-          return extent;
-        auto corners = extent.box.get_boundary_points();
+        auto        corners = extent.box.get_boundary_points();
         for (const bool upper : {false, true})
           {
             const std::string key =
@@ -404,9 +394,9 @@ namespace moraine
 
   template <int dim>
   SurfacePointer<dim>
-  make_surface(const SurfaceParameters<dim> &parameters,
-               const NamedShapes<dim>       &bodies,
-               const std::string            &section)
+  make_surface(const ShapeParameters<dim> &parameters,
+               const NamedShapes<dim>     &bodies,
+               const std::string          &section)
   {
     try
       {
@@ -432,7 +422,7 @@ namespace moraine
                                         const std::string &);                   \
   template NamedShapes<dim>  make_shapes(                                       \
      const std::map<std::string, ShapeParameters<dim>> &, const std::string &); \
-  template SurfacePointer<dim> make_surface(const SurfaceParameters<dim> &,     \
+  template SurfacePointer<dim> make_surface(const ShapeParameters<dim> &,       \
                                             const NamedShapes<dim> &,           \
                                             const std::string &);
   INSTANTIATE(2)

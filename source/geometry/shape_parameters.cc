@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/shape_parameters.h>
+#include <moraine/geometry/shape_library.h>
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/nearest.h>

@@ -3,11 +3,10 @@
 
 #include <moraine/geometry/shapes.h>
 
-#include <moraine/geometry/polygon.h>
-#include <moraine/geometry/surfaces.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace moraine
@@ -17,53 +16,67 @@ namespace moraine
   namespace
   {
     template <int dim>
-    Point<dim>
-    lift(const Tensor<1, 2> &a)
-    {
-      Point<dim> lifted;
-      lifted[0] = a[0];
-      lifted[1] = a[1];
-      return lifted;
-    }
+    using Planes = std::vector<HalfSpace<dim>>;
 
-
-
-    /** The intersection of half spaces; one of them if it has no limits. */
+    /** A face of the rim, as far as an extent goes. */
     template <int dim>
-    class ConvexShape : public Shape<dim>
+    using Face = std::function<SurfacePointer<dim>(const bool body_inside,
+                                                   const Extent<dim> &extent)>;
+
+
+
+    /** Convex parts side by side, each the intersection of half spaces. */
+    template <int dim>
+    class StraightShape : public Shape<dim>
     {
     public:
       /**
-       * @p bounding_box must hold the intersection of @p sides. @p names are
-       * those of the sides, or none.
+       * @p names are those of the @p faces, or none. Several parts need their
+       * @p outline as seen along z, between the lowest and highest z of the
+       * @p box. The @p whole of the faces may be given as one.
        */
-      ConvexShape(const std::vector<HalfSpace<dim>> &sides,
-                  const BoundingBox<dim> &bounding_box  = unlimited_box<dim>(),
-                  const std::vector<std::string> &names = {})
-        : Shape<dim>(bounding_box, true, names)
+      StraightShape(const std::vector<Planes<dim>> &parts,
+                    const BoundingBox<dim>         &box,
+                    const std::vector<std::string> &names,
+                    const std::vector<Face<dim>>   &sides,
+                    const Face<dim>                &whole   = {},
+                    const SurfacePointer<2>        &outline = nullptr)
+        : Shape<dim>(box, true, names)
+        , convex(parts)
         , sides(sides)
+        , whole(whole)
+        , outline(outline)
       {}
 
       double
       level(const Point<dim> &p) const override
       {
         double value = std::numeric_limits<double>::infinity();
-        for (const auto &side : sides)
-          value = std::min(value, side.outward * (side.point - p));
+        if (convex.size() == 1)
+          for (const auto &plane : convex[0])
+            value = std::min(value, plane.depth(p));
+        else
+          value = outline->level(Point<2>(p[0], p[1]));
+        if (dim == 3 && convex.size() > 1)
+          value = std::min({value,
+                            p[dim - 1] - this->bounding_box().lower_bound(2),
+                            this->bounding_box().upper_bound(2) - p[dim - 1]});
         return value;
       }
 
       Overlap
       overlap(const ConvexPolytope<dim> &cell) const override
       {
+        if (convex.size() > 1)
+          return Shape<dim>::overlap(cell);
         Overlap answer = Overlap::all;
-        for (const auto &side : sides)
+        for (const auto &plane : convex[0])
           {
             double lowest  = std::numeric_limits<double>::infinity();
             double highest = -lowest;
             for (const auto &x : cell.vertices())
               {
-                const double depth = side.outward * (side.point - x);
+                const double depth = plane.depth(x);
                 lowest             = std::min(lowest, depth);
                 highest            = std::max(highest, depth);
               }
@@ -80,22 +93,12 @@ namespace moraine
             const bool         body_inside,
             const Extent<dim> &extent) const override
       {
+        if (part.empty() && whole)
+          return {whole(body_inside, extent)};
         typename Shape<dim>::Faces faces;
         for (unsigned int i = 0; i < sides.size(); ++i)
           if (part.empty() || this->parts()[i] == part)
-            {
-              Extent<dim> limited = extent;
-              limited.box         = intersection(extent.box, box_of(sides[i]));
-              std::vector<HalfSpace<dim>> ends;
-              for (const auto &side : sides)
-                if (std::abs(side.outward * sides[i].outward) < .5)
-                  ends.push_back(side);
-              faces.push_back(
-                make_plane<dim>(sides[i].point,
-                                (body_inside ? 1. : -1.) * sides[i].outward,
-                                limited,
-                                ends));
-            }
+            faces.push_back(sides[i](body_inside, extent));
         return faces;
       }
 
@@ -105,192 +108,90 @@ namespace moraine
                          const double               sign,
                          SignedPieces<dim>         &pieces) const override
       {
-        ConvexPolytope<dim> part = cell;
-        for (const auto &side : sides)
-          if (!part.empty())
-            part.clip(side.point, -side.outward);
-        if (!part.empty())
-          pieces.push_back({sign, part});
-      }
-
-    private:
-      /** One that holds a side. */
-      BoundingBox<dim>
-      box_of(const HalfSpace<dim> &side) const
-      {
-        const auto             &box = this->bounding_box();
-        std::vector<Point<dim>> corners;
-        for (unsigned int v = 0; v < (1 << dim); ++v)
-          if (side.outward * (box.vertex(v) - side.point) == 0.)
-            corners.push_back(box.vertex(v));
-        return corners.empty() ? box : BoundingBox<dim>(corners);
-      }
-
-      std::vector<HalfSpace<dim>> sides;
-    };
-
-
-
-    template <int dim>
-    BoundingBox<dim>
-    box_of(const std::vector<Point<2>>     &vertices,
-           const std::pair<double, double> &heights)
-    {
-      std::vector<Point<dim>> corners;
-      for (const auto &x : vertices)
-        for (const double z : {heights.first, heights.second})
+        for (const auto &planes : convex)
           {
-            corners.push_back(lift<dim>(x));
-            if (dim == 3)
-              corners.back()[dim - 1] = z;
-          }
-      return BoundingBox<dim>(corners);
-    }
-
-
-
-    template <int dim>
-    std::vector<std::string>
-    parts_of(const std::vector<Point<2>> &vertices)
-    {
-      std::vector<std::string> names;
-      for (unsigned int i = 1; i <= vertices.size(); ++i)
-        names.push_back(std::to_string(i));
-      if (dim == 3)
-        names.insert(names.end(), {"bottom", "top"});
-      return names;
-    }
-
-
-
-    template <int dim>
-    class PolygonShape : public Shape<dim>
-    {
-    public:
-      PolygonShape(const std::vector<Point<2>>     &vertices,
-                   const std::pair<double, double> &heights)
-        : Shape<dim>(box_of<dim>(vertices, heights),
-                     true,
-                     parts_of<dim>(vertices))
-        , vertices(vertices)
-        , heights(heights)
-        , clockwise(polygon_area(vertices) < 0.)
-        , line(vertices)
-      {
-        line.push_back(line[0]);
-        outline = make_flat_face<2>(line, clockwise);
-        convex  = convex_parts(
-          clockwise ? Polygon(vertices.rbegin(), vertices.rend()) : vertices);
-      }
-
-      double
-      level(const Point<dim> &p) const override
-      {
-        const double value = outline->level(Point<2>(p[0], p[1]));
-        if constexpr (dim == 3)
-          return std::min({value, p[2] - heights.first, heights.second - p[2]});
-        else
-          return value;
-      }
-
-      typename Shape<dim>::Faces
-      faces(const std::string &part,
-            const bool         body_inside,
-            const Extent<dim> &extent) const override
-      {
-        typename Shape<dim>::Faces faces;
-        const auto add = [&](const std::vector<Point<dim>> &corners) {
-          faces.push_back(
-            make_flat_face(corners, body_inside == clockwise, extent));
-        };
-        const auto [low, high] = heights;
-        if constexpr (dim == 2)
-          if (part.empty())
-            {
-              add(line);
-              return faces;
-            }
-        for (unsigned int i = 0; i < vertices.size(); ++i)
-          if (part.empty() || part == std::to_string(i + 1))
-            {
-              const Point<2> &x = line[i], &y = line[i + 1];
-              if constexpr (dim == 2)
-                add({x, y});
-              else
-                add({{x[0], x[1], low},
-                     {y[0], y[1], low},
-                     {y[0], y[1], high},
-                     {x[0], x[1], high}});
-            }
-        if constexpr (dim == 3)
-          for (const bool top : {false, true})
-            if (part.empty() || part == (top ? "top" : "bottom"))
-              {
-                std::vector<Point<3>> corners;
-                for (const auto &x : vertices)
-                  corners.emplace_back(x[0], x[1], top ? high : low);
-                if (!top)
-                  std::reverse(corners.begin(), corners.end());
-                add(corners);
-              }
-        return faces;
-      }
-
-    protected:
-      void
-      add_pieces_of_part(const ConvexPolytope<dim> &cell,
-                         const double               sign,
-                         SignedPieces<dim>         &pieces) const override
-      {
-        ConvexPolytope<dim> slice = cell;
-        if constexpr (dim == 3)
-          {
-            const Tensor<1, dim> up = Point<dim>::unit_vector(2);
-            slice.clip(Point<dim>(heights.first * up), up);
-            slice.clip(Point<dim>(heights.second * up), -up);
-          }
-        for (const auto &polygon : convex)
-          {
-            ConvexPolytope<dim> part = slice;
-            for (unsigned int i = 0; i < polygon.size(); ++i)
-              {
-                const Tensor<1, 2> edge =
-                  polygon[(i + 1) % polygon.size()] - polygon[i];
-                part.clip(lift<dim>(polygon[i]),
-                          lift<dim>(Point<2>(-edge[1], edge[0])));
-              }
+            ConvexPolytope<dim> part = cell;
+            for (const auto &plane : planes)
+              part.clip(plane.point, -plane.outward);
             if (!part.empty())
               pieces.push_back({sign, part});
           }
       }
 
     private:
-      std::vector<Point<2>>     vertices;
-      std::pair<double, double> heights;
-      bool                      clockwise;
-      std::vector<Point<2>>     line; ///< the vertices, closed
-      SurfacePointer<2>         outline;
-      std::vector<Polygon>      convex; ///< parts
+      std::vector<Planes<dim>> convex; ///< parts
+      std::vector<Face<dim>>   sides;
+      Face<dim>                whole;
+      SurfacePointer<2>        outline;
     };
+
+
+
+    template <int dim>
+    Point<dim>
+    lift(const Tensor<1, 2> &a, const double height)
+    {
+      Point<dim> lifted;
+      if (dim == 3)
+        lifted[dim - 1] = height;
+      lifted[0] = a[0];
+      lifted[1] = a[1];
+      return lifted;
+    }
+
+
+
+    /** The planes of a convex polygon, counter-clockwise, or of the prism over
+     * it. */
+    template <int dim>
+    Planes<dim>
+    planes_of(const Polygon &p, const double low, const double high)
+    {
+      Planes<dim> planes;
+      if (dim == 3)
+        planes = {{lift<dim>(p[0], low), lift<dim>({}, -1.)},
+                  {lift<dim>(p[0], high), lift<dim>({}, 1.)}};
+      for (unsigned int i = 0; i < p.size(); ++i)
+        {
+          const Tensor<1, 2> edge = p[(i + 1) % p.size()] - p[i];
+          planes.push_back(
+            {lift<dim>(p[i], low),
+             lift<dim>(Point<2>(edge[1], -edge[0]) / edge.norm(), 0.)});
+        }
+      return planes;
+    }
   } // namespace
 
 
 
   template <int dim>
   ShapePointer<dim>
-  make_space()
+  make_convex(const Planes<dim>              &planes,
+              const BoundingBox<dim>         &box,
+              const std::vector<std::string> &names)
   {
-    return std::make_shared<ConvexShape<dim>>(std::vector<HalfSpace<dim>>());
-  }
-
-
-
-  template <int dim>
-  ShapePointer<dim>
-  make_half_space(const Point<dim> &point, const Tensor<1, dim> &outward_normal)
-  {
-    return std::make_shared<ConvexShape<dim>>(std::vector<HalfSpace<dim>>{
-      {point, outward_normal / outward_normal.norm()}});
+    std::vector<Face<dim>> faces;
+    for (const auto &plane : planes)
+      {
+        Planes<dim>             ends;
+        std::vector<Point<dim>> corners;
+        for (const auto &other : planes)
+          if (std::abs(other.outward * plane.outward) < .5)
+            ends.push_back(other);
+        for (const auto &x : cell_of(box))
+          if (plane.depth(x) == 0.)
+            corners.push_back(x);
+        const BoundingBox<dim> around =
+          corners.empty() ? box : BoundingBox<dim>(corners);
+        faces.push_back([=](const bool inside, const Extent<dim> &extent) {
+          Extent<dim> limited = extent;
+          limited.box         = intersection(extent.box, around);
+          return make_plane<dim>(
+            {plane.point, (inside ? 1. : -1.) * plane.outward}, limited, ends);
+        });
+      }
+    return std::make_shared<StraightShape<dim>>(
+      std::vector<Planes<dim>>{planes}, box, names, faces);
   }
 
 
@@ -299,7 +200,7 @@ namespace moraine
   ShapePointer<dim>
   make_box(const Point<dim> &lower, const Point<dim> &upper)
   {
-    std::vector<HalfSpace<dim>> sides;
+    Planes<dim> sides;
     for (unsigned int d = 0; d < dim; ++d)
       {
         sides.push_back({lower, -Point<dim>::unit_vector(d)});
@@ -308,20 +209,7 @@ namespace moraine
     std::vector<std::string> names{"left", "right", "bottom", "top"};
     if (dim == 3)
       names.insert(names.begin() + 2, {"front", "back"});
-    return std::make_shared<ConvexShape<dim>>(
-      sides, BoundingBox<dim>(std::make_pair(lower, upper)), names);
-  }
-
-  ShapePointer<3>
-  make_slab(const Point<3>       &start,
-            const Point<3>       &end,
-            const BoundingBox<3> &box)
-  {
-    const Tensor<1, 3> axis = (end - start) / start.distance(end);
-    return std::make_shared<ConvexShape<3>>(
-      std::vector<HalfSpace<3>>{{start, -axis}, {end, axis}},
-      box,
-      std::vector<std::string>{"bottom", "top"});
+    return make_convex<dim>(sides, {{lower, upper}}, names);
   }
 
 
@@ -331,15 +219,55 @@ namespace moraine
   make_polygon(const std::vector<Point<2>>     &vertices,
                const std::pair<double, double> &heights)
   {
-    return std::make_shared<PolygonShape<dim>>(vertices, heights);
+    const auto [low, high] = heights;
+    const bool clockwise   = polygon_area(vertices) < 0.;
+    Polygon    line        = vertices;
+    line.push_back(line[0]);
+
+    const auto face = [clockwise](const std::vector<Point<dim>> &corners) {
+      return [=](const bool inside, const Extent<dim> &extent) {
+        return make_flat_face<dim>(corners, inside == clockwise, extent);
+      };
+    };
+    std::vector<std::string> names;
+    std::vector<Face<dim>>   faces;
+    std::vector<Point<dim>>  bottom, top;
+    for (unsigned int i = 0; i < vertices.size(); ++i)
+      {
+        bottom.push_back(lift<dim>(line[i], low));
+        top.push_back(lift<dim>(line[i], high));
+        std::vector<Point<dim>> corners{bottom[i], lift<dim>(line[i + 1], low)};
+        if (dim == 3)
+          corners.insert(corners.end(), {lift<dim>(line[i + 1], high), top[i]});
+        names.push_back(std::to_string(i + 1));
+        faces.push_back(face(corners));
+      }
+    BoundingBox<dim> box(bottom);
+    box.merge_with(BoundingBox<dim>(top));
+    if (dim == 3)
+      {
+        std::reverse(bottom.begin(), bottom.end());
+        names.insert(names.end(), {"bottom", "top"});
+        faces.insert(faces.end(), {face(bottom), face(top)});
+      }
+
+    std::vector<Planes<dim>> parts;
+    for (const auto &part : convex_parts(
+           clockwise ? Polygon(vertices.rbegin(), vertices.rend()) : vertices))
+      parts.push_back(planes_of<dim>(part, low, high));
+    Face<dim> whole;
+    if constexpr (dim == 2)
+      whole = face(line);
+    return std::make_shared<StraightShape<dim>>(
+      parts, box, names, faces, whole, make_flat_face<2>(line, clockwise));
   }
 
 
 
 #define INSTANTIATE(dim)                                                       \
-  template ShapePointer<dim> make_space();                                     \
-  template ShapePointer<dim> make_half_space(const Point<dim> &,               \
-                                             const Tensor<1, dim> &);          \
+  template ShapePointer<dim> make_convex(const std::vector<HalfSpace<dim>> &,  \
+                                         const BoundingBox<dim> &,             \
+                                         const std::vector<std::string> &);    \
   template ShapePointer<dim> make_box(const Point<dim> &, const Point<dim> &); \
   template ShapePointer<dim> make_polygon(const std::vector<Point<2>> &,       \
                                           const std::pair<double, double> &);

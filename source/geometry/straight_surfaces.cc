@@ -3,9 +3,8 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/curve_subdivision.h>
-#include <moraine/geometry/polygon.h>
-#include <moraine/geometry/surfaces.h>
+#include <moraine/geometry/curved_parts.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -126,31 +125,6 @@ namespace moraine
 
 
 
-    /** Points of the affine image of a reference cell at @p o with @p edges. */
-    template <int dim>
-    void
-    add_affine_points(const Quadrature<dim - 1>                 &rule,
-                      const Point<dim>                          &o,
-                      const std::array<Tensor<1, dim>, dim - 1> &edges,
-                      const Tensor<1, dim>                      &normal,
-                      std::vector<SurfacePoint<dim>>            &out)
-    {
-      double jacobian;
-      if constexpr (dim == 2)
-        jacobian = edges[0].norm();
-      else
-        jacobian = cross_product_3d(edges[0], edges[1]) * normal;
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          Point<dim> x = o;
-          for (unsigned int d = 0; d + 1 < dim; ++d)
-            x += rule.point(q)[d] * edges[d];
-          out.push_back({x, normal, rule.weight(q) * jacobian});
-        }
-    }
-
-
-
     /**
      * Quadrature of a flat piece, exact for polynomials of degree
      * 2 n_gauss - 1 whatever its shape; weights are positive if it is convex.
@@ -167,27 +141,38 @@ namespace moraine
                     const unsigned int              n_gauss,
                     std::vector<SurfacePoint<dim>> &out)
     {
+      // points of an affine image of the reference cell at the first vertex
+      const auto add = [&](const Quadrature<dim - 1>                 &rule,
+                           const std::array<Tensor<1, dim>, dim - 1> &edges) {
+        double jacobian;
+        if constexpr (dim == 2)
+          jacobian = edges[0].norm();
+        else
+          jacobian = cross_product_3d(edges[0], edges[1]) * normal;
+        if (dim == 3 && std::abs(jacobian) <= smallest)
+          return;
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            Point<dim> x = p[0];
+            for (unsigned int d = 0; d + 1 < dim; ++d)
+              x += rule.point(q)[d] * edges[d];
+            out.push_back({x, normal, rule.weight(q) * jacobian});
+          }
+      };
       const QGauss<dim - 1> gauss(n_gauss);
       if constexpr (dim == 2)
-        add_affine_points<2>(gauss, p[0], {{p[1] - p[0]}}, normal, out);
+        add(gauss, {{p[1] - p[0]}});
       else
         {
           AssertThrow(n_gauss >= 1 && n_gauss <= 7,
                       ExcMessage(
                         "Plane pieces in 3D need 1 to 7 Gauss points."));
-          const auto add = [&](const Quadrature<2> &rule,
-                               const Point<3>      &a,
-                               const Point<3>      &b) {
-            const Tensor<1, 3> to_a = a - p[0], to_b = b - p[0];
-            if (std::abs(cross_product_3d(to_a, to_b) * normal) > smallest)
-              add_affine_points<3>(rule, p[0], {{to_a, to_b}}, normal, out);
-          };
           if (p.size() == 4 && (p[0] - p[1] + (p[2] - p[3])).norm() <=
                                  1e-14 * p[0].distance(p[2]))
-            return add(gauss, p[1], p[3]);
+            return add(gauss, {{p[1] - p[0], p[3] - p[0]}});
           const QWitherdenVincentSimplex<2> rule(n_gauss);
           for (unsigned int i = 2; i < p.size(); ++i)
-            add(rule, p[i - 1], p[i]);
+            add(rule, {{p[i - 1] - p[0], p[i] - p[0]}});
         }
     }
 
@@ -213,9 +198,9 @@ namespace moraine
                  return std::make_pair(Point<2>(piece[0] + s * way), normal);
                }))
             {
-              parts.emplace_back();
-              for (const double s : {from, to})
-                parts.back().push_back(piece[0] + s * way);
+              parts.push_back(piece);
+              parts.back()[0] = piece[0] + from * way;
+              parts.back()[1] = piece[0] + to * way;
             }
         }
       else
@@ -365,14 +350,11 @@ namespace moraine
 
   template <int dim>
   SurfacePointer<dim>
-  make_plane(const Point<dim>                  &point,
-             const Tensor<1, dim>              &normal,
+  make_plane(const HalfSpace<dim>              &body,
              const Extent<dim>                 &extent,
              const std::vector<HalfSpace<dim>> &ends)
   {
-    if (!(normal.norm() > 0.))
-      throw InputError("the normal of a plane must not be zero");
-    Facet<dim> facet{point, normal / normal.norm(), {}};
+    Facet<dim> facet{body.point, body.outward, {}};
     for (const auto &end : ends)
       facet.ends.push_back({end, {}});
     return std::make_shared<FlatFace<dim>>(std::vector<Facet<dim>>{facet},
@@ -397,8 +379,7 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                                       \
   template SurfacePointer<dim> make_plane(                                     \
-    const Point<dim> &,                                                        \
-    const Tensor<1, dim> &,                                                    \
+    const HalfSpace<dim> &,                                                    \
     const Extent<dim> &,                                                       \
     const std::vector<HalfSpace<dim>> &);                                      \
   template SurfacePointer<dim> make_flat_face(const std::vector<Point<dim>> &, \

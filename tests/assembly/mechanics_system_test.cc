@@ -3,7 +3,7 @@
 
 #include <moraine/assembly/mechanics_system.h>
 
-#include <moraine/geometry/surfaces.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/material/linear_elastic.h>
 
 #include <deal.II/base/mpi.h>

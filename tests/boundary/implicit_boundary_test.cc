@@ -3,7 +3,7 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
-#include <moraine/geometry/surfaces.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/state/state.h>
 

@@ -3,7 +3,6 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/surfaces.h>
 #include <moraine/geometry/shapes.h>
 
 #include <gtest/gtest.h>
@@ -34,9 +33,7 @@ namespace
   SurfacePointer<dim>
   zero_of(const std::string &expression, const Extent<dim> &extent = {})
   {
-    return make_smooth_face<dim>(make_expression<dim>(expression, "here"),
-                                 true,
-                                 extent);
+    return make_expression<dim>(expression, "here")->rim("", true, extent);
   }
 
   template <int dim>

@@ -3,8 +3,8 @@
 
 #include <moraine/core/exceptions.h>
 
+#include <moraine/geometry/convex_polytope.h>
 #include <moraine/geometry/shapes.h>
-#include <moraine/geometry/polygon.h>
 
 #include <deal.II/base/numbers.h>
 

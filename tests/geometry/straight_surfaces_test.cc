@@ -3,7 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 
-#include <moraine/geometry/surfaces.h>
+#include <moraine/geometry/shapes.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -245,9 +245,10 @@ TEST(Plane, LineInTwoDimensions)
       const Point<2>     p = numbers.point<2>(0., 10.);
       const Tensor<1, 2> n = numbers.direction<2>();
       const Tensor<1, 2> t = Point<2>(-n[1], n[0]);
-      EXPECT_NEAR(measure(all_pieces(*make_plane<2>(p, 3. * n), cells, 1)),
-                  length_in_box(p - 50. * t, p + 50. * t, 10.),
-                  1e-12);
+      EXPECT_NEAR(
+        measure(all_pieces(*make_half_space<2>(p, 3. * n)->rim(), cells, 1)),
+        length_in_box(p - 50. * t, p + 50. * t, 10.),
+        1e-12);
     }
 }
 
@@ -258,7 +259,7 @@ TEST(Plane, AreaInACube)
     {
       const auto cells = box_cells<3>(3, 1., distortion);
       const auto area  = [&](const Point<3> &p, const Tensor<1, 3> &n) {
-        return measure(all_pieces(*make_plane<3>(p, n), cells, 2));
+        return measure(all_pieces(*make_half_space<3>(p, n)->rim(), cells, 2));
       };
       EXPECT_NEAR(area({.5, .5, .5}, Point<3>(1, 1, 1)),
                   .75 * std::sqrt(3.),
@@ -280,9 +281,10 @@ TEST(Plane, AlignedOnceAndOnTheBodySideIn3D)
       for (const double sign : {-1., 1.})
         {
           Point<3> p(.4, .4, .4);
-          p[d]             = i / 4.;
-          const auto plane = make_plane<3>(p, sign * Point<3>::unit_vector(d));
-          double     sum   = 0.;
+          p[d] = i / 4.;
+          const auto plane =
+            make_half_space<3>(p, sign * Point<3>::unit_vector(d))->rim();
+          double sum = 0.;
           for (const auto &cell : cells)
             {
               std::vector<SurfacePoint<3>> points;
@@ -344,7 +346,8 @@ TEST(PlanePatch, CellsOfARegularMeshKeepTheirOwnPoints)
   for (unsigned int i = 0; i < 20; ++i)
     {
       const auto plane =
-        make_plane<3>(numbers.point<3>(.2, .8), numbers.direction<3>());
+        make_half_space<3>(numbers.point<3>(.2, .8), numbers.direction<3>())
+          ->rim();
       for (const auto &cell : cells)
         {
           std::vector<SurfacePoint<3>> few, many;

@@ -4,7 +4,7 @@
 #ifndef moraine_tests_geometry_surface_cases_h
 #define moraine_tests_geometry_surface_cases_h
 
-#include <moraine/geometry/surface.h>
+#include <moraine/geometry/shape.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>

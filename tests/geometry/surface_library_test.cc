@@ -21,8 +21,8 @@ namespace
   std::shared_ptr<const Surface<dim>>
   read(const std::string &text)
   {
-    SurfaceParameters<dim> parameters;
-    ParameterHandler       prm;
+    ShapeParameters<dim> parameters(ShapeUse::surface);
+    ParameterHandler     prm;
     parameters.add_parameters(prm);
     prm.parse_input_from_string(text);
     return make_surface<dim>(parameters, {}, "Boundaries/left");
@@ -148,8 +148,8 @@ TEST(SurfaceLibrary, RimsOfBodies)
      {"file", shape("set Shape = points-from-file\nset Point file = a.csv")}},
     "Bodies");
   const auto make = [&](const std::string &text) {
-    SurfaceParameters<2> parameters;
-    ParameterHandler     prm;
+    ShapeParameters<2> parameters(ShapeUse::surface);
+    ParameterHandler   prm;
     parameters.add_parameters(prm);
     prm.parse_input_from_string(text);
     return make_surface<2>(parameters, bodies, "Boundaries/left");

@@ -7,7 +7,6 @@
 // that connects the two, a state, the loads, the equations, and their solver.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/geometry/surfaces.h>
 #include <moraine/load/load.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>

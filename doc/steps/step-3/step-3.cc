@@ -6,7 +6,6 @@
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
 #include <moraine/boundary/implicit_boundary.h>
-#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>

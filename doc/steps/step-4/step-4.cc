@@ -5,7 +5,6 @@
 // step goes.
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/basis/basis.h>
-#include <moraine/geometry/surfaces.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/load/load.h>
 #include <moraine/material/linear_elastic.h>

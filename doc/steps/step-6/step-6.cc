@@ -7,7 +7,6 @@
 #include <moraine/basis/cpdi2_basis.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/boundary/mesh_motion.h>
-#include <moraine/geometry/surfaces.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/mesh/grid_space.h>

@@ -7,7 +7,7 @@
 #include <moraine/boundary/enforcement.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/geometry/placement.h>
-#include <moraine/geometry/surface.h>
+#include <moraine/geometry/shape.h>
 #include <moraine/material/spectral.h>
 #include <moraine/mesh/grid_space.h>
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -40,7 +41,7 @@ namespace moraine
   {
   public:
     /** The identity. */
-    Placement();
+    Placement() = default;
 
     /**
      * Rotate by @p degrees, counter-clockwise, about @p centre (in 3D by the
@@ -92,7 +93,7 @@ namespace moraine
   private:
     dealii::Point<dim>     centre;
     dealii::Tensor<1, dim> translation;
-    dealii::Tensor<2, dim> matrix;
+    dealii::Tensor<2, dim> matrix = dealii::unit_symmetric_tensor<dim>();
   };
 
   /**

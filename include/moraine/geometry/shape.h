@@ -5,16 +5,262 @@
 #define moraine_geometry_shape_h
 
 #include <moraine/geometry/convex_polytope.h>
-#include <moraine/geometry/surface.h>
+#include <moraine/geometry/placement.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
 {
+  template <int dim>
+  class Shape;
+
+  /**
+   * A quadrature point on a surface: its place, the unit normal pointing out of
+   * the body (−∇φ), and its weight (length in 2D, area in 3D).
+   */
+  template <int dim>
+  struct SurfacePoint
+  {
+    dealii::Point<dim>     x;
+    dealii::Tensor<1, dim> normal;
+    double                 JxW;
+  };
+
+  /** The direction of v, or any where v is zero. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  unit_or_any(const dealii::Tensor<1, dim> &v)
+  {
+    const double length = v.norm();
+    return length > 0. ? v / length : dealii::Point<dim>::unit_vector(0);
+  }
+
+  /** The largest distance of a vertex from the first one. */
+  template <int dim>
+  double
+  cell_size(const CellVertices<dim> &cell)
+  {
+    double size = 0.;
+    for (const auto &vertex : cell)
+      size = std::max(size, vertex.distance(cell[0]));
+    return size;
+  }
+
+  /** Largest absolute coordinate. */
+  template <int dim>
+  double
+  coordinate_magnitude(const dealii::Point<dim> &x)
+  {
+    double magnitude = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      magnitude = std::max(magnitude, std::abs(x[d]));
+    return magnitude;
+  }
+
+  /** What is known of the point of a surface nearest to a place. */
+  template <int dim>
+  struct NearestPoint
+  {
+    /** φ of the place, its signed distance. */
+    double level;
+    /** Unit normal there, out of the body. */
+    dealii::Tensor<1, dim> normal;
+    /** Whether the nearest point lies within the extent of the surface. */
+    bool in_extent;
+  };
+
+  /**
+   * A surface φ(x) = 0 with the body on the side φ > 0: the rim of a shape or a
+   * part of it (see Shape::rim()), in its own frame. A MovedSurface places it
+   * in space.
+   */
+  template <int dim>
+  class Surface
+  {
+  public:
+    virtual ~Surface() = default;
+
+    /**
+     * φ is positive on the body's side: the signed distance; for expressions
+     * φ/|∇φ|, its first-order estimate. The normal −∇φ/|∇φ| means something at
+     * or near the surface.
+     */
+    virtual NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const = 0;
+
+    double
+    level(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).level;
+    }
+
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).normal;
+    }
+
+    bool
+    in_extent(const dealii::Point<dim> &x) const
+    {
+      return nearest(x).in_extent;
+    }
+
+    /**
+     * Append quadrature points of the part of the surface inside one convex
+     * cell. Points of a flat piece integrate polynomials of degree
+     * 2 n_gauss − 1 exactly. A piece on a face shared by two cells belongs to
+     * the cell on the body's side only, so the cells of a mesh share the
+     * surface out without gap or overlap.
+     */
+    virtual void
+    pieces(const CellVertices<dim>        &cell,
+           const unsigned int              n_gauss,
+           std::vector<SurfacePoint<dim>> &out) const = 0;
+
+    /** A box that holds the surface; see unlimited_extent. */
+    const dealii::BoundingBox<dim> &
+    bounding_box() const
+    {
+      return box;
+    }
+
+    /** Whether the normal changes along a smooth part of the surface. */
+    bool
+    curved() const
+    {
+      return is_curved;
+    }
+
+  protected:
+    Surface(const dealii::BoundingBox<dim> &box, const bool is_curved)
+      : box(box)
+      , is_curved(is_curved)
+    {}
+
+    /** Whether a cell comes near the box at all; quick and on the safe side. */
+    bool
+    may_touch(const CellVertices<dim> &cell) const;
+
+    dealii::BoundingBox<dim> box;
+
+  private:
+    bool is_curved;
+  };
+
+  template <int dim>
+  using SurfacePointer = std::shared_ptr<const Surface<dim>>;
+
+  /** Part of a curve: from one value of its parameter to a larger one. */
+  using Stretch = std::pair<double, double>;
+
+  /**
+   * Where shapes end a surface that goes on beyond them: it keeps what is on
+   * one side of each.
+   */
+  template <int dim>
+  struct Extent
+  {
+    /** What a surface along the boundary of a shape counts as. */
+    enum class Along
+    {
+      inner, ///< what lies just behind the surface, in its body
+      outer, ///< what lies just before it
+      never  ///< outside of the extent
+    };
+
+    struct Limit
+    {
+      std::shared_ptr<const Shape<dim>> shape;
+      bool                              inside; ///< else outside of the shape
+      Along                             along;
+    };
+
+    /**
+     * Positive where a place @p x of a surface with unit normal @p normal is
+     * within all limits, zero at the ends. Lengths below @p tolerance are
+     * round-off.
+     */
+    double
+    value(const dealii::Point<dim>     &x,
+          const dealii::Tensor<1, dim> &normal,
+          const double                  tolerance) const;
+
+    /** Whether x is within the limits or at an end, up to round-off. */
+    bool
+    contains(const dealii::Point<dim>     &x,
+             const dealii::Tensor<1, dim> &normal) const;
+
+    /**
+     * The parts within the limits of a piece of a curve, of which @p curve
+     * gives place and unit normal. They are exact if they are not shorter than
+     * a 32nd of the piece.
+     */
+    std::vector<Stretch>
+    stretches(
+      const Stretch &piece,
+      const double   tolerance,
+      const std::function<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>(
+        double)>    &curve) const;
+
+    /** The limits seen from the frame that @p placement puts in place. */
+    Extent
+    seen_from(const Placement<dim> &placement) const;
+
+    std::vector<Limit> limits;
+
+    /** Holds what is within the limits. */
+    dealii::BoundingBox<dim> box = unlimited_box<dim>();
+  };
+
+  /**
+   * A surface in its present place. Answers in present coordinates by asking
+   * the reference surface in its own frame.
+   */
+  template <int dim>
+  class MovedSurface : public Surface<dim>
+  {
+  public:
+    MovedSurface(const SurfacePointer<dim> &reference,
+                 const Placement<dim>      &pose = Placement<dim>());
+
+    void
+    set_pose(const Placement<dim> &pose);
+
+    const Placement<dim> &
+    pose() const
+    {
+      return present;
+    }
+
+    NearestPoint<dim>
+    nearest(const dealii::Point<dim> &x) const override;
+
+    void
+    pieces(const CellVertices<dim>        &cell,
+           const unsigned int              n_gauss,
+           std::vector<SurfacePoint<dim>> &out) const override;
+
+  private:
+    SurfacePointer<dim> reference;
+    Placement<dim>      present;
+  };
+
+  /**
+   * Several surfaces that bound one body together as one. Nearest is the one
+   * whose nearest point is nearest among those within their extents; outside of
+   * all, the one of the smallest |φ|. Null for none.
+   */
+  template <int dim>
+  SurfacePointer<dim>
+  join(const std::vector<SurfacePointer<dim>> &members);
+
   /**
    * What a shape covers of a polytope, to the shape's accuracy.
    */
@@ -192,7 +438,10 @@ namespace moraine
   public:
     /** φ itself. */
     virtual double
-    value(const dealii::Point<dim> &x) const = 0;
+    value(const dealii::Point<dim> &x) const
+    {
+      return this->level(x);
+    }
 
     /** ∇φ; @p length is the scale over which φ is seen (a cell's size). */
     virtual dealii::Tensor<1, dim>
@@ -202,6 +451,13 @@ namespace moraine
     virtual NearestPoint<dim>
     nearest(const dealii::Point<dim> &x) const = 0;
 
+    /**
+     * Cut by dealii::NonMatching::QuadratureGenerator in the reference space of
+     * the cell (φ composed with the cell's multilinear map). The number of
+     * points sets its accuracy; it is not exact. Cells across the end of its
+     * extent are cut exactly if that is straight and follows the cell's axes,
+     * else halved four times and their points chosen one by one.
+     */
     typename Shape<dim>::Faces
     faces(const std::string &part,
           const bool         body_inside,

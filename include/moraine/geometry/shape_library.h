@@ -5,13 +5,93 @@
 #define moraine_geometry_shape_library_h
 
 #include <moraine/geometry/shape.h>
-#include <moraine/geometry/shape_parameters.h>
 
 #include <map>
 #include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
 
 namespace moraine
 {
+  /** What a user makes of the shapes. */
+  enum class ShapeUse
+  {
+    body,   ///< what is inside
+    surface ///< the rim or a part of it
+  };
+
+  /**
+   * A body or a surface as the user gives it: one table of kinds and one of
+   * keys serve both. A key that the kind does not use must not be given.
+   */
+  template <int dim>
+  struct ShapeParameters
+  {
+    explicit ShapeParameters(const ShapeUse use = ShapeUse::body);
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /** The names of the kinds there are for this use. */
+    std::vector<std::string>
+    kinds() const;
+
+    /** The kind of shape, or that of the rim of a body. */
+    std::string
+    kind() const;
+
+    /**
+     * Throws InputError unless the keys given are those of the kind;
+     * @p section is named in messages.
+     */
+    void
+    check_keys(const std::string &section) const;
+
+    /** Whether the body's points come from a file; it has no shape then. */
+    bool
+    is_point_file() const
+    {
+      return kind() == "points-from-file";
+    }
+
+    /** Whether a key says anything: not empty, nor zero where that is the
+     * default. */
+    bool
+    given(const std::string &key) const;
+
+    // What a key says; errors name section and key.
+
+    const std::string &
+    text(const std::string &key) const
+    {
+      return texts.at(key);
+    }
+
+    double
+    number(const std::string &key, const std::string &section) const;
+
+    dealii::Point<dim>
+    point(const std::string &key, const std::string &section) const;
+
+    /** Points separated by ';', of n coordinates each. */
+    template <int n>
+    std::vector<dealii::Point<n>>
+    points(const std::string &key, const std::string &section) const;
+
+    /** Words separated by commas. */
+    std::vector<std::string>
+    words(const std::string &key) const;
+
+    ShapeUse use;
+
+    /** The text of each key. */
+    std::map<std::string, std::string> texts;
+  };
+
   template <int dim>
   using NamedShapes = std::map<std::string, ShapePointer<dim>>;
 
@@ -43,9 +123,9 @@ namespace moraine
    */
   template <int dim>
   SurfacePointer<dim>
-  make_surface(const SurfaceParameters<dim> &parameters,
-               const NamedShapes<dim>       &bodies,
-               const std::string            &section);
+  make_surface(const ShapeParameters<dim> &parameters,
+               const NamedShapes<dim>     &bodies,
+               const std::string          &section);
 
   /** Rotation and translation of a body. */
   template <int dim>

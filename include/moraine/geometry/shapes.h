@@ -13,16 +13,47 @@
 
 namespace moraine
 {
+  /** All behind a plane. */
+  template <int dim>
+  struct HalfSpace
+  {
+    dealii::Point<dim>     point;
+    dealii::Tensor<1, dim> outward; ///< of unit length
+
+    /** Distance from the plane, positive behind it. */
+    double
+    depth(const dealii::Point<dim> &x) const
+    {
+      return outward * (point - x);
+    }
+  };
+
+  /**
+   * What is behind all of some planes; @p box must hold it. The planes are
+   * called @p names, or there is but one.
+   */
+  template <int dim>
+  ShapePointer<dim>
+  make_convex(const std::vector<HalfSpace<dim>> &planes,
+              const dealii::BoundingBox<dim>    &box   = unlimited_box<dim>(),
+              const std::vector<std::string>    &names = {});
+
   /** All of space: the body is the mesh. */
   template <int dim>
   ShapePointer<dim>
-  make_space();
+  make_space()
+  {
+    return make_convex<dim>({});
+  }
 
   /** What is behind a plane; the normal need not have unit length. */
   template <int dim>
   ShapePointer<dim>
   make_half_space(const dealii::Point<dim>     &point,
-                  const dealii::Tensor<1, dim> &outward_normal);
+                  const dealii::Tensor<1, dim> &outward_normal)
+  {
+    return make_convex<dim>({{point, outward_normal / outward_normal.norm()}});
+  }
 
   /**
    * The box with these opposite corners, lower < upper. Its sides are called
@@ -33,18 +64,9 @@ namespace moraine
   make_box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
 
   /**
-   * What is between the planes through both ends of an axis and across it, as
-   * far as @p box goes. The planes are called bottom and top.
-   */
-  ShapePointer<3>
-  make_slab(const dealii::Point<3>       &start,
-            const dealii::Point<3>       &end,
-            const dealii::BoundingBox<3> &box);
-
-  /**
    * A simple polygon, convex or not, in the x-y plane; in 3D the prism over it
    * between two values of z. The vertices in either sense of rotation, at least
-   * three, without crossing edges (see first_crossing() in polygon.h). The rim
+   * three, without crossing edges (see first_crossing()). The rim
    * has the edges, counted from 1 in the order given; in 3D bottom and top.
    */
   template <int dim>
@@ -53,24 +75,21 @@ namespace moraine
                const std::pair<double, double>     &heights = {0., 1.});
 
   /**
-   * Disc (2D) or sphere (3D), or what is within @p radius of the endless line
-   * through @p centre along @p axis if that is not zero. Its part of a polytope
-   * is exact: in 2D and for cylinders by triangles and circular segments of the
-   * polygons, or of the faces seen along the axis (the height over them is
-   * integrated, by the divergence theorem); for spheres, per face and edge, the
-   * part within the sphere of the cone from its centre. Throws InputError for a
-   * radius that is not positive.
+   * Disc (2D) or sphere (3D). Its part of a polytope is exact: in 2D by
+   * triangles and circular segments of the polygon; in 3D, per face and edge,
+   * the part within the sphere of the cone from its centre. Throws InputError
+   * for a radius that is not positive.
    */
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
-  make_ball(const dealii::Point<dim>     &centre,
-            const double                  radius,
-            const dealii::Tensor<1, dim> &axis = {});
+  make_ball(const dealii::Point<dim> &centre, const double radius);
 
   /**
    * Solid or hollow circular cylinder. Its rim has the parts side, or outer and
-   * inner, and bottom and top, where the axis starts and ends. Throws
-   * InputError for an axis without length.
+   * inner, and bottom and top, where the axis starts and ends. Its part of a
+   * polytope is exact, as for a disc by the faces seen along the axis (the
+   * height over them is integrated, by the divergence theorem). Throws
+   * InputError for an axis without length or a radius that is not positive.
    */
   ShapePointer<3>
   make_cylinder(const dealii::Point<3> &start,
@@ -125,6 +144,51 @@ namespace moraine
           const ShapePointer<dim>          &a,
           const ShapePointer<dim>          &b,
           const std::array<std::string, 2> &names = {});
+
+  /**
+   * The plane (2D: the straight line) that bounds a half space, as far as it is
+   * in all of @p ends, whose planes are across it.
+   */
+  template <int dim>
+  SurfacePointer<dim>
+  make_plane(const HalfSpace<dim>              &body,
+             const Extent<dim>                 &extent,
+             const std::vector<HalfSpace<dim>> &ends);
+
+  /**
+   * The flat face with these corners; @p flip puts the body on the other side.
+   *
+   * In 2D one or more straight segments with the body on the LEFT when walking
+   * along the points in their order. A last point equal to the first closes the
+   * line. Beyond the open ends, φ goes on as the distance to the straight line
+   * of the end segment, outside the extent. Throws InputError for fewer than
+   * two points or two equal neighbours.
+   *
+   * In 3D a plane simple polygon. Seen from outside the body its vertices run
+   * counter-clockwise (their right-hand normal points out of the body). Throws
+   * InputError for fewer than three vertices, no area, vertices off the plane
+   * by more than 1e-9 of its size, or edges that cross.
+   */
+  template <int dim>
+  SurfacePointer<dim>
+  make_flat_face(const std::vector<dealii::Point<dim>> &corners,
+                 const bool                             flip   = false,
+                 const Extent<dim>                     &extent = {});
+
+  /**
+   * The rim of a disc, or an arc of it counter-clockwise from the start to the
+   * end angle (degrees from the x axis). Pieces are cut exactly by the cell's
+   * straight edges and use Gauss points in the angle, on stretches of at most
+   * 45 degrees. Throws InputError for a radius that is not positive, or an arc
+   * of zero or more than 360 degrees.
+   */
+  SurfacePointer<2>
+  make_arc(const dealii::Point<2> &centre,
+           const double            radius,
+           const bool              body_inside,
+           const double            start_angle = 0.,
+           const double            end_angle   = 360.,
+           const Extent<2>        &extent      = {});
 } // namespace moraine
 
 #endif

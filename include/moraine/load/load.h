@@ -4,7 +4,7 @@
 #ifndef moraine_load_load_h
 #define moraine_load_load_h
 
-#include <moraine/geometry/surface.h>
+#include <moraine/geometry/shape.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>

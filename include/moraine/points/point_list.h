@@ -4,7 +4,7 @@
 #ifndef moraine_points_point_list_h
 #define moraine_points_point_list_h
 
-#include <moraine/geometry/shape_parameters.h>
+#include <moraine/geometry/shape_library.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

@@ -12,7 +12,6 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
-#include <moraine/geometry/shape_parameters.h>
 #include <moraine/run/method.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
@@ -79,13 +78,13 @@ namespace moraine
   template <int dim>
   struct BoundaryParameters
   {
-    SurfaceParameters<dim> surface;
-    EnforcementParameters  enforcement;
-    std::string            constraint = "fixed";
-    std::string            components;
-    std::string            displacement;
-    MotionParameters<dim>  motion;
-    double                 penetration_limit = 0;
+    ShapeParameters<dim>  surface{ShapeUse::surface};
+    EnforcementParameters enforcement;
+    std::string           constraint = "fixed";
+    std::string           components;
+    std::string           displacement;
+    MotionParameters<dim> motion;
+    double                penetration_limit = 0;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -116,7 +115,7 @@ namespace moraine
     std::vector<std::string> bodies;
     std::string              side;
     std::vector<double>      location;
-    SurfaceParameters<dim>   surface;
+    ShapeParameters<dim>     surface{ShapeUse::surface};
 
     void
     add_parameters(dealii::ParameterHandler &prm);

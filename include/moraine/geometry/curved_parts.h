@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_geometry_curve_subdivision_h
-#define moraine_geometry_curve_subdivision_h
+#ifndef moraine_geometry_curved_parts_h
+#define moraine_geometry_curved_parts_h
 
 #include <moraine/geometry/shape.h>
 
@@ -20,7 +20,17 @@ namespace moraine
   dealii::Tensor<1, dim>
   central_gradient(const LevelFunction<dim> &level,
                    const dealii::Point<dim> &x,
-                   const double              step);
+                   const double              step)
+  {
+    dealii::Tensor<1, dim> slope;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const dealii::Tensor<1, dim> shift =
+          step * dealii::Point<dim>::unit_vector(d);
+        slope[d] = (level(x + shift) - level(x - shift)) / (2. * step);
+      }
+    return slope;
+  }
 
   /** Where the linear part of a function at @p x vanishes: a step of Newton's
    * method towards its zero. */
@@ -59,6 +69,39 @@ namespace moraine
   Overlap
   overlap_by_values(const LevelFunction<dim>  &level,
                     const ConvexPolytope<dim> &cell);
+
+  /** An edge's part in a disc, and the way from its end to the next one's start
+   * as the angle [rad] at the centre; of an arc that lies in the polygon. */
+  template <int dim>
+  struct DiscChord
+  {
+    dealii::Point<dim> enter, leave;
+    double             angle_after;
+  };
+
+  /**
+   * The rim of a polygon within a disc, as seen in the first two coordinates:
+   * all chords in order, or an empty one before the whole circle. Polygons that
+   * share an edge agree on its chord, even where the circle grazes it.
+   */
+  template <int dim>
+  std::vector<DiscChord<dim>>
+  chords_in_disc(const typename ConvexPolytope<dim>::PointList &polygon,
+                 const dealii::Point<2>                        &centre,
+                 const double                                   radius);
+
+  /**
+   * Volume and first moment about @p reference of the part of @p cell in a disc
+   * (2D), a sphere or, if @p axis is not zero but of unit length, an endless
+   * cylinder; exact.
+   */
+  template <int dim>
+  VolumeMoments<dim>
+  moments_in_round(const ConvexPolytope<dim>    &cell,
+                   const dealii::Point<dim>     &centre,
+                   const dealii::Tensor<1, dim> &axis,
+                   const double                  radius,
+                   const dealii::Point<dim>     &reference);
 } // namespace moraine
 
 #endif

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/geometry/round_moments.h>
-
-#include <moraine/geometry/polygon.h>
+#include <moraine/geometry/curved_parts.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -14,6 +12,189 @@
 namespace moraine
 {
   using namespace dealii;
+
+  namespace
+  {
+    // A level function in a polytope and its linear part at a point.
+    template <int dim>
+    struct LinearPart
+    {
+      LinearPart(const LevelFunction<dim>  &level,
+                 const ConvexPolytope<dim> &cell,
+                 const Point<dim>          &x,
+                 const double               size)
+        : x(x)
+        , value(level(x))
+        , slope(central_gradient(level, x, 1e-3 * size))
+      {
+        lowest = highest = value;
+        for (const auto &vertex : cell.vertices())
+          {
+            const double there = level(vertex);
+            lowest             = std::min(lowest, there);
+            highest            = std::max(highest, there);
+            bend =
+              std::max(bend, std::abs(there - value - slope * (vertex - x)));
+          }
+      }
+
+      // decided where no vertex and not thrice the bend reach zero
+      Overlap
+      overlap() const
+      {
+        if (lowest >= 3. * bend && lowest > 0.)
+          return Overlap::all;
+        return highest <= -3. * bend ? Overlap::none : Overlap::part;
+      }
+
+      // where the linear part vanishes
+      Point<dim>
+      zero() const
+      {
+        return linear_zero<dim>(x, value, slope);
+      }
+
+      Point<dim>     x;
+      double         value;
+      Tensor<1, dim> slope;
+      double         lowest, highest;
+      double         bend = 0.;
+    };
+
+
+
+    // mean of f over a cut face; exact for quadratic functions
+    template <int dim>
+    double
+    mean_on_cut(const typename ConvexPolytope<dim>::PointList &cut,
+                const LevelFunction<dim>                      &f)
+    {
+      if constexpr (dim == 2)
+        return (f(cut[0]) + 4. * f(Point<2>((cut[0] + cut[1]) / 2.)) +
+                f(cut[1])) /
+               6.;
+      else
+        {
+          double integral = 0., area = 0.;
+          for (unsigned int i = 1; i + 1 < cut.size(); ++i)
+            {
+              const std::array<Point<3>, 3> x{{cut[0], cut[i], cut[i + 1]}};
+              const double                  part =
+                cross_product_3d(x[1] - x[0], x[2] - x[0]).norm();
+              area += part;
+              for (unsigned int k = 0; k < 3; ++k)
+                integral += part / 3. * f(x[k] + (x[(k + 1) % 3] - x[k]) / 2.);
+            }
+          return area > 0. ? integral / area : f(cut[0]);
+        }
+    }
+
+
+
+    template <int dim>
+    struct CurveCutter
+    {
+      void
+      add(const ConvexPolytope<dim> &cell, const unsigned int n_halvings)
+      {
+        const Point<dim> middle = cell.vertex_mean();
+        const double     size   = cell.radius(middle);
+        Overlap          answer = Overlap::part;
+        if (is_distance && std::abs(level(middle)) >= size)
+          answer = level(middle) > 0. ? Overlap::all : Overlap::none;
+        LinearPart<dim> linear(level, cell, middle, size);
+        if (answer == Overlap::part)
+          answer = linear.overlap();
+        if (answer == Overlap::all)
+          pieces.push_back({sign, cell});
+        if (answer != Overlap::part)
+          return;
+        // the tangent plane at a point of the boundary near the middle
+        for (unsigned int k = 0; k < 2 && linear.slope.norm() > 0. &&
+                                 linear.zero().distance(middle) <= size;
+             ++k)
+          linear = LinearPart<dim>(level, cell, linear.zero(), size);
+        if (linear.bend > flat_enough * size * linear.slope.norm() &&
+            n_halvings > 0)
+          halve(cell, n_halvings);
+        else if (linear.slope.norm() > 0.)
+          cut(cell, linear.zero(), linear.slope);
+        else if (linear.value > 0.)
+          pieces.push_back({sign, cell});
+      }
+
+      // Of the size of a leaf. Chosen by the error it leaves in a cut cell:
+      // below 1e-6 of its volume where the radius is five cells or more.
+      static constexpr double flat_enough = (dim == 2 ? 5e-3 : 2e-2);
+
+      void
+      halve(const ConvexPolytope<dim> &cell, const unsigned int n_halvings)
+      {
+        const auto   box  = cell.bounding_box();
+        unsigned int wide = 0;
+        for (unsigned int d = 1; d < dim; ++d)
+          if (box.side_length(d) > box.side_length(wide))
+            wide = d;
+        for (const double side : {1., -1.})
+          {
+            ConvexPolytope<dim> half = cell;
+            half.clip(box.center(), side * Point<dim>::unit_vector(wide));
+            if (!half.empty())
+              add(half, n_halvings - 1);
+          }
+      }
+
+      void
+      cut(const ConvexPolytope<dim> &cell,
+          const Point<dim>          &foot,
+          const Tensor<1, dim>      &slope)
+      {
+        std::vector<typename ConvexPolytope<dim>::PointList> faces;
+        ConvexPolytope<dim>                                  part = cell;
+        part.clip(foot, slope, &faces);
+        if (!faces.empty())
+          {
+            const double mean = mean_on_cut<dim>(faces[0], level);
+            part              = cell;
+            part.clip(linear_zero<dim>(foot, mean, slope), slope);
+          }
+        if (!part.empty())
+          pieces.push_back({sign, part});
+      }
+
+      const LevelFunction<dim> &level;
+      const bool                is_distance;
+      const double              sign;
+      SignedPieces<dim>        &pieces;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  add_curved_pieces(const LevelFunction<dim>  &level,
+                    const bool                 is_distance,
+                    const ConvexPolytope<dim> &cell,
+                    const double               sign,
+                    SignedPieces<dim>         &pieces)
+  {
+    constexpr unsigned int depth = (dim == 2 ? 10 : 6);
+    CurveCutter<dim>{level, is_distance, sign, pieces}.add(cell, dim * depth);
+  }
+
+
+
+  template <int dim>
+  Overlap
+  overlap_by_values(const LevelFunction<dim>  &level,
+                    const ConvexPolytope<dim> &cell)
+  {
+    const Point<dim> middle = cell.vertex_mean();
+    return LinearPart<dim>(level, cell, middle, cell.radius(middle)).overlap();
+  }
+
+
 
   namespace
   {
@@ -53,17 +234,8 @@ namespace moraine
      * the end of a chord with the start of the next. Its points are taken
      * across this chord, so nothing cancels on faces that are nearly upright.
      */
-    class DiscRule
+    struct DiscRule
     {
-    public:
-      using Action = std::function<void(const Point<3> &, const double)>;
-
-      DiscRule(const Point<2> &centre, const double radius, const Action &add)
-        : centre(centre)
-        , radius(radius)
-        , add(add)
-      {}
-
       /** Call @p add(x, weight) for each point of a face that is not upright.
        */
       void
@@ -89,7 +261,6 @@ namespace moraine
           }
       }
 
-    private:
       Tensor<1, 2>
       flat(const Point<3> &x) const
       {
@@ -140,10 +311,12 @@ namespace moraine
           }
       }
 
-      const Point<2> centre;
-      const double   radius;
-      const Action   add;
-      Tensor<1, 3>   normal; ///< of the face, of any length
+      const Point<2>                                            centre;
+      const double                                              radius;
+      const std::function<void(const Point<3> &, const double)> add;
+
+      /** Of the face, of any length. */
+      Tensor<1, 3> normal = {};
     };
 
 
@@ -153,14 +326,8 @@ namespace moraine
     // the face is outside. Inside, a cone over an area A at distance d has
     // volume d A / 3 and first moment d / 4 int x dA; outside, a solid angle
     // has r^3 / 3 int dw and r^4 / 4 int w dw.
-    class BallInPolyhedron
+    struct BallInPolyhedron
     {
-    public:
-      BallInPolyhedron(const Point<3> &centre, const double radius)
-        : centre(centre)
-        , radius(radius)
-      {}
-
       void
       add_face(const ConvexPolytope<3>::PointList &loop)
       {
@@ -176,9 +343,6 @@ namespace moraine
           add_edge(loop[i] - centre, loop[(i + 1) % loop.size()] - centre);
       }
 
-      VolumeMoments<3> sum;
-
-    private:
       void
       add_edge(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
       {
@@ -190,10 +354,7 @@ namespace moraine
         const Tensor<1, 3> enter = a + begin * (b - a);
         const Tensor<1, 3> leave = a + end * (b - a);
         if (begin == end)
-          {
-            add_outside(a, b);
-            return;
-          }
+          return add_outside(a, b);
         if (begin > 0.)
           add_outside(a, enter);
         add_area(normal * cross_product_3d(enter - foot, leave - foot) / 2.,
@@ -245,9 +406,12 @@ namespace moraine
         sum.first += std::pow(radius, 4) / 4. * arc;
       }
 
-      Point<3>     centre;
-      double       radius;
-      Tensor<1, 3> normal;
+      const Point<3>   centre;
+      const double     radius;
+      VolumeMoments<3> sum = {};
+
+      // of the face: its unit normal, distance, the square of its disc's radius
+      Tensor<1, 3> normal   = {};
       double       distance = 0.;
       double       square   = 0.;
     };
@@ -304,74 +468,75 @@ namespace moraine
 
   template <int dim>
   VolumeMoments<dim>
-  moments_in_ball(const ConvexPolytope<dim> &cell,
-                  const Point<dim>          &centre,
-                  const double               radius,
-                  const Point<dim>          &reference)
+  moments_in_round(const ConvexPolytope<dim> &cell,
+                   const Point<dim>          &centre,
+                   const Tensor<1, dim>      &axis,
+                   const double               radius,
+                   const Point<dim>          &reference)
   {
+    VolumeMoments<dim> sum;
     if constexpr (dim == 2)
       {
-        VolumeMoments<2>             sum;
         ConvexPolytope<3>::PointList face;
         for (const auto &x : cell.vertices())
           face.emplace_back(x[0] - reference[0], x[1] - reference[1], 0.);
-        DiscRule(Point<2>(centre - reference),
+        DiscRule{Point<2>(centre - reference),
                  radius,
                  [&](const Point<3> &x, const double weight) {
                    sum.volume += weight;
                    sum.first += weight * Point<2>(x[0], x[1]);
-                 })
+                 }}
           .apply(face);
-        return sum;
+      }
+    else if (axis.norm() == 0.)
+      {
+        BallInPolyhedron part{centre, radius};
+        cell.for_each_face([&](const auto &loop) { part.add_face(loop); });
+        sum = part.sum;
+        sum.first += sum.volume * (centre - reference);
       }
     else
       {
-        BallInPolyhedron part(centre, radius);
-        cell.for_each_face([&](const auto &loop) { part.add_face(loop); });
-        part.sum.first += part.sum.volume * (centre - reference);
-        return part.sum;
+        const PlaneFrame frame(reference, axis);
+        DiscRule         rule{frame.to_plane(centre),
+                      radius,
+                      [&](const Point<3> &x, const double weight) {
+                        sum.volume += weight * x[2];
+                        sum.first += weight * x[2] *
+                                     (x[0] * frame.first + x[1] * frame.second +
+                                      x[2] / 2. * axis);
+                      }};
+        // by the divergence theorem, as nothing flows along the axis through
+        // the cylinder itself
+        cell.for_each_face([&](ConvexPolytope<3>::PointList loop) {
+          for (auto &x : loop)
+            {
+              const Point<2> p = frame.to_plane(x);
+              x                = {p[0], p[1], (x - reference) * axis};
+            }
+          rule.apply(loop);
+        });
       }
-  }
-
-  VolumeMoments<3>
-  moments_in_cylinder(const ConvexPolytope<3> &cell,
-                      const Point<3>          &start,
-                      const Tensor<1, 3>      &axis,
-                      const double             radius,
-                      const Point<3>          &reference)
-  {
-    const PlaneFrame frame(reference, axis);
-    VolumeMoments<3> sum;
-    DiscRule         rule(frame.to_plane(start),
-                  radius,
-                  [&](const Point<3> &x, const double weight) {
-                    sum.volume += weight * x[2];
-                    sum.first += weight * x[2] *
-                                 (x[0] * frame.first + x[1] * frame.second +
-                                  x[2] / 2. * axis);
-                  });
-    // by the divergence theorem, as nothing flows along the axis through the
-    // cylinder itself
-    cell.for_each_face([&](ConvexPolytope<3>::PointList loop) {
-      for (auto &x : loop)
-        {
-          const Point<2> p = frame.to_plane(x);
-          x                = {p[0], p[1], (x - reference) * axis};
-        }
-      rule.apply(loop);
-    });
     return sum;
   }
 
 
 
 #define INSTANTIATE(dim)                                                     \
+  template void    add_curved_pieces(const LevelFunction<dim> &,             \
+                                     const bool,                             \
+                                     const ConvexPolytope<dim> &,            \
+                                     const double,                           \
+                                     SignedPieces<dim> &);                   \
+  template Overlap overlap_by_values(const LevelFunction<dim> &,             \
+                                     const ConvexPolytope<dim> &);           \
   template std::vector<DiscChord<dim>> chords_in_disc<dim>(                  \
     const ConvexPolytope<dim>::PointList &, const Point<2> &, const double); \
-  template VolumeMoments<dim> moments_in_ball(const ConvexPolytope<dim> &,   \
-                                              const Point<dim> &,            \
-                                              const double,                  \
-                                              const Point<dim> &);
+  template VolumeMoments<dim> moments_in_round(const ConvexPolytope<dim> &,  \
+                                               const Point<dim> &,           \
+                                               const Tensor<1, dim> &,       \
+                                               const double,                 \
+                                               const Point<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE
