@@ -40,10 +40,17 @@ namespace moraine
     const NodeInMatrix first{rows.row(dof), rows.column(dof)};
     if (first.row == LA::LocalRows::none || first.column == LA::LocalRows::none)
       return {};
+    const auto same_columns = [&](const int row) {
+      return std::equal(rows.columns(first.row),
+                        rows.columns(first.row) + rows.row_length(first.row),
+                        rows.columns(row),
+                        rows.columns(row) + rows.row_length(row));
+    };
     for (unsigned int c = 0; c < dim; ++c)
       if (constraints->is_constrained(dof + c) ||
           rows.row(dof + c) != first.row + static_cast<int>(c) ||
-          rows.column(dof + c) != first.column + static_cast<int>(c))
+          rows.column(dof + c) != first.column + static_cast<int>(c) ||
+          !same_columns(first.row + c))
         return {};
     return first;
   }
@@ -55,35 +62,37 @@ namespace moraine
   GlobalSystem<dim>::add_to_rows(const LocalSystem<dim> &local)
   {
     const unsigned int n_nodes = local.nodal_increments.size();
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      if (nodes_in_matrix[local.nodes[a]].row == LA::LocalRows::none)
-        return false;
-    const auto column = [&](const unsigned int b) {
-      return nodes_in_matrix[local.nodes[b]].column;
-    };
     by_column.resize(n_nodes);
-    std::iota(by_column.begin(), by_column.end(), 0u);
-    std::sort(by_column.begin(), by_column.end(), [&](auto a, auto b) {
-      return column(a) < column(b);
-    });
     for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const int  row     = nodes_in_matrix[local.nodes[a]].row + c;
-          const int *columns = rows.columns(row);
-          const int *end     = columns + rows.row_length(row);
-          double    *values  = rows.values(row);
-          const int *found   = columns;
-          for (const unsigned int b : by_column)
-            {
-              found = std::find(found, end, column(b));
-              Assert(found != end, ExcInternalError());
-              const double *K = &local.matrix(dim * a + c, dim * b);
-              double       *V = values + (found - columns);
+      {
+        const int column = nodes_in_matrix[local.nodes[a]].column;
+        if (column == LA::LocalRows::none)
+          return false;
+        by_column[a] = {column, a};
+      }
+    std::sort(by_column.begin(), by_column.end());
+    const unsigned int n = dim * n_nodes;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        // The rows of a node have the same columns and follow each other.
+        const int          row     = nodes_in_matrix[local.nodes[a]].row;
+        const unsigned int length  = rows.row_length(row);
+        const int         *columns = rows.columns(row);
+        const int         *end     = columns + length;
+        double            *values  = rows.values(row);
+        const int         *found   = columns;
+        for (const auto &[column, b] : by_column)
+          {
+            found = std::find(found, end, column);
+            Assert(found != end, ExcInternalError());
+            const double *K = &local.matrix(dim * a, dim * b);
+            double       *V = values + (found - columns);
+            for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int d = 0; d < dim; ++d)
-                V[d] += K[d];
-            }
-        }
+                V[c * length + d] += K[c * n + d];
+            found += dim;
+          }
+      }
     return true;
   }
 

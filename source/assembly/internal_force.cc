@@ -52,6 +52,22 @@ namespace moraine
 
 
 
+    /** Add @f$\sum_k D_{kj}\, g_{b,k}@f$ to a row of the matrix. */
+    template <int dim>
+    inline void
+    add_row(const double (&D)[dim][dim],
+            const Tensor<1, dim> *DEAL_II_RESTRICT g,
+            const unsigned int                     n_nodes,
+            double *DEAL_II_RESTRICT               row)
+    {
+      for (unsigned int b = 0; b < n_nodes; ++b, row += dim)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int j = 0; j < dim; ++j)
+            row[j] += D[k][j] * g[b][k];
+    }
+
+
+
     /**
      * Add the tangent of one point to the upper triangle of node pairs,
      * @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
@@ -69,46 +85,37 @@ namespace moraine
     {
       constexpr unsigned int n     = n_voigt<dim>;
       constexpr auto         voigt = voigt_numbers<dim>();
-      double                 D[dim][dim][dim];
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           // A node of other points of the block only.
           if (g[a].norm_square() == 0.)
             continue;
+          const Tensor<1, dim> w_g = w * g[a];
+          double               D[dim][dim][dim]; // i, k, j
           for (unsigned int i = 0; i < dim; ++i)
             {
-              std::array<double, n> c_g;
-              for (unsigned int I = 0; I < n; ++I)
-                {
-                  c_g[I] = 0;
-                  for (unsigned int l = 0; l < dim; ++l)
-                    c_g[I] += w * c[voigt[i][l]][I] * g[a][l];
-                }
-              for (unsigned int j = 0; j < dim; ++j)
-                for (unsigned int k = 0; k < dim; ++k)
-                  D[i][j][k] = c_g[voigt[j][k]];
+              std::array<double, n> c_g{};
+              for (unsigned int l = 0; l < dim; ++l)
+                for (unsigned int I = 0; I < n; ++I)
+                  c_g[I] += c[voigt[i][l]][I] * w_g[l];
+              for (unsigned int k = 0; k < dim; ++k)
+                for (unsigned int j = 0; j < dim; ++j)
+                  D[i][k][j] = c_g[voigt[j][k]];
             }
           if (tau)
             for (unsigned int k = 0; k < dim; ++k)
               {
                 double tau_g = 0;
                 for (unsigned int l = 0; l < dim; ++l)
-                  tau_g += w * (*tau)[k][l] * g[a][l];
+                  tau_g += (*tau)[k][l] * w_g[l];
                 for (unsigned int i = 0; i < dim; ++i)
-                  D[i][i][k] += tau_g;
+                  D[i][k][i] += tau_g;
               }
           for (unsigned int i = 0; i < dim; ++i)
-            {
-              double *row = &matrix(dim * a + i, 0);
-              for (unsigned int b = a; b < n_nodes; ++b)
-                for (unsigned int j = 0; j < dim; ++j)
-                  {
-                    double sum = 0;
-                    for (unsigned int k = 0; k < dim; ++k)
-                      sum += D[i][j][k] * g[b][k];
-                    row[dim * b + j] += sum;
-                  }
-            }
+            add_row<dim>(D[i],
+                         g + a,
+                         n_nodes - a,
+                         &matrix(dim * a + i, dim * a));
         }
     }
 

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -84,7 +85,8 @@ namespace moraine
 
   private:
     /** Where an unconstrained node of this rank is in the matrix; the first
-     * of dim rows and columns that follow each other, or none. */
+     * of dim rows, with the same entries, and columns that follow each other,
+     * or none. */
     struct NodeInMatrix
     {
       int row    = LA::LocalRows::none;
@@ -103,12 +105,13 @@ namespace moraine
     std::shared_ptr<LA::SparseMatrix>        sum_of_matrices;
     LA::LocalRows                            rows;
     std::vector<NodeInMatrix>                nodes_in_matrix;
-    std::vector<unsigned int>                by_column; ///< scratch
-    std::vector<dealii::Tensor<1, dim>>      node_forces;
-    std::vector<dealii::Tensor<1, dim>>      predicted;
-    const std::vector<unsigned int>         *body_of_node = nullptr;
-    std::vector<double>                      squares;
-    bool                                     with_tangent = false;
+    std::vector<std::pair<int, unsigned int>>
+      by_column; ///< scratch: columns of nodes
+    std::vector<dealii::Tensor<1, dim>> node_forces;
+    std::vector<dealii::Tensor<1, dim>> predicted;
+    const std::vector<unsigned int>    *body_of_node = nullptr;
+    std::vector<double>                 squares;
+    bool                                with_tangent = false;
   };
 } // namespace moraine
 
