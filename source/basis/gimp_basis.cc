@@ -258,31 +258,35 @@ namespace moraine
                  double            *S,
                  double            *dS)
     {
-      const double lower  = std::max(x - l, first_node);
-      const double upper  = std::min(x + l, first_node + n_cells * h);
+      const double per_h  = 1 / h;
+      const double xi     = (x - first_node) * per_h;
+      const double half   = l * per_h;
+      const double lower  = std::max(xi - half, 0.);
+      const double upper  = std::min<double>(xi + half, n_cells);
       const double length = upper - lower;
       std::fill(S, S + n_cells + 1, 0.);
       std::fill(dS, dS + n_cells + 1, 0.);
-      if (length < 1e-8 * h)
+      if (length < 1e-8)
         {
           // A box as thin as that is a point; its average would be round-off.
-          const double       xi = (x - first_node) / h;
-          const unsigned int c  = std::clamp(std::floor(xi), 0., n_cells - 1.);
-          S[c]                  = 1 - (xi - c);
-          S[c + 1]              = xi - c;
-          dS[c]                 = -1 / h;
-          dS[c + 1]             = 1 / h;
+          const unsigned int c = std::clamp(std::floor(xi), 0., n_cells - 1.);
+          S[c]                 = 1 - (xi - c);
+          S[c + 1]             = xi - c;
+          dS[c]                = -per_h;
+          dS[c + 1]            = per_h;
           return;
         }
+      const double per_length = 1 / length;
       for (unsigned int c = 0; c < n_cells; ++c)
         {
-          const double a     = std::clamp((lower - first_node) / h - c, 0., 1.);
-          const double b     = std::clamp((upper - first_node) / h - c, 0., 1.);
-          const double right = 0.5 * (b * b - a * a) * h / length;
-          S[c] += (b - a) * h / length - right;
+          const double a     = std::clamp(lower - c, 0., 1.);
+          const double b     = std::clamp(upper - c, 0., 1.);
+          const double share = (b - a) * per_length;
+          const double right = 0.5 * (a + b) * share;
+          S[c] += share - right;
           S[c + 1] += right;
-          dS[c] -= (b - a) / length;
-          dS[c + 1] += (b - a) / length;
+          dS[c] -= share * per_h;
+          dS[c + 1] += share * per_h;
         }
     }
   } // namespace
