@@ -30,4 +30,4 @@ for strain, iterative in (("small", "gmres"), ("finite", "amg-cg")):
     text("  first", choices[0])
     text("  one change, to direct", choices[1:] == [change])
     text("  on the console", change in found.output)
-    text("  iterations after it", found.summary["linear_iterations"])
+    text("  linear iterations, all before it", found.summary["linear_iterations"])
