@@ -13,6 +13,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -33,6 +34,10 @@ namespace moraine
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
+
+    /** A boundary that the material misses by more than both is told of. */
+    constexpr double told_share_of_motion = 0.02;
+    constexpr double told_share_of_cell   = 1e-3;
   } // namespace
 
 
@@ -214,14 +219,16 @@ namespace moraine
     if (support)
       accepted_fraction = support->stiffness_fraction();
 
+    double largest = 0;
+    for (const auto &u : increments)
+      largest = std::max(largest, u.norm());
+    largest = Utilities::MPI::max(largest, communicator);
+    check_boundaries(largest);
     std::optional<double> distance;
     if (was_pseudo_transient)
       {
         ++sums.n_pseudo_transient;
-        double largest = 0;
-        for (const auto &u : increments)
-          largest = std::max(largest, u.norm());
-        distance = Utilities::MPI::max(largest, communicator);
+        distance = largest;
       }
     const AcceptedStep<dim> step{
       time_control, t_start, report, last_reports, increments, distance};
@@ -387,6 +394,29 @@ namespace moraine
       n_parts[b] = std::max<unsigned int>(n_parts[b], parts[b].size());
     sums.warnings.push_back(found);
     tell(found);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::check_boundaries(const double largest_motion)
+  {
+    for (const BoundaryReport<dim> &report : last_reports)
+      if (report.violation > told_share_of_motion * largest_motion &&
+          report.violation > told_share_of_cell * model.mesh->cell_size() &&
+          missed.insert(report.name).second)
+        {
+          std::ostringstream text;
+          text << "boundary '" << report.name << "': the material misses it by "
+               << report.violation << ", "
+               << std::round(100 * report.violation / largest_motion)
+               << " % of the largest motion in the step to t = "
+               << time_control.time()
+               << "; smaller cells or steps bring it closer";
+          sums.warnings.push_back(text.str());
+          tell(text.str());
+        }
   }
 
 

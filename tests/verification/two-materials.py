@@ -5,6 +5,7 @@
 through the mesh: forces, displacements and stresses in closed form."""
 
 from math import log
+from re import sub
 
 SCENE = "prm/verification/two-materials.prm"
 SIGMA = 1e5 * log(1.1) / 1.1
@@ -31,3 +32,11 @@ for name, settings, limits in (
     bound(f"{name}: r_u", result.errors["r_u"], limits[1])
     bound(f"{name}: error of stress", result.errors["max_sigma"] / SIGMA,
           limits[2])
+
+# A clamp that hardly holds is told of, once.
+loose = run(SCENE, {"Boundaries/right/Enforcement": "penalty",
+                    "Boundaries/right/Penalty factor": 1,
+                    "Output/Points": "false", "Output/Mesh": "false"})
+for warning in loose.summary["warnings"]:
+    text("loose clamp", sub(r"[0-9.]+(,| %)", r"...\1", warning))
+text("on the console, once", loose.output.count(loose.summary["warnings"][0]))

@@ -8,6 +8,7 @@
 #include <moraine/core/simulation_state.h>
 #include <moraine/run/run_observer.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,13 @@ namespace moraine
     void
     check_separation();
 
+    /**
+     * Say once of each boundary that the material misses it. @p largest_motion:
+     * of a node in the step.
+     */
+    void
+    check_boundaries(const double largest_motion);
+
     /** A note for the observers. */
     void
     tell(const std::string &text) const;
@@ -156,6 +164,7 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     std::vector<unsigned int>             n_parts; ///< of each body
+    std::set<std::string>                 missed;  ///< boundaries told of
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
