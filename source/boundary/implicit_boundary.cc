@@ -185,14 +185,16 @@ namespace moraine
   ImplicitBoundary<dim>::find_pieces(const GridSpace<dim> &space,
                                      const double          search_tolerance)
   {
-    const auto &tria = space.mesh().triangulation();
+    const auto &tria    = space.mesh().triangulation();
+    const Owner itself  = [](const auto &cell, const auto &) { return cell; };
+    const Owner nearest = [&](const auto &cell, const auto &x) {
+      return nearest_active_cell(space, cell, x, search_tolerance);
+    };
     if (!space.nodes_moved())
       {
         for (const auto &cell : tria.active_cell_iterators())
           if (cell->is_locally_owned() || !space.is_active(cell))
-            add_pieces(cell, vertices_of<dim>(cell), [&](const Point<dim> &x) {
-              return nearest_active_cell(space, cell, x, search_tolerance);
-            });
+            add_pieces(cell, vertices_of<dim>(cell), nearest);
       }
     else
       // Cells without material stay where material once was: here those beside
@@ -202,7 +204,6 @@ namespace moraine
           {
             const CellVertices<dim> vertices =
               present_vertices(space, cell->active_cell_index());
-            const auto itself = [&](const Point<dim> &) { return cell; };
             add_pieces(cell, vertices, itself);
             for (const unsigned int f : cell->face_indices())
               if (cell->at_boundary(f) || !space.is_active(cell->neighbor(f)))
@@ -241,7 +242,7 @@ namespace moraine
                     pieces);
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        const CellIterator owner = owner_of(piece.x);
+        const CellIterator owner = owner_of(cell, piece.x);
         if (owner.state() != IteratorState::valid || !owner->is_locally_owned())
           continue;
         BoundaryPoint<dim> point;

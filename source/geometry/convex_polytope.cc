@@ -472,13 +472,7 @@ namespace moraine
             stop(loop[i], Tensor<1, 2>({edge[1], -edge[0]}));
           }
       else
-        {
-          Tensor<1, 3> normal;
-          for (unsigned int i = 1; i + 1 < loop.size(); ++i)
-            normal +=
-              cross_product_3d(loop[i] - loop[0], loop[i + 1] - loop[0]);
-          stop(loop[0], normal);
-        }
+        stop(loop[0], twice_area(loop));
     });
     return way < 1. ? centre + way * (point - centre) : point;
   }

@@ -241,9 +241,7 @@ namespace moraine
       void
       apply(const ConvexPolytope<3>::PointList &face)
       {
-        normal = 0.;
-        for (unsigned int i = 1; i + 1 < face.size(); ++i)
-          normal += cross_product_3d(face[i] - face[0], face[i + 1] - face[0]);
+        normal = twice_area(face);
         if (std::abs(normal[2]) <= 1e-14 * normal.norm())
           return;
         auto chords = chords_in_disc<3>(face, centre, radius);
@@ -331,9 +329,7 @@ namespace moraine
       void
       add_face(const ConvexPolytope<3>::PointList &loop)
       {
-        normal = 0.;
-        for (unsigned int i = 1; i + 1 < loop.size(); ++i)
-          normal += cross_product_3d(loop[i] - loop[0], loop[i + 1] - loop[0]);
+        normal = twice_area(loop);
         if (normal.norm_square() == 0.)
           return;
         normal /= normal.norm();

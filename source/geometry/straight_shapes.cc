@@ -3,7 +3,6 @@
 
 #include <moraine/geometry/shapes.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -31,7 +30,7 @@ namespace moraine
     {
     public:
       /**
-       * @p names are those of the @p faces, or none. Several parts need their
+       * @p names are those of the @p sides, or none. Several parts need their
        * @p outline as seen along z, between the lowest and highest z of the
        * @p box. The @p whole of the faces may be given as one.
        */

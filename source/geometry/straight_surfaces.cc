@@ -85,14 +85,10 @@ namespace moraine
       if (vertices.size() < 3)
         throw InputError("a plane patch needs at least three points, found " +
                          std::to_string(vertices.size()));
-      Tensor<1, 3> normal;
-      double       size = 0.;
-      for (unsigned int i = 1; i < vertices.size(); ++i)
-        {
-          size = std::max(size, vertices[i].distance(vertices[0]));
-          normal += cross_product_3d(vertices[i - 1] - vertices[0],
-                                     vertices[i] - vertices[0]);
-        }
+      Tensor<1, 3> normal = twice_area(vertices);
+      double       size   = 0.;
+      for (const auto &x : vertices)
+        size = std::max(size, x.distance(vertices[0]));
       if (normal.norm() <= 1e-12 * size * size)
         throw InputError("the points of a plane patch enclose no area");
       normal /= normal.norm();

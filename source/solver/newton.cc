@@ -262,10 +262,9 @@ namespace moraine
 
     /**
      * Whether the tangent that gave dx has a shorter correction for the
-     * residual after it. Where a stiff part of the
-     * material, as the volume of a nearly incompressible one, meets a rotation
-     * for the first time, the residual grows although the step is a good one:
-     * displacements do not.
+     * residual after it. Where a stiff part of the material, as the volume of a
+     * nearly incompressible one, meets a rotation for the first time, the
+     * residual grows although the step is a good one: displacements do not.
      */
     bool
     Iteration::next_is_shorter(const LA::Vector &dx)

@@ -19,15 +19,16 @@ def begun(scene):
     for line in process.stdout:
         if line.startswith("  results in"):
             break
-        head.append(line)
+        head.append(line.rstrip("\n"))
     process.kill()
     process.communicate()
-    return "".join(head), target / "parameters.prm"
+    return head, target / "parameters.prm"
 
 
 def is_same(scene):
     head, parameters = begun(scene)
-    return run(parameters, command="check").output.startswith(head)
+    told = run(parameters, command="check").output.splitlines()
+    return told == [*head, "  nothing wrong was found"]
 
 
 def has_choices(scene):

@@ -268,12 +268,13 @@ namespace moraine
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);
 
     using CellIterator = typename GridSpace<dim>::CellIterator;
-    using Owner = std::function<CellIterator(const dealii::Point<dim> &)>;
+    using Owner        = std::function<CellIterator(const CellIterator &,
+                                             const dealii::Point<dim> &)>;
 
     /**
-     * Points on the surface inside of @p vertices, a cell or a layer at one.
-     * Their owner's functions hold them; without one on this rank they are
-     * left out.
+     * Points on the surface inside of @p vertices, @p cell or a layer at it.
+     * The functions of their owner, given the cell and the place, hold them;
+     * without one on this rank they are left out.
      */
     void
     add_pieces(const CellIterator      &cell,

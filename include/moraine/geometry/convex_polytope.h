@@ -40,6 +40,21 @@ namespace moraine
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &polygon);
 
+  /**
+   * Of a plane polygon in space, as a container of points: its normal, twice
+   * the area long. Seen against it the vertices run counter-clockwise.
+   */
+  template <typename Vertices>
+  dealii::Tensor<1, 3>
+  twice_area(const Vertices &vertices)
+  {
+    dealii::Tensor<1, 3> sum;
+    for (unsigned int i = 1; i + 1 < vertices.size(); ++i)
+      sum += dealii::cross_product_3d(vertices[i] - vertices[0],
+                                      vertices[i + 1] - vertices[0]);
+    return sum;
+  }
+
   /** What makes up a counter-clockwise simple polygon: itself or triangles. */
   std::vector<Polygon>
   convex_parts(Polygon polygon);

@@ -140,6 +140,7 @@ namespace moraine
     void
     move_nodes(const std::vector<dealii::Tensor<1, dim>> &displacement);
 
+    /** Whether nodes are elsewhere than in the mesh as it was built. */
     bool
     nodes_moved() const
     {
