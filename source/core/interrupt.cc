@@ -7,7 +7,6 @@
 
 #include <csignal>
 
-#include <signal.h>
 #include <unistd.h>
 
 namespace moraine
@@ -36,8 +35,7 @@ namespace moraine
 
 
 
-  void
-  install_interrupt_handler(const bool announce)
+  InterruptHandler::InterruptHandler(const bool announce)
   {
     was_interrupted         = 0;
     must_announce           = announce ? 1 : 0;
@@ -45,8 +43,16 @@ namespace moraine
     action.sa_handler       = handle_interrupt;
     // The second signal meets the default action; system calls go on.
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGINT, &action, &action_on_interrupt);
+    sigaction(SIGTERM, &action, &action_on_termination);
+  }
+
+
+
+  InterruptHandler::~InterruptHandler()
+  {
+    sigaction(SIGINT, &action_on_interrupt, nullptr);
+    sigaction(SIGTERM, &action_on_termination, nullptr);
   }
 
 

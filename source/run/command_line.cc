@@ -319,7 +319,7 @@ namespace moraine
                   arguments.options.overwrite,
                   MPI_COMM_WORLD,
                   console);
-      install_interrupt_handler(
+      const InterruptHandler handler(
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
       return study.run();
     }
@@ -341,7 +341,7 @@ namespace moraine
       options.output_directory =
         output_directory(arguments, input.get("Output", "Directory", ""));
       console.set_quiet(options.verbosity == Verbosity::quiet);
-      install_interrupt_handler(
+      const InterruptHandler handler(
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
       const Summary summary =
         simulate<dim>(input, options, MPI_COMM_WORLD, console);

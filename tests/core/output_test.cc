@@ -189,18 +189,26 @@ TEST(Console, ReportsALogThatCannotBeWritten)
 
 TEST(Interrupt, OneRankIsEnough)
 {
-  install_interrupt_handler(false);
-  EXPECT_FALSE(interrupted(MPI_COMM_WORLD));
-  if (rank() == 0)
-    std::raise(SIGINT);
-  EXPECT_TRUE(interrupted(MPI_COMM_WORLD));
+  const auto action = [](const int signal) {
+    struct sigaction now = {};
+    sigaction(signal, nullptr, &now);
+    return now.sa_handler;
+  };
+  const auto before = action(SIGTERM);
+  {
+    const InterruptHandler handler(false);
+    EXPECT_FALSE(interrupted(MPI_COMM_WORLD));
+    EXPECT_NE(action(SIGTERM), before);
+    if (rank() == 0)
+      std::raise(SIGINT);
+    EXPECT_TRUE(interrupted(MPI_COMM_WORLD));
 
-  // The next one has its default action again: the program ends.
-  struct sigaction now = {};
-  sigaction(SIGINT, nullptr, &now);
-  EXPECT_EQ(now.sa_handler == SIG_DFL, rank() == 0);
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+    // The next one has its default action again: the program ends.
+    EXPECT_EQ(action(SIGINT) == SIG_DFL, rank() == 0);
+  }
+  // A launcher that ends the ranks of a program that failed asks for no step.
+  EXPECT_EQ(action(SIGTERM), before);
+  EXPECT_EQ(action(SIGINT), SIG_DFL);
 }
 
 TEST(Memory, SeesABigBlock)

@@ -6,15 +6,31 @@
 
 #include <mpi.h>
 
+#include <signal.h>
+
 namespace moraine
 {
   /**
-   * From now on the first Ctrl-C (SIGINT) or SIGTERM only asks to end after the
-   * current step, and a second one of its kind ends the program at once.
-   * @param announce say so on the terminal; for one rank.
+   * As long as it lives, the first Ctrl-C (SIGINT) or SIGTERM only asks to end
+   * after the current step, and a second one of its kind ends the program at
+   * once. Afterwards signals do what they did before: a launcher that ends the
+   * other ranks of a program that has failed asks for no step.
    */
-  void
-  install_interrupt_handler(const bool announce);
+  class InterruptHandler
+  {
+  public:
+    /** @param announce say so on the terminal; for one rank. */
+    explicit InterruptHandler(const bool announce);
+
+    InterruptHandler(const InterruptHandler &) = delete;
+    InterruptHandler &
+    operator=(const InterruptHandler &) = delete;
+
+    ~InterruptHandler();
+
+  private:
+    struct sigaction action_on_interrupt, action_on_termination;
+  };
 
   /**
    * Whether any rank was asked to end. All ranks must call it and get the same
