@@ -15,8 +15,8 @@ namespace moraine
   namespace
   {
     template <int dim>
-    SymmetricTensor<2, 3>
-    symmetric_part(const Tensor<2, dim> &gradient)
+    inline DEAL_II_ALWAYS_INLINE SymmetricTensor<2, 3>
+                                 symmetric_part(const Tensor<2, dim> &gradient)
     {
       SymmetricTensor<2, 3> strain;
       for (unsigned int i = 0; i < dim; ++i)

@@ -28,9 +28,11 @@ namespace moraine
     dealii::SymmetricTensor<2, 3>
     operator*(const dealii::SymmetricTensor<2, 3> &strain) const
     {
-      return lambda * dealii::trace(strain) *
-               dealii::unit_symmetric_tensor<3>() +
-             2. * mu * strain;
+      dealii::SymmetricTensor<2, 3> stress     = 2. * mu * strain;
+      const double                  volumetric = lambda * dealii::trace(strain);
+      for (unsigned int i = 0; i < 3; ++i)
+        stress[i][i] += volumetric;
+      return stress;
     }
 
     /** The strain @f$C^{-1} : \sigma@f$. */
