@@ -172,3 +172,33 @@ TEST(FittedWeights, BesideEmptyCellsAreOne)
           EXPECT_NE(factors[p], 1.);
     }
 }
+
+
+
+TEST(FittedWeights, OfTwoBodiesOrHalfACellAreOne)
+{
+  ShiftedScene<2> scene(2, 0.05);
+  const auto      body   = scene.points.fields().find(FieldNames<2>::body);
+  unsigned int    inside = 0;
+  for (const auto &in_cell : scene.points.cells())
+    if (!at_edge_of_mesh<2>(in_cell) && inside++ < 2)
+      {
+        if (inside == 1)
+          body.store(1, scene.points.values(in_cell.first));
+        else
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            scene.points.set_volume(p, 0.45 * scene.points.volume(p));
+      }
+  const auto factors = scene.factors();
+  inside             = 0;
+  for (const auto &in_cell : scene.points.cells())
+    if (!at_edge_of_mesh<2>(in_cell))
+      {
+        ++inside;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          if (inside <= 2)
+            EXPECT_EQ(factors[p], 1.);
+          else
+            EXPECT_NE(factors[p], 1.);
+      }
+}
