@@ -6,7 +6,7 @@
 SCENE = "prm/large-deformation/collapse.prm"
 WEIGHT = 640e3
 CELL_SIZES = (1, 0.5)
-# AMPLE 1.1 takes 231 and 233; ours with the line search 202 to 217.
+# AMPLE 1.1 takes 231 and 233.
 MOST_ITERATIONS = 185
 
 
