@@ -89,8 +89,8 @@ namespace moraine
   Console::Console(const MPI_Comm communicator)
     : Console(communicator, std::cout)
   {
-    // mpirun gives the program a terminal for stdout even if it has none itself,
-    // but not for stderr.
+    // mpirun gives the program a terminal for stdout even if it has none
+    // itself, but not for stderr.
     terminal = tee != nullptr && isatty(STDOUT_FILENO) == 1 &&
                isatty(STDERR_FILENO) == 1;
   }

@@ -312,8 +312,8 @@ namespace moraine
     int
     run_study(const Arguments &arguments, const InputFile &input)
     {
-      Console console(MPI_COMM_WORLD);
-      Study   study(input,
+      Console                console(MPI_COMM_WORLD);
+      Study                  study(input,
                   output_directory(arguments,
                                    input.get("Output", "Directory", "")),
                   arguments.options.overwrite,

@@ -168,7 +168,9 @@ namespace moraine
               !(*before.error > 0) || !(*result.error > 0))
             return "";
           const double refinement =
-            (result.summary.sizes.unknowns < before.summary.sizes.unknowns ? -1 : 1) *
+            (result.summary.sizes.unknowns < before.summary.sizes.unknowns ?
+               -1 :
+               1) *
             std::abs(std::log(v1 / v0));
           return text_of(std::log(*before.error / *result.error) / refinement,
                          3);
@@ -401,20 +403,24 @@ namespace moraine
         out << "EOD\n";
       }
     const auto panel_list = panels_of(all);
-    out << "set terminal pngcairo noenhanced size 1300,"
-        << 40 + 460 * panel_list.size() << " font ',12'\n"
+    out << "set terminal pngcairo size 1300," << 40 + 460 * panel_list.size()
+        << " font ',12'\n"
         << "set output 'study.png'\n"
         << "set multiplot layout " << panel_list.size() << ",2 title "
-        << single_quoted(title) << '\n'
-        << "set ylabel " << single_quoted(error_label()) << '\n'
-        << "set logscale xy\nset format xy '10^{%T}' enhanced\nset grid\n"
+        << single_quoted(title) << " noenhanced\n"
+        << "set ylabel " << single_quoted(error_label()) << " noenhanced\n"
+        << "set logscale xy\nset format xy '10^{%T}'\nset grid\n"
         << "set colorsequence podo\n";
     for (const auto &panel : panel_list)
       for (const bool over_time : {false, true})
         {
           out << "set xlabel " << (over_time ? "'wall time [s]'" : "'unknowns'")
               << '\n'
-              << (over_time ? "set key outside right top\n" : "unset key\n")
+              << (over_time ? "set lmargin at screen 0.46\n"
+                              "set rmargin at screen 0.77\n"
+                              "set key outside right top noenhanced\n" :
+                              "set lmargin at screen 0.07\n"
+                              "set rmargin at screen 0.38\nunset key\n")
               << "plot ";
           for (std::size_t k = 0; k < panel.size(); ++k)
             {

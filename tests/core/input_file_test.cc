@@ -276,8 +276,8 @@ TEST(Patterns, InWords)
   EXPECT_EQ(describe(p::NumberText()), "numbers in a text");
   EXPECT_EQ(describe(dealii::Patterns::Selection("|inside|outside")),
             "one of nothing, inside, outside");
-  EXPECT_EQ(describe(dealii::Patterns::Map(dealii::Patterns::Anything(),
-                                           p::number())),
+  EXPECT_EQ(describe(
+              dealii::Patterns::Map(dealii::Patterns::Anything(), p::number())),
             "pairs 'name: value', each value a number, separated by commas");
 }
 

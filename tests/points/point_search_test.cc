@@ -161,10 +161,9 @@ TEST(PointSearch, HollowSpheresInManyMeshes)
   const std::vector<unsigned int> cells{11, 8, 12, 18, 20, 23, 28};
   for (unsigned int i = 0; i < cells.size(); i += every_mesh)
     for (const auto &corner : {Point<3>(), Point<3>(-0.3, 7.7, 0.1)})
-      ASSERT_NO_THROW(
-        EXPECT_NEAR(seeding_error<3>(
-                      cells[i], corner, 0.4, cells[i] < 20 ? 0.95 : 1.),
-                    0.,
-                    1e-6))
+      ASSERT_NO_THROW(EXPECT_NEAR(
+        seeding_error<3>(cells[i], corner, 0.4, cells[i] < 20 ? 0.95 : 1.),
+        0.,
+        1e-6))
         << cells[i] << " cells, corner " << corner;
 }

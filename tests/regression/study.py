@@ -33,9 +33,11 @@ text("seconds are positive", all(float(row["wall_seconds"]) > 0 and
                                  for row in beam.rows))
 text("memory is there", all(1 < float(row["peak_memory_mib"]) < 4096
                             for row in beam.rows))
+# gnuplot also leaves a file of an empty picture.
 picture = (beam.folder / "study.png").read_bytes()
-text("picture", "PNG" if picture[1:4] == b"PNG" and len(picture) > 10000
-     else "NO")
+text("picture", "PNG" if picture[1:4] == b"PNG" and len(picture) > 30000
+     else f"NO: {len(picture)} bytes")
+text("  said", "plot in" in beam.output and "gnuplot" not in beam.output)
 script = (beam.folder / "study.gp").read_text()
 for line in ("set multiplot", "set xlabel", "set ylabel", "set logscale"):
     for found in dict.fromkeys(l for l in script.splitlines()

@@ -52,9 +52,9 @@ namespace moraine
    * integrates gradients, in full cells; equal sub-cells have their centroids.
    *
    * In 3D the gradients of trilinear shape functions hold products of two
-   * coordinates as well. A sub-cell that a straight-sided body cuts obliquely has
-   * three points of equal volume there, with its centroid as their mean, that
-   * integrate these too; where no such triangle lies in the body (next to
+   * coordinates as well. A sub-cell that a straight-sided body cuts obliquely
+   * has three points of equal volume there, with its centroid as their mean,
+   * that integrate these too; where no such triangle lies in the body (next to
    * re-entrant edges) it has one.
    *
    * Finite elements of degree 2 ask for more: with a fitted degree k > 0 the
