@@ -403,7 +403,7 @@ namespace moraine
         out << "EOD\n";
       }
     const auto panel_list = panels_of(all);
-    out << "set terminal pngcairo size 1300," << 40 + 460 * panel_list.size()
+    out << "set terminal pngcairo size 1400," << 40 + 460 * panel_list.size()
         << " font ',12'\n"
         << "set output 'study.png'\n"
         << "set multiplot layout " << panel_list.size() << ",2 title "
@@ -416,11 +416,11 @@ namespace moraine
         {
           out << "set xlabel " << (over_time ? "'wall time [s]'" : "'unknowns'")
               << '\n'
-              << (over_time ? "set lmargin at screen 0.46\n"
-                              "set rmargin at screen 0.77\n"
+              << (over_time ? "set lmargin at screen 0.43\n"
+                              "set rmargin at screen 0.72\n"
                               "set key outside right top noenhanced\n" :
-                              "set lmargin at screen 0.07\n"
-                              "set rmargin at screen 0.38\nunset key\n")
+                              "set lmargin at screen 0.065\n"
+                              "set rmargin at screen 0.355\nunset key\n")
               << "plot ";
           for (std::size_t k = 0; k < panel.size(); ++k)
             {
