@@ -411,6 +411,7 @@ namespace moraine
         << "set ylabel " << single_quoted(error_label()) << " noenhanced\n"
         << "set logscale xy\nset format xy '10^{%T}'\nset grid\n"
         << "set colorsequence podo\n";
+    // Both panels of a row are as wide; names of curves are right of them.
     for (const auto &panel : panel_list)
       for (const bool over_time : {false, true})
         {

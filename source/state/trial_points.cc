@@ -14,9 +14,11 @@ namespace moraine
 
   namespace
   {
+    // As a call it stores numbers that are read back in pairs at once, and the
+    // processor waits.
     template <int dim>
-    inline DEAL_II_ALWAYS_INLINE SymmetricTensor<2, 3>
-                                 symmetric_part(const Tensor<2, dim> &gradient)
+    [[gnu::always_inline]] inline SymmetricTensor<2, 3>
+    symmetric_part(const Tensor<2, dim> &gradient)
     {
       SymmetricTensor<2, 3> strain;
       for (unsigned int i = 0; i < dim; ++i)
