@@ -19,6 +19,7 @@ namespace moraine
       state.grid().mesh().triangulation().n_active_cells();
     body_of_cell.assign(n_cells, 0);
     stiffness.assign(n_cells, state.material(0).elastic_stiffness());
+    densities.assign(n_cells, state.material(0).density());
     std::vector<double> volumes;
     for (const auto &in_cell : points.cells())
       {
@@ -31,6 +32,7 @@ namespace moraine
           {
             body_of_cell[cell] = first;
             stiffness[cell]    = state.material(first).elastic_stiffness();
+            densities[cell]    = state.material(first).density();
             continue;
           }
         volumes.clear();
@@ -45,6 +47,7 @@ namespace moraine
         const auto largest = std::max_element(volumes.begin(), volumes.end());
         body_of_cell[cell] = largest - volumes.begin();
         stiffness[cell]    = {0., 0.};
+        densities[cell]    = 0.;
         for (unsigned int body = 0; body < volumes.size(); ++body)
           if (volumes[body] > 0)
             {
@@ -52,6 +55,7 @@ namespace moraine
               const double        share = volumes[body] / volume;
               stiffness[cell].lambda += share * C.lambda;
               stiffness[cell].mu += share * C.mu;
+              densities[cell] += share * state.material(body).density();
             }
       }
   }

@@ -106,6 +106,7 @@ namespace moraine
     with_tangent = tangent;
     predicted    = predicted_;
     std::fill(squares.begin(), squares.end(), 0.);
+    work_sum = 0;
     node_forces.assign(space->n_nodes(), Tensor<1, dim>());
     if (tangent)
       *sum_of_matrices = 0;
@@ -118,6 +119,7 @@ namespace moraine
   GlobalSystem<dim>::add(const LocalSystem<dim> &local, const bool tangent)
   {
     const unsigned int n_nodes = local.nodal_increments.size();
+    work_sum += local.work();
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int c = 0; c < dim; ++c)
         {

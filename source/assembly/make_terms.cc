@@ -3,9 +3,11 @@
 
 #include <moraine/assembly/make_terms.h>
 
+#include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/assembly/grid_condition_term.h>
+#include <moraine/assembly/inertia.h>
 #include <moraine/assembly/internal_force.h>
 #include <moraine/assembly/load_terms.h>
 
@@ -16,15 +18,21 @@ namespace moraine
   make_terms(std::vector<ImplicitBoundary<dim>>    &boundaries,
              const std::vector<GridCondition<dim>> &conditions,
              Loads<dim>                            &loads,
-             const double                           fictitious_stiffness)
+             const double                           fictitious_stiffness,
+             const bool                             inertia)
   {
     Terms<dim> terms;
     terms.push_back(std::make_unique<InternalForce<dim>>());
+    if (inertia)
+      terms.push_back(std::make_unique<Inertia<dim>>());
     if (fictitious_stiffness > 0)
       terms.push_back(
         std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
     for (auto &boundary : boundaries)
-      terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
+      if (boundary.absorbs())
+        terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
+      else
+        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
     if (!conditions.empty())
       terms.push_back(std::make_unique<GridConditionTerm<dim>>(conditions));
     for (const auto &force : loads.body_forces)
@@ -44,10 +52,12 @@ namespace moraine
   make_terms(std::vector<ImplicitBoundary<2>> &,
              const std::vector<GridCondition<2>> &,
              Loads<2> &,
-             const double);
+             const double,
+             const bool);
   template Terms<3>
   make_terms(std::vector<ImplicitBoundary<3>> &,
              const std::vector<GridCondition<3>> &,
              Loads<3> &,
-             const double);
+             const double,
+             const bool);
 } // namespace moraine

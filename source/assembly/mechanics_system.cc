@@ -42,6 +42,20 @@ namespace moraine
           return other;
       return "";
     }
+
+
+
+    /** The sum of scalar products. */
+    template <int dim>
+    double
+    product(const std::vector<Tensor<1, dim>> &forces,
+            const std::vector<Tensor<1, dim>> &increments)
+    {
+      double sum = 0;
+      for (unsigned int node = 0; node < forces.size(); ++node)
+        sum += forces[node] * increments[node];
+      return sum;
+    }
   } // namespace
 
 
@@ -112,6 +126,8 @@ namespace moraine
       context.couplings_changed = state.begin_step() || !sums.matrix();
     }
     context.t_start = context.t_end = t;
+    if (context.motion)
+      context.motion->begin_step();
     context.cells_moved =
       context.couplings_changed || context.mesh_moves ||
       state.mesh_after_step() == MeshAfterStep::follow_material;
@@ -135,6 +151,15 @@ namespace moraine
       }
     else if (context.cells_moved)
       rigid_modes = rigid_modes_of(state.grid());
+    if (!context.motion)
+      return;
+    find_forces_at_start();
+    const double share = context.motion->integrator().start_forces();
+    if (share > 0)
+      {
+        forces.at_start = sum_of_kinds();
+        forces.at_start *= share;
+      }
   }
 
 
@@ -219,7 +244,7 @@ namespace moraine
                 bodies.of_node,
                 body_names.size());
     for (LA::Vector *vector :
-         {&residual_vector, &dead_forces, &unbalanced, &assembled_at})
+         {&residual_vector, &forces.dead, &unbalanced, &assembled_at})
       vector->reinit(space.locally_owned(), space.communicator());
     rigid_modes = rigid_modes_of(space);
   }
@@ -244,16 +269,41 @@ namespace moraine
     context.t_end = t_end;
     state.set_step_time({context.t_start, context.t_end});
     start_over();
+    if (context.motion)
+      set_target_of_motion();
     if (constraints.any_lines())
       constraints.set_values(lines_of_terms());
     TimerOutput::Scope scope(timer, "external forces");
     sums.begin(false);
-    add_terms(true, false);
-    sums.end(dead_forces);
+    add_terms([](const auto &term) { return term.is_dead(); }, false);
+    sums.end(forces.dead);
     scale.dead_squares.resize(body_names.size());
     Utilities::MPI::sum(sums.squares_of_bodies(),
                         state.grid().communicator(),
                         scale.dead_squares);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::set_target_of_motion()
+  {
+    const double t_end = context.t_end;
+    context.motion->set_target(
+      context.step_size(),
+      !constraints.any_lines() ?
+        typename Motion<dim>::Constrain() :
+        [this, t_end](const Prescribed prescribed, LA::Vector &x) {
+          if (prescribed == Prescribed::none)
+            return constraints.distribute_correction(x);
+          context.t_end = prescribed == Prescribed::in_the_middle ?
+                            (context.t_start + t_end) / 2 :
+                            t_end;
+          constraints.set_values(lines_of_terms());
+          constraints.distribute(x);
+        });
+    context.t_end = t_end;
   }
 
 
@@ -302,12 +352,12 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::add_point_terms(const bool dead, const bool tangent)
+  MechanicsSystem<dim>::add_point_terms(const Which &which, const bool tangent)
   {
     std::vector<const PointTerm<dim> *> point_terms;
     for (const auto &term : terms)
       if (const auto *of_points = dynamic_cast<PointTerm<dim> *>(term.get()))
-        if (term->is_dead() == dead)
+        if (which(*term))
           point_terms.push_back(of_points);
     if (point_terms.empty())
       return;
@@ -318,8 +368,14 @@ namespace moraine
       {
         basis.evaluate(g, block);
         local.reinit(state, block.nodes, block.n_nodes, tangent);
+        double before = 0;
         for (const auto *term : point_terms)
-          term->add(context, block, tangent, local);
+          {
+            term->add(context, block, tangent, local);
+            const double work = local.work();
+            count_work(*term, work - before);
+            before = work;
+          }
         sums.add(local, tangent && local.failure.empty());
       }
     local_failure = local.failure;
@@ -329,16 +385,28 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::add_terms(const bool dead, const bool tangent)
+  MechanicsSystem<dim>::count_work(const Term<dim> &term, const double work)
+  {
+    if (term.work_kind() != WorkKind::none)
+      forces.works[unsigned(term.work_kind())] += work;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::add_terms(const Which &which, const bool tangent)
   {
     local_failure.clear();
     scale.stabilising_squares = 0;
-    add_point_terms(dead, tangent);
+    add_point_terms(which, tangent);
     for (const auto &term : terms)
-      if (term->is_dead() == dead)
+      if (which(*term))
         {
-          const double before = sums.sum_of_squares();
+          const double before      = sums.sum_of_squares();
+          const double work_before = sums.work();
           term->add(context, tangent, sums);
+          count_work(*term, sums.work() - work_before);
           if (term->stabilises())
             scale.stabilising_squares += sums.sum_of_squares() - before;
         }
@@ -364,9 +432,12 @@ namespace moraine
         state.reject();
       }
     sums.begin(tangent, predicted);
-    add_terms(false, tangent);
+    forces.works.fill(0.);
+    add_terms([](const auto &term) { return !term.is_dead(); }, tangent);
     sums.end(unbalanced);
-    unbalanced += dead_forces;
+    unbalanced += forces.dead;
+    if (forces.at_start.size() > 0)
+      unbalanced += forces.at_start;
     residual_vector = unbalanced;
     constraints.condense(residual_vector);
     scale.of_bodies.resize(body_names.size());
@@ -383,6 +454,99 @@ namespace moraine
     scale.now = std::sqrt(squares);
     if (first_of_step)
       scale.at_start = scale.now;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::find_forces_at_start()
+  {
+    TimerOutput::Scope scope(timer, "forces at start");
+    context.t_end = context.t_start;
+    state.set_step_time({context.t_start, context.t_end});
+    state.reject();
+    start_over();
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        sums.begin(false);
+        add_terms(
+          [k](const auto &term) { return term.work_kind() == WorkKind(k); },
+          false);
+        forces.by_kind[k] = sums.forces_of_this_rank();
+      }
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  MechanicsSystem<dim>::sum_of_kinds() const
+  {
+    NodeValues sum(state.grid().n_nodes());
+    for (const NodeValues &of_kind : forces.by_kind)
+      for (unsigned int node = 0; node < sum.size(); ++node)
+        sum[node] += of_kind[node];
+    LA::Vector result = state.grid().vector();
+    state.grid().sum_node_values(sum, result);
+    return result;
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  MechanicsSystem<dim>::forces_and_mass()
+  {
+    LA::Vector at_start = sum_of_kinds();
+    constraints.condense(at_start);
+    context.motion->set_target(0., {});
+    sums.begin(true);
+    add_terms([](const auto &term) { return term.is_inertia(); }, true);
+    LA::Vector none = state.grid().vector();
+    sums.end(none);
+    return at_start;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::count_work(const LA::Vector &x)
+  {
+    TimerOutput::Scope scope(timer, "energy");
+    assemble_forces_at(x);
+    const NodeValues &increments = state.nodal_increments();
+    const NodeValues &prescribed = context.motion->prescribed_increments();
+    typename Motion<dim>::StepWorks works;
+    const double                    of_dead = forces.dead * x;
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        works.at_start[k] = product(forces.by_kind[k], increments);
+        works.at_end[k]   = forces.works[k];
+        if (!prescribed.empty())
+          works.on_prescribed_at_start +=
+            product(forces.by_kind[k], prescribed);
+      }
+    if (!prescribed.empty())
+      works.on_prescribed_at_end = work_on_prescribed();
+    works.sum_over_ranks(state.grid().communicator());
+    works.at_end[unsigned(WorkKind::external)] += of_dead;
+    context.motion->count(works);
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::work_on_prescribed()
+  {
+    sums.begin(false);
+    add_terms(
+      [](const auto &term) { return term.work_kind() != WorkKind::none; },
+      false);
+    return product(sums.forces_of_this_rank(),
+                   context.motion->prescribed_increments());
   }
 
 
@@ -463,6 +627,8 @@ namespace moraine
   void
   MechanicsSystem<dim>::check_that_it_is_held(const bool first_step) const
   {
+    if (context.motion)
+      return; // by inertia
     check_rigid_motion(context,
                        *sums.matrix(),
                        constraints,
@@ -474,24 +640,35 @@ namespace moraine
 
 
   template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_forces_at(const LA::Vector &x)
+  {
+    // They are known, unless x is not where Newton ended.
+    LA::Vector difference(x);
+    difference -= assembled_at;
+    if (!assembled || predicting || difference.linfty_norm() > 0)
+      assemble(x, false);
+  }
+
+
+
+  template <int dim>
   std::vector<BoundaryReport<dim>>
   MechanicsSystem<dim>::accept(const LA::Vector &x)
   {
     if (std::any_of(terms.begin(), terms.end(), [](const auto &term) {
           return term->wants_unbalanced_forces();
         }))
-      {
-        // The residual at x is known, unless x is not where Newton ended.
-        LA::Vector difference(x);
-        difference -= assembled_at;
-        if (!assembled || predicting || difference.linfty_norm() > 0)
-          assemble(x, false);
-      }
+      assemble_forces_at(x);
     state.set_trial(x);
+    if (context.motion)
+      count_work(x);
     for (const auto &term : terms)
       term->prepare(context, unbalanced);
     {
       TimerOutput::Scope scope(timer, "update and search");
+      if (context.motion)
+        context.motion->accept();
       state.accept(move_mesh);
     }
     for (const auto &term : terms)

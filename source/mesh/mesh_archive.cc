@@ -63,21 +63,61 @@ namespace moraine
 
   template <int dim>
   void
-  GridSpace<dim>::write(Archive &archive) const
+  GridSpace<dim>::write_node_values(const std::vector<Tensor<1, dim>> &values,
+                                    const std::string                 &group,
+                                    Archive &archive) const
   {
     std::vector<unsigned int> ids;
-    std::vector<double>       values;
+    std::vector<double>       rows;
     for (const auto &cell : background.triangulation().active_cell_iterators())
-      if (!moves.empty() && cell->is_locally_owned() && knows(cell))
+      if (!values.empty() && cell->is_locally_owned() && knows(cell))
         for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
           {
             ids.push_back(cell->active_cell_index());
             ids.push_back(a);
-            const Tensor<1, dim> &move = moves[cell_nodes(cell)[a]];
-            values.insert(values.end(), move.begin_raw(), move.end_raw());
+            const Tensor<1, dim> &value = values[cell_nodes(cell)[a]];
+            rows.insert(rows.end(), value.begin_raw(), value.end_raw());
           }
-    archive.distribute("nodes", std::move(ids), 2);
-    archive.write("nodes/move", std::move(values), dim);
+    archive.distribute(group, std::move(ids), 2);
+    archive.write(group + "/value", std::move(rows), dim);
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::read_node_values(const Archive               &archive,
+                                   const std::string           &group,
+                                   std::vector<Tensor<1, dim>> &values) const
+  {
+    // A rank also knows nodes of cells that are another's.
+    const auto ids =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.integers(group + "/id", 2));
+    const auto rows =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.numbers(group + "/value", dim));
+    values.clear();
+    for (unsigned int rank = 0; rank < ids.size(); ++rank)
+      for (unsigned int row = 0; row < ids[rank].size() / 2; ++row)
+        {
+          const unsigned int cell = ids[rank][2 * row],
+                             a    = ids[rank][2 * row + 1];
+          values.resize(n_nodes());
+          if (cell_slot.at(cell) != no_cell)
+            std::copy_n(rows[rank].begin() + dim * row,
+                        dim,
+                        values[cell_nodes(cell)[a]].begin_raw());
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::write(Archive &archive) const
+  {
+    write_node_values(moves, "nodes/move", archive);
   }
 
 
@@ -86,25 +126,7 @@ namespace moraine
   void
   GridSpace<dim>::read(const Archive &archive)
   {
-    // A rank also knows nodes of cells that are another's.
-    const auto ids =
-      Utilities::MPI::all_gather(communicator(),
-                                 archive.integers("nodes/id", 2));
-    const auto values =
-      Utilities::MPI::all_gather(communicator(),
-                                 archive.numbers("nodes/move", dim));
-    moves.clear();
-    for (unsigned int rank = 0; rank < ids.size(); ++rank)
-      for (unsigned int row = 0; row < ids[rank].size() / 2; ++row)
-        {
-          const unsigned int cell = ids[rank][2 * row],
-                             a    = ids[rank][2 * row + 1];
-          moves.resize(n_nodes());
-          if (cell_slot.at(cell) != no_cell)
-            std::copy_n(values[rank].begin() + dim * row,
-                        dim,
-                        moves[cell_nodes(cell)[a]].begin_raw());
-        }
+    read_node_values(archive, "nodes/move", moves);
   }
 
 
@@ -125,4 +147,20 @@ namespace moraine
   GridSpace<2>::read(const Archive &);
   template void
   GridSpace<3>::read(const Archive &);
+  template void
+  GridSpace<2>::write_node_values(const std::vector<Tensor<1, 2>> &,
+                                  const std::string &,
+                                  Archive &) const;
+  template void
+  GridSpace<3>::write_node_values(const std::vector<Tensor<1, 3>> &,
+                                  const std::string &,
+                                  Archive &) const;
+  template void
+  GridSpace<2>::read_node_values(const Archive &,
+                                 const std::string &,
+                                 std::vector<Tensor<1, 2>> &) const;
+  template void
+  GridSpace<3>::read_node_values(const Archive &,
+                                 const std::string &,
+                                 std::vector<Tensor<1, 3>> &) const;
 } // namespace moraine

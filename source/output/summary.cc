@@ -59,6 +59,8 @@ namespace moraine
             errors.emplace_back(name, value ? Json(*value) : Json());
           json["errors"] = object_of(errors);
         }
+      if (!summary.energy.empty())
+        json["energy"] = object_of(summary.energy);
       json["probes"]    = object_of(summary.probes);
       json["reactions"] = object_of(summary.reactions);
       return json;

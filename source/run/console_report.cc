@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -97,7 +98,31 @@ namespace moraine
       console << "  note        " << note << '\n';
     console << "  steps       " << scene.time.n_steps
             << " from t = " << scene.time.start_time << " to "
-            << scene.time.end_time << std::endl;
+            << scene.time.end_time;
+    if (model.motion)
+      console << ", " << scene.time.integrator.integrator << ", Courant number "
+              << std::setprecision(3) << courant_number();
+    console << "" << std::endl;
+  }
+
+
+
+  template <int dim>
+  double
+  ConsoleReport<dim>::courant_number() const
+  {
+    double speed = 0;
+    for (const auto &material : model.materials)
+      {
+        const LameConstants C = material->elastic_stiffness();
+        speed =
+          std::max(speed,
+                   std::sqrt((C.lambda + 2 * C.mu) / material->density()));
+      }
+    const double size = scene.time.largest_step *
+                        (scene.time.end_time - scene.time.start_time) /
+                        scene.time.n_steps;
+    return speed * size / model.mesh->cell_size();
   }
 
 
@@ -283,6 +308,8 @@ namespace moraine
     print_timings(summary);
     if (!summary.errors.empty())
       print_errors(summary);
+    if (!summary.energy.empty())
+      print_energy(summary);
     console.set_quiet(false);
     console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
             << " rejected, "
@@ -337,6 +364,27 @@ namespace moraine
                   << *value << std::defaultfloat << '\n';
         else
           console << "   (exact value is zero)\n";
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_energy(const Summary &summary)
+  {
+    console << "\n  energy at the end      force length\n"
+            << std::setprecision(4);
+    for (const auto &[name, value] : summary.energy)
+      {
+        std::string words = name;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        if (name == "balance_error")
+          console << "  out of balance by      " << std::setprecision(2)
+                  << value << " of the largest\n";
+        else
+          console << "  " << std::left << std::setw(22) << words << std::right
+                  << ' ' << value << '\n';
       }
   }
 

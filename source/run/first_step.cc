@@ -8,11 +8,14 @@
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/model.h>
+#include <moraine/run/scene_conditions.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace moraine
 {
@@ -153,6 +156,73 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Nodes that begin to move otherwise than conditions want are a mistake;
+     * means of points around a node that is held need not be held as well. */
+    template <int dim>
+    void
+    check_initial_velocity(const Scene<dim> &scene, Model<dim> &model)
+    {
+      const double allowed =
+        model.state->mesh_after_step() == MeshAfterStep::reset ? 0.25 : 1e-6;
+      const std::vector<Tensor<1, dim>> given = model.motion->velocities();
+      const TimeParameters             &time  = scene.time;
+      model.system->set_target(
+        time.start_time +
+        time.largest_step * (time.end_time - time.start_time) / time.n_steps);
+      const auto  &held    = model.motion->velocities();
+      double       largest = 0, contradiction = 0;
+      unsigned int worst = 0;
+      for (unsigned int k = 0; k < given.size(); ++k)
+        {
+          largest = std::max({largest, given[k].norm(), held[k].norm()});
+          if ((given[k] - held[k]).norm() > contradiction)
+            {
+              contradiction = (given[k] - held[k]).norm();
+              worst         = k;
+            }
+        }
+      const MPI_Comm communicator = model.space->communicator();
+      largest                     = Utilities::MPI::max(largest, communicator);
+      std::ostringstream text;
+      if (given.size() > 0 && given[worst].norm() > 0 &&
+          contradiction > allowed * largest)
+        text << "section 'Bodies', key 'Initial velocity': found ("
+             << given[worst] << ") at the node (" << std::setprecision(6)
+             << model.space->node_position(worst)
+             << "), where conditions want (" << held[worst]
+             << "), allowed: velocities that agree with what holds the body";
+      for (const std::string &message :
+           Utilities::MPI::all_gather(communicator, text.str()))
+        if (!message.empty())
+          throw InputError(message);
+    }
+
+
+
+    /** From the balance of momentum: what no force changes yet stays. */
+    template <int dim>
+    void
+    find_first_accelerations(const Scene<dim> &scene, Model<dim> &model)
+    {
+      model.motion->start(initial_velocity(scene, model.body_names));
+      model.motion->begin_step();
+      check_initial_velocity(scene, model);
+      const LA::Vector forces = model.system->forces_and_mass();
+      LA::Vector       a      = model.space->vector();
+      model.linear_solver->set_up(model.system->tangent(), true, {});
+      const LinearReport report = model.linear_solver->solve(a, forces);
+      if (!report.converged)
+        throw ComputationError("accelerations at the start: " + report.message);
+      model.system->apply_constraints(a);
+      model.motion->set_accelerations(a);
+      model.linear_solver->clear();
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<std::string>
   begin_first_step(const Scene<dim> &scene, Model<dim> &model)
@@ -175,6 +245,11 @@ namespace moraine
     const ExactSolution<dim> exact = scene.exact.solution();
     if (exact.displacement || exact.stress)
       error_norms(*model.points, exact, scene.time.end_time, false);
+    if (model.motion)
+      {
+        find_first_accelerations(scene, model);
+        return notes;
+      }
     system.set_target(scene.time.start_time);
     system.assemble(model.space->vector(), true);
     system.check_that_it_is_held(true);

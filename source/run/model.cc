@@ -82,6 +82,17 @@ namespace moraine
         return std::clamp(filled, work_of_empty_cell, 1.);
       };
     }
+
+
+
+    template <int dim>
+    VelocityTransfer
+    velocity_transfer(const Scene<dim> &scene)
+    {
+      return scene.method.after_step() == MeshAfterStep::reset ?
+               VelocityTransfer(scene.time.integrator) :
+               VelocityTransfer();
+    }
   } // namespace
 
 
@@ -112,10 +123,23 @@ namespace moraine
     loads           = make_loads(scene, *mesh, body_names);
     system          = std::make_unique<MechanicsSystem<dim>>(
       *state,
-      make_terms(
-        boundaries, grid_conditions, loads, scene.method.fictitious_stiffness),
+      make_terms(boundaries,
+                 grid_conditions,
+                 loads,
+                 scene.method.fictitious_stiffness,
+                 scene.time.integrator.dynamic()),
       body_names,
       &timer);
+    if (scene.time.integrator.dynamic())
+      {
+        motion =
+          std::make_unique<Motion<dim>>(*state,
+                                        *points,
+                                        TimeIntegrator(scene.time.integrator),
+                                        velocity_transfer(scene),
+                                        scene.time.integrator.mass == "lumped");
+        system->set_motion(*motion);
+      }
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
       {
@@ -143,6 +167,8 @@ namespace moraine
     PointFields fields;
     method.request_fields(parameters, fields);
     StateFields<dim>(fields, parameters.strain_measure(), materials);
+    if (scene.time.integrator.dynamic())
+      Motion<dim>::request_fields(velocity_transfer(scene), fields);
     request_columns(bodies, fields);
     points       = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes = seed_bodies(bodies, method.make_seeder(parameters), *points);

@@ -15,6 +15,45 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    std::vector<NamedValue>
+    values_of(const Works &works)
+    {
+      const auto       &W    = works.of_forces;
+      const std::string unit = "force length";
+      return {{"internal work", unit, -W[0]},
+              {"external work", unit, W[1]},
+              {"work of boundaries", unit, W[2]},
+              {"absorbed energy", unit, -W[3]},
+              {"energy lost in transfer", unit, works.lost_in_transfer},
+              {"kinetic energy of nodes", unit, works.kinetic},
+              {"energy out of balance", unit, works.out_of_balance()}};
+    }
+
+
+
+    template <int dim>
+    std::vector<NamedValue>
+    values_of(const MotionSums<dim> &sums)
+    {
+      std::vector<NamedValue> values;
+      for (unsigned int d = 0; d < dim; ++d)
+        values.push_back({std::string("momentum_") + "xyz"[d],
+                          "mass length/time",
+                          sums.momentum[d]});
+      for (unsigned int d = 0; d < (dim == 2 ? 1 : 3); ++d)
+        values.push_back(
+          {std::string("angular_momentum_") + (dim == 2 ? 'z' : "xyz"[d]),
+           "mass length^2/time",
+           sums.angular_momentum[d]});
+      values.push_back({"kinetic energy", "force length", sums.kinetic_energy});
+      return values;
+    }
+  } // namespace
+
+
+
   template <int dim>
   ResultFiles<dim>::ResultFiles(const Scene<dim>      &scene,
                                 const Model<dim>      &model,
@@ -133,6 +172,13 @@ namespace moraine
       }
     for (const auto &value : model.probes->values(*model.points))
       row.push_back(value);
+    if (model.motion)
+      {
+        for (const NamedValue &value : values_of(model.motion->sums()))
+          row.push_back(value);
+        for (const NamedValue &value : values_of(model.motion->works()))
+          row.push_back(value);
+      }
     return row;
   }
 

@@ -29,6 +29,11 @@ namespace moraine
                       "with it, whatever the cells of the mesh are. If left "
                       "out, each cell is divided (section 'Method').",
                       patterns::positive_integers(0, dim));
+    prm.add_parameter("Initial velocity",
+                      initial_velocity,
+                      "In dynamics: of its points at the start, an expression "
+                      "of x for each component, separated by semicolons. If "
+                      "left out, the body is at rest.");
     shape.add_parameters(prm);
   }
 
@@ -119,8 +124,17 @@ namespace moraine
     prm.add_parameter("Constraint",
                       constraint,
                       "fixed: all components. roller: the component normal to "
-                      "the surface. components: those of key 'Components'.",
-                      patterns::selection({"fixed", "roller", "components"}));
+                      "the surface. components: those of key 'Components'. "
+                      "absorbing: dashpots that swallow waves, in dynamics.",
+                      patterns::selection(
+                        {"fixed", "roller", "components", "absorbing"}));
+    prm.add_parameter("Spring radius",
+                      spring_radius,
+                      "Of 'absorbing': the distance r_b to the source "
+                      "(length), by which springs of 2 G/r_b normal and G/(2 "
+                      "r_b) along the surface hold what is static. 0: dashpots "
+                      "alone.",
+                      patterns::non_negative());
     prm.add_parameter("Components",
                       components,
                       "Of 'components': which, as x, y or x, y.",

@@ -41,6 +41,71 @@ namespace moraine
              (type == "surface traction" && is_of_surface);
     }
 
+
+
+    /** Whether a key of section 'Time' is one of this integrator. */
+    bool
+    integrator_uses(const IntegratorParameters &chosen, const std::string &key)
+    {
+      if (is_one_of(key, {"Newmark beta", "Newmark gamma"}))
+        return chosen.integrator == "Newmark";
+      if (key == "Spectral radius")
+        return chosen.integrator == "generalised-alpha";
+      if (is_one_of(key, {"Mass", "Velocity transfer"}))
+        return chosen.dynamic();
+      if (key == "FLIP share")
+        return chosen.dynamic() && chosen.transfer == "blend";
+      if (key == "FMPM order")
+        return chosen.dynamic() && chosen.transfer == "FMPM";
+      return true;
+    }
+
+
+
+    /** Keys that an integrator does not look at. */
+    template <int dim>
+    void
+    check_integrator(const Scene<dim>                    &scene,
+                     const std::vector<InputFile::Entry> &given)
+    {
+      const IntegratorParameters &chosen = scene.time.integrator;
+      for (const auto &entry : given)
+        {
+          if (entry.section == "Time" && !integrator_uses(chosen, entry.key))
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "nothing with 'Integrator = " + chosen.integrator + "'" +
+                     (chosen.dynamic() ?
+                        ", 'Velocity transfer = " + chosen.transfer + "'" :
+                        ""));
+          if (entry.section == "Time" && entry.key == "Velocity transfer" &&
+              scene.method.after_step() != MeshAfterStep::reset)
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "nothing where nodes stay with the material, as with method "
+                   "'finite element'; they keep their velocity");
+          if (entry.key == "Initial velocity" && !chosen.dynamic())
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "nothing in a quasi-static scene; 'Integrator = Newmark' in "
+                   "section 'Time' makes it dynamic");
+          if (entry.section == "Solver" && entry.key == "Limit points" &&
+              entry.value == "pseudo-transient" && chosen.dynamic())
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "stop; a dynamic scene passes limit points by inertia");
+        }
+      if (chosen.dynamic())
+        for (const auto &[name, material] : scene.materials)
+          if (!(make_material(material, "Materials/" + name)->density() > 0))
+            throw InputError("section 'Materials/" + name +
+                             "': found no 'Density', allowed: a density > 0; "
+                             "a dynamic scene needs that of every material");
+    }
   } // namespace
 
 
@@ -61,6 +126,7 @@ namespace moraine
         input.require("Mesh", key);
     mesh.check();
     time.check();
+    check_integrator(*this, given);
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
       reject("Mesh motion",
              "Stretch between",

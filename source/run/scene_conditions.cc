@@ -62,6 +62,11 @@ namespace moraine
       Constraint<dim> constraint;
       if (parameters.constraint == "roller")
         constraint.kind = Constraint<dim>::roller;
+      else if (parameters.constraint == "absorbing")
+        {
+          constraint.kind          = Constraint<dim>::absorbing;
+          constraint.spring_radius = parameters.spring_radius;
+        }
       else if (parameters.constraint == "components")
         {
           constraint.kind = Constraint<dim>::components;
@@ -406,22 +411,45 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                 \
-  template std::vector<ImplicitBoundary<dim>> make_boundaries(           \
-    const Scene<dim> &);                                                 \
-  template std::vector<GridCondition<dim>> make_grid_conditions(         \
-    const Scene<dim> &, const BackgroundMesh<dim> &);                    \
-  template Loads<dim>      make_loads(const Scene<dim> &,                \
-                                      const BackgroundMesh<dim> &,       \
-                                      const std::vector<std::string> &); \
-  template MeshMotion<dim> make_mesh_motion(                             \
-    const Scene<dim> &,                                                  \
-    const BackgroundMesh<dim> &,                                         \
-    const std::vector<ImplicitBoundary<dim>> &,                          \
-    const std::vector<GridCondition<dim>> &);                            \
-  template void check_mesh_motion(const MeshMotion<dim> &,               \
-                                  const TimeParameters &,                \
-                                  const BackgroundMesh<dim> &,           \
+  template <int dim>
+  std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)>
+  initial_velocity(const Scene<dim>               &scene,
+                   const std::vector<std::string> &body_names)
+  {
+    std::vector<VectorFunction<dim>> of_bodies;
+    for (const std::string &name : body_names)
+      for (const auto &[section, body] : scene.bodies)
+        if (section == name)
+          of_bodies.push_back(vector_function<dim>(body.initial_velocity,
+                                                   place("Bodies/" + section,
+                                                         "Initial velocity")));
+    return [of_bodies, t = scene.time.start_time](const unsigned int body,
+                                                  const Point<dim>  &x) {
+      return of_bodies[body](x, t);
+    };
+  }
+
+
+
+#define INSTANTIATE(dim)                                                  \
+  template std::vector<ImplicitBoundary<dim>> make_boundaries(            \
+    const Scene<dim> &);                                                  \
+  template std::vector<GridCondition<dim>> make_grid_conditions(          \
+    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
+  template Loads<dim> make_loads(const Scene<dim> &,                      \
+                                 const BackgroundMesh<dim> &,             \
+                                 const std::vector<std::string> &);       \
+  template std::function<Tensor<1, dim>(const unsigned int,               \
+                                        const Point<dim> &)>              \
+  initial_velocity(const Scene<dim> &, const std::vector<std::string> &); \
+  template MeshMotion<dim> make_mesh_motion(                              \
+    const Scene<dim> &,                                                   \
+    const BackgroundMesh<dim> &,                                          \
+    const std::vector<ImplicitBoundary<dim>> &,                           \
+    const std::vector<GridCondition<dim>> &);                             \
+  template void check_mesh_motion(const MeshMotion<dim> &,                \
+                                  const TimeParameters &,                 \
+                                  const BackgroundMesh<dim> &,            \
                                   const std::vector<GridCondition<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

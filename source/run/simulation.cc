@@ -16,6 +16,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -36,6 +37,25 @@ namespace moraine
 
 
 
+    /** Parts of the energy by name. */
+    Summary::List<double>
+    energy_of(const Works &works)
+    {
+      const auto  &W       = works.of_forces;
+      const double largest = works.largest();
+      return {{"kinetic", works.kinetic},
+              {"kinetic_at_start", works.kinetic_at_start},
+              {"internal_work", -W[unsigned(WorkKind::internal)]},
+              {"external_work", W[unsigned(WorkKind::external)]},
+              {"work_of_boundaries", W[unsigned(WorkKind::boundaries)]},
+              {"absorbed", -W[unsigned(WorkKind::absorbed)]},
+              {"lost_in_transfer", works.lost_in_transfer},
+              {"balance_error",
+               largest > 0 ? std::abs(works.out_of_balance()) / largest : 0.}};
+    }
+
+
+
     template <int dim>
     void
     add_results(const Scene<dim>      &scene,
@@ -50,6 +70,8 @@ namespace moraine
                       exact,
                       driver.time().time(),
                       model.state->mesh_after_step() != MeshAfterStep::keep);
+      if (model.motion)
+        summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
         summary.probes.emplace_back(value.name, value.value);
       for (const auto &report : driver.reports())

@@ -60,6 +60,8 @@ namespace moraine
     if (model.mesh_motion.moves() ||
         model.state->mesh_after_step() == MeshAfterStep::follow_material)
       lasting.add(*model.space);
+    if (model.motion)
+      lasting.add(*model.motion);
     for (auto &boundary : model.boundaries)
       lasting.add(boundary);
     for (auto &load : model.loads.carried)

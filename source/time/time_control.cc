@@ -262,6 +262,7 @@ namespace moraine
   void
   TimeParameters::add_parameters(ParameterHandler &prm)
   {
+    integrator.add_parameters(prm);
     prm.add_parameter("Start time", start_time, "time");
     prm.add_parameter("End time", end_time, "time");
     prm.add_parameter("Steps",
@@ -310,6 +311,7 @@ namespace moraine
         "section '" + section + "', key 'Smallest step': found " +
         in_words(smallest_step) + "; it must not exceed Largest step, " +
         in_words(largest_step) + ".");
+    integrator.check(section);
   }
 
 

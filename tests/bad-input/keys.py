@@ -107,6 +107,33 @@ refused("GIMP on a mesh that moves",
                   "Method/Mesh after step": "follow material"})
 refused("a choice in a run", settings={"Mesh/Cell size": "{{1|2}}"})
 
+# Dynamics.
+dynamic = {"Time/Integrator": "Newmark", "Materials/soil/Density": 2}
+refused("a key of Newmark in a quasi-static scene",
+        settings={"Time/Newmark beta": 0.3})
+refused("a key of another integrator",
+        settings={**dynamic, "Time/Spectral radius": 0.5})
+refused("spectral radius above 1",
+        settings={**dynamic, "Time/Integrator": "generalised-alpha",
+                  "Time/Spectral radius": 1.1})
+refused("unstable Newmark", settings={**dynamic, "Time/Newmark beta": 0.2})
+refused("unstable Newmark", settings={**dynamic, "Time/Newmark gamma": 0.4})
+refused("no density", settings={"Time/Integrator": "Newmark"})
+refused("velocity in a quasi-static scene",
+        settings={"Bodies/block/Initial velocity": "1; 0"})
+refused("share of FLIP without a blend",
+        settings={**dynamic, "Time/FLIP share": 0.9})
+refused("velocity transfer of finite elements",
+        settings={**dynamic, "Method/Method": "finite element",
+                  "Time/Velocity transfer": "PIC"})
+refused("limit points in dynamics",
+        settings={**dynamic, "Solver/Limit points": "pseudo-transient"})
+refused("velocity of a node that is held",
+        settings={**dynamic, "Bodies/block/Lower corner": "0, 0.5",
+                  "Grid conditions/left/Side": "left",
+                  "Boundaries/left/Points": "4.5 0.5; 4.5 4.5",
+                  "Bodies/block/Initial velocity": "1; 0"})
+
 # Text that would take for ever, or that is no text.
 refused("two thousand million steps", settings={"Time/Steps": 2000000000})
 refused("constants that double", "subsection Constants\n  set a0 = x\n" + "".join(

@@ -21,7 +21,7 @@ MAY_INCLUDE = {
     "geometry": ["mesh"],
     "points": ["mesh", "geometry"],
     "basis": ["mesh", "geometry", "points"],
-    "state": ["mesh", "material", "points", "basis"],
+    "state": ["mesh", "material", "points", "time", "basis"],
     # multipliers turn with the surface by the measure of strain (spectral.h)
     "boundary": ["mesh", "material", "geometry"],
     "load": ["mesh", "geometry", "points"],

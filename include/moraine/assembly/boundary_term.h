@@ -18,6 +18,12 @@ namespace moraine
   public:
     explicit BoundaryTerm(ImplicitBoundary<dim> &boundary);
 
+    WorkKind
+    work_kind() const override
+    {
+      return WorkKind::boundaries;
+    }
+
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 

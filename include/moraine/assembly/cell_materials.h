@@ -37,8 +37,15 @@ namespace moraine
       return stiffness[active_cell_index];
     }
 
+    double
+    density(const unsigned int active_cell_index) const
+    {
+      return densities[active_cell_index];
+    }
+
   private:
     std::vector<LameConstants> stiffness;
+    std::vector<double>        densities;
     std::vector<unsigned int>  body_of_cell;
   };
 } // namespace moraine

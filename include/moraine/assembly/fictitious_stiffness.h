@@ -37,6 +37,12 @@ namespace moraine
       return fraction;
     }
 
+    WorkKind
+    work_kind() const override
+    {
+      return WorkKind::internal;
+    }
+
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 

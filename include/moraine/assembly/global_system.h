@@ -77,6 +77,20 @@ namespace moraine
       return std::accumulate(squares.begin(), squares.end(), 0.);
     }
 
+    /** @f$\sum f \cdot \Delta u@f$ of what this rank added. */
+    double
+    work() const
+    {
+      return work_sum;
+    }
+
+    /** What this rank added to the forces of the nodes it knows. */
+    const std::vector<dealii::Tensor<1, dim>> &
+    forces_of_this_rank() const
+    {
+      return node_forces;
+    }
+
     const std::shared_ptr<LA::SparseMatrix> &
     matrix() const
     {
@@ -111,6 +125,7 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> predicted;
     const std::vector<unsigned int>    *body_of_node = nullptr;
     std::vector<double>                 squares;
+    double                              work_sum     = 0;
     bool                                with_tangent = false;
   };
 } // namespace moraine

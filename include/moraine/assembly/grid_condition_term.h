@@ -19,6 +19,12 @@ namespace moraine
     explicit GridConditionTerm(
       const std::vector<GridCondition<dim>> &conditions);
 
+    WorkKind
+    work_kind() const override
+    {
+      return WorkKind::none;
+    }
+
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 

@@ -29,6 +29,12 @@ namespace moraine
   class InternalForce : public PointTerm<dim>
   {
   public:
+    WorkKind
+    work_kind() const override
+    {
+      return WorkKind::internal;
+    }
+
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 

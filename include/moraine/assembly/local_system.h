@@ -39,6 +39,17 @@ namespace moraine
            const unsigned int *nodes,
            const unsigned int  n_nodes,
            const bool          tangent);
+
+    /** @f$\sum f \cdot \Delta u@f$ */
+    double
+    work() const
+    {
+      double sum = 0;
+      for (unsigned int a = 0; a < nodal_increments.size(); ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          sum += force[dim * a + d] * nodal_increments[a][d];
+      return sum;
+    }
   };
 } // namespace moraine
 

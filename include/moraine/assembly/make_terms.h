@@ -20,14 +20,15 @@ namespace moraine
   /**
    * The terms of a solid body with what holds and loads it, all of which must
    * live longer than the terms. @p fictitious_stiffness is the fraction of
-   * FictitiousStiffness, or 0 for none.
+   * FictitiousStiffness, or 0 for none. With @p inertia points have mass.
    */
   template <int dim>
   Terms<dim>
   make_terms(std::vector<ImplicitBoundary<dim>>    &boundaries,
              const std::vector<GridCondition<dim>> &conditions,
              Loads<dim>                            &loads,
-             const double                           fictitious_stiffness = 0.);
+             const double                           fictitious_stiffness = 0.,
+             const bool                             inertia = false);
 } // namespace moraine
 
 #endif

@@ -46,6 +46,21 @@ namespace moraine
     void
     move_mesh_by(const MeshMotion<dim> &motion, BackgroundMesh<dim> &mesh);
 
+    /** Let material have velocities and accelerations, @p motion. */
+    void
+    set_motion(Motion<dim> &motion)
+    {
+      context.motion = &motion;
+    }
+
+    /**
+     * The forces of all but inertia at the start of the step that has begun,
+     * and the mass alone as tangent(), for the acceleration at the start.
+     * @return the forces, condensed. Collective.
+     */
+    LA::Vector
+    forces_and_mass();
+
     /** Add a term within a step that has begun; Term::begin_step() was called
      * and had nothing new. */
     void
@@ -182,6 +197,15 @@ namespace moraine
     augment(const LA::Vector &x) override;
 
   private:
+    /** Find the forces of all terms but inertia in the committed state, by
+     * kind. */
+    void
+    find_forces_at_start();
+
+    /** Velocities and accelerations of what is constrained. */
+    void
+    set_target_of_motion();
+
     /** Let every term begin a step and learn whether couplings are new. */
     void
     begin_terms();
@@ -193,13 +217,20 @@ namespace moraine
     ConstraintTable::AddLines
     lines_of_terms() const;
 
-    /** Add the terms that are dead, or all others. */
+    using Which      = std::function<bool(const Term<dim> &)>;
+    using Prescribed = typename Motion<dim>::Prescribed;
+
+    /** Add the terms that are asked for. */
     void
-    add_terms(const bool dead, const bool tangent);
+    add_terms(const Which &which, const bool tangent);
 
     /** One pass over the stencils for the terms that need it. */
     void
-    add_point_terms(const bool dead, const bool tangent);
+    add_point_terms(const Which &which, const bool tangent);
+
+    /** Of a term in the trial state. */
+    void
+    count_work(const Term<dim> &term, const double work);
 
     /** Norms of forces without cancellation. */
     struct ForceScale
@@ -211,6 +242,39 @@ namespace moraine
       double              stabilising_squares = 0; ///< of this rank
     };
 
+    using NodeValues = std::vector<dealii::Tensor<1, dim>>;
+
+    /** Of a step, beside those of the trial state. */
+    struct StepForces
+    {
+      LA::Vector dead; ///< of loads at the end of the step
+      /** The share that the time integrator gives those at its start. */
+      LA::Vector at_start;
+      /** In dynamics, of this rank: those at the start by WorkKind, and the
+       * work of those of the trial state that are not dead. */
+      std::array<NodeValues, Works::n_kinds> by_kind;
+      std::array<double, Works::n_kinds>     works{};
+    };
+
+    /** The sum of those at the start. Collective. */
+    LA::Vector
+    sum_of_kinds() const;
+
+    /** Let the motion know of the work of the step to the trial state @p x,
+     * at which forces were assembled last. */
+    void
+    count_work(const LA::Vector &x);
+
+    /** The work of the forces at the end of the step in the prescribed motion
+     * of nodes, on this rank. */
+    double
+    work_on_prescribed();
+
+    /** Assemble the forces at @p x unless that is where they were assembled
+     * last. */
+    void
+    assemble_forces_at(const LA::Vector &x);
+
     State<dim>                    &state;
     Terms<dim>                     terms;
     const std::vector<std::string> body_names;
@@ -221,7 +285,7 @@ namespace moraine
     BodiesOfNodes                  bodies;
     GlobalSystem<dim>              sums;
     LA::Vector                     residual_vector;
-    LA::Vector                     dead_forces;
+    StepForces                     forces;
     /** The residual with the forces that strong conditions take. */
     LA::Vector unbalanced;
     /** Where residual and unbalanced forces were assembled last, if at all. */

@@ -5,6 +5,7 @@
 #define moraine_assembly_step_context_h
 
 #include <moraine/assembly/cell_materials.h>
+#include <moraine/state/motion.h>
 #include <moraine/state/state.h>
 
 #include <vector>
@@ -35,6 +36,8 @@ namespace moraine
     bool cells_moved = true;
     /** Whether the mesh that points move through moves between steps. */
     bool mesh_moves = false;
+    /** Velocities and accelerations of nodes; none in quasi-static steps. */
+    Motion<dim> *motion = nullptr;
 
     explicit StepContext(const State<dim> &state)
       : state(state)

@@ -103,6 +103,20 @@ namespace moraine
       return false;
     }
 
+    /** To what the work of its forces is counted. */
+    virtual WorkKind
+    work_kind() const
+    {
+      return WorkKind::external;
+    }
+
+    /** Whether it is nothing but minus mass times acceleration. */
+    virtual bool
+    is_inertia() const
+    {
+      return false;
+    }
+
     /**
      * Add the forces of the trial state (positive where they push the nodes
      * along) and, if asked, minus their derivative to the matrix.

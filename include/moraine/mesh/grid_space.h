@@ -147,7 +147,23 @@ namespace moraine
       return !moves.empty();
     }
 
-    /** Data set "nodes/move" of the nodes of each active cell, if any moved. */
+    /**
+     * Write @p values of nodes, none or one for each, into the data sets
+     * "value" and "id" of @p group.
+     */
+    void
+    write_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
+                      const std::string                         &group,
+                      Archive                                   &archive) const;
+
+    /** What write_node_values() wrote when the same cells were active.
+     * Collective. */
+    void
+    read_node_values(const Archive                       &archive,
+                     const std::string                   &group,
+                     std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /** Group "nodes/move", if any moved. */
     void
     write(Archive &archive) const override;
 

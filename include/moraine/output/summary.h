@@ -60,6 +60,9 @@ namespace moraine
     List<std::optional<double>> errors;
     /** Last values of the probes by column name. */
     List<double> probes;
+    /** Parts of the energy at the end, and what is out of balance over the
+     * largest of them; left out in quasi-static runs. */
+    List<double> energy;
     /** Last force of each boundary, by component. */
     List<std::vector<double>> reactions;
 

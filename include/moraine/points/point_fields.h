@@ -247,10 +247,15 @@ namespace moraine
     using SymmetricTensor = FieldName<dim, dealii::SymmetricTensor<2, 3>>;
     using Tensor          = FieldName<dim, dealii::Tensor<2, dim>>;
 
-    inline static const Number          volume{"volume",
+    inline static const Number volume{"volume",
                                       dim == 2 ? "length^2" : "length^3"};
-    inline static const Number          body{"body", "-"};
-    inline static const Vector          displacement{"displacement", "length"};
+    inline static const Number body{"body", "-"};
+    inline static const Vector displacement{"displacement", "length"};
+    /** In dynamics, where points carry them. */
+    inline static const Vector velocity{"velocity", "length/time"};
+    inline static const Vector acceleration{"acceleration", "length/time^2"};
+    /** Where it goes back to nodes, see Motion. */
+    inline static const Tensor velocity_gradient{"velocity_gradient", "1/time"};
     inline static const SymmetricTensor stress{"stress", "stress"};
     /** @f$F@f$, at finite strain. */
     inline static const Tensor deformation_gradient{"deformation_gradient",

@@ -68,6 +68,13 @@ namespace moraine
     std::string
     time_left(const double t) const;
 
+    /** Of the largest step in a cell of typical size. */
+    double
+    courant_number() const;
+
+    void
+    print_energy(const Summary &summary);
+
     void
     print_timings(const Summary &summary);
 

@@ -44,6 +44,7 @@ namespace moraine
     std::unique_ptr<PointSet<dim>>               points;
     std::unique_ptr<Basis<dim>>                  basis;
     std::unique_ptr<State<dim>>                  state;
+    std::unique_ptr<Motion<dim>>                 motion; ///< in dynamics
     std::vector<ImplicitBoundary<dim>>           boundaries;
     std::vector<GridCondition<dim>>              grid_conditions;
     Loads<dim>                                   loads;

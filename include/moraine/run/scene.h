@@ -39,6 +39,7 @@ namespace moraine
     std::string               material;
     ShapeParameters<dim>      shape;
     std::vector<unsigned int> point_grid;
+    std::string               initial_velocity;
 
     /** Whether the cells of the mesh give the body its points. */
     bool
@@ -84,6 +85,7 @@ namespace moraine
     std::string           components;
     std::string           displacement;
     MotionParameters<dim> motion;
+    double                spring_radius     = 0;
     double                penetration_limit = 0;
 
     void

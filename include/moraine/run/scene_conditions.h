@@ -34,6 +34,13 @@ namespace moraine
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names);
 
+  /** Velocities at the start, by body. */
+  template <int dim>
+  std::function<dealii::Tensor<1, dim>(const unsigned int        body,
+                                       const dealii::Point<dim> &x)>
+  initial_velocity(const Scene<dim>               &scene,
+                   const std::vector<std::string> &body_names);
+
   /** Section `Mesh motion`; none if it is empty. */
   template <int dim>
   MeshMotion<dim>

@@ -5,6 +5,7 @@
 #define moraine_time_time_control_h
 
 #include <moraine/core/simulation_state.h>
+#include <moraine/time/time_integrator.h>
 
 #include <string>
 #include <vector>
@@ -42,6 +43,8 @@ namespace moraine
 
     /** A step with at most this many Newton iterations is easy. */
     unsigned int easy_iterations = 5;
+
+    IntegratorParameters integrator;
 
     void
     add_parameters(dealii::ParameterHandler &prm);

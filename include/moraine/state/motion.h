@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_state_motion_h
+#define moraine_state_motion_h
+
+#include <moraine/core/linear_algebra.h>
+#include <moraine/state/state.h>
+#include <moraine/time/time_integrator.h>
+
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /** How velocity goes between nodes and points. */
+  struct VelocityTransfer
+  {
+    enum class Scheme
+    {
+      /** Not at all: nodes stay with the material and keep theirs. */
+      none,
+      /** FLIP, PIC or a blend of both. */
+      flip_and_pic,
+      /** Affine: with the gradient of the velocity. */
+      apic,
+      /** Nodal velocities by an approximate inverse of the full mass matrix. */
+      fmpm
+    };
+
+    Scheme       scheme     = Scheme::none;
+    double       flip_share = 1; ///< 1: FLIP, 0: PIC
+    unsigned int fmpm_order = 1;
+
+    VelocityTransfer() = default;
+
+    /** Of points that move through the mesh. */
+    explicit VelocityTransfer(const IntegratorParameters &parameters);
+  };
+
+  /** To what the work of a force is counted. */
+  enum class WorkKind : unsigned char
+  {
+    internal,
+    external,
+    boundaries,
+    absorbed,
+    none
+  };
+
+  /** Of all steps so far [force length]. */
+  struct Works
+  {
+    static constexpr unsigned int n_kinds = 4;
+    /** By WorkKind, positive where forces push the material along. */
+    double of_forces[n_kinds] = {0, 0, 0, 0};
+    /** Kinetic energy that went as velocities went from nodes to points and
+     * back, and with accelerations that are out of balance after that. */
+    double lost_in_transfer = 0;
+    double kinetic_at_start = 0;
+    double kinetic          = 0; ///< of the nodes at the end of the last step
+    bool   begun            = false;
+
+    /** What kinetic energy is less than works say: energy that the integrator
+     * made or took. */
+    double
+    out_of_balance() const;
+
+    /** The largest part of the sum. */
+    double
+    largest() const;
+  };
+
+
+
+  /** Sums over all points. */
+  template <int dim>
+  struct MotionSums
+  {
+    double                 mass = 0;
+    dealii::Tensor<1, dim> momentum;
+    /** About the origin; in 2D the z-component alone. */
+    dealii::Tensor<1, dim == 2 ? 1 : 3> angular_momentum;
+    double                              kinetic_energy = 0;
+  };
+
+
+
+  /**
+   * Velocity and acceleration of the nodes, at the start of a step and in the
+   * trial state. Where nodes stay with the material (finite elements) they keep
+   * them. Where points move through the mesh, points carry them, and at the
+   * start of a step nodes get the means @f$v = S^+ V@f$,
+   *
+   * @f[ (S^+ V)_a = \frac{\sum_p N_a m_p V_p}{\sum_p N_a m_p} , @f]
+   *
+   * and accelerations alike. At its end points get @f$A_p = \sum_a N_a
+   * a_a^{n+1}@f$ and, by the scheme,
+   *
+   * - a share of FLIP, @f$V_p + \sum_a N_a (v_a^{n+1} - v_a^n)@f$, and the rest
+   *   of PIC, @f$\sum_a N_a v_a^{n+1}@f$;
+   * - APIC: as PIC, and the gradient @f$G_p = \sum_a v_a^{n+1} \otimes \nabla
+   *   N_a@f$, with which @f$V_p + G_p (x_a - x_p)@f$ goes to the nodes in place
+   *   of @f$V_p@f$. (With @f$G_p@f$ from the gradients of the functions, it is
+   *   the Taylor variant, TPIC, and holds for hat functions as well.)
+   * - FMPM of order k (Hammerquist and Nairn 2017; Nairn 2021): as PIC, with
+   *   the nodes' @f$v_{(1)} = S^+ V@f$, @f$v_{(j)} = v_{(j-1)} + S^+ (V - S
+   *   v_{(j-1)})@f$, and accelerations alike.
+   */
+  template <int dim>
+  class Motion : public StatePart
+  {
+  public:
+    using NodeValues = std::vector<dealii::Tensor<1, dim>>;
+
+    /** Ask for what points carry with @p transfer. */
+    static void
+    request_fields(const VelocityTransfer &transfer, PointFields &fields);
+
+    /** Of the material of @p state at rest. Points have the fields of
+     * @p transfer. */
+    Motion(const State<dim>       &state,
+           PointSet<dim>          &points,
+           const TimeIntegrator   &integrator,
+           const VelocityTransfer &transfer,
+           const bool              lumped_mass);
+
+    /** Give nodes and points @p velocity of a body at a place. */
+    void
+    start(
+      const std::function<dealii::Tensor<1, dim>(const unsigned int        body,
+                                                 const dealii::Point<dim> &x)>
+        &velocity);
+
+    /** Get what nodes have at the start of a step, after State::begin_step().
+     * Collective. */
+    void
+    begin_step();
+
+    /** Fills the constrained entries of an increment with the prescribed part
+     * at the @p end of the step or in its middle, or without it. */
+    enum class Prescribed
+    {
+      none,
+      in_the_middle,
+      at_the_end
+    };
+    using Constrain = std::function<void(const Prescribed, LA::Vector &)>;
+
+    /**
+     * Aim at the end of a step of @p size. Nodes that conditions move do so at
+     * an acceleration that is the same all the step, by where they are in its
+     * middle and at its end; those that are tied follow. @p constrain is empty
+     * if there are no conditions. Collective.
+     */
+    void
+    set_target(const double size, const Constrain &constrain);
+
+    /** @f$(1-\alpha_m) a_{n+1} + \alpha_m a_n@f$ over @f$1-\alpha_f@f$; none in
+     * a step of size 0. */
+    dealii::Tensor<1, dim>
+    inertial_acceleration(const unsigned int            node,
+                          const dealii::Tensor<1, dim> &du) const
+    {
+      if (!(step_size > 0))
+        return dealii::Tensor<1, dim>();
+      return rule.end_inertia() *
+               rule.acceleration(step_size, du, v[node], a[node]) +
+             rule.start_inertia() * a[node];
+    }
+
+    /** Its derivative by @f$\Delta u@f$; 1 in a step of size 0. */
+    double
+    inertial_acceleration_by_increment() const
+    {
+      if (!(step_size > 0))
+        return 1.;
+      return rule.end_inertia() * rule.acceleration_by_increment(step_size);
+    }
+
+    /** @f$v_{n+1}@f$ of the trial state; @f$v_n@f$ in a step of size 0. */
+    dealii::Tensor<1, dim>
+    velocity(const unsigned int node, const dealii::Tensor<1, dim> &du) const
+    {
+      if (!(step_size > 0))
+        return v[node];
+      return rule.velocity(step_size,
+                           v[node],
+                           a[node],
+                           rule.acceleration(step_size, du, v[node], a[node]));
+    }
+
+    /** Its derivative by @f$\Delta u@f$. */
+    double
+    velocity_by_increment() const
+    {
+      return step_size > 0 ? rule.velocity_by_increment(step_size) : 0.;
+    }
+
+    const TimeIntegrator &
+    integrator() const
+    {
+      return rule;
+    }
+
+    /** At the start of the step. */
+    const NodeValues &
+    velocities() const
+    {
+      return v;
+    }
+
+    /** Take accelerations at the start of the first step. Collective. */
+    void
+    set_accelerations(const LA::Vector &values);
+
+    bool
+    lumped_mass() const
+    {
+      return lumped;
+    }
+
+    /** The group "motion": works, and what nodes keep. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+    /** Scalar products of forces at both ends of a step, by WorkKind. */
+    struct StepWorks
+    {
+      std::array<double, Works::n_kinds> at_start{}, at_end{};
+      /** Of all with the prescribed part of the increment alone. */
+      double on_prescribed_at_start = 0, on_prescribed_at_end = 0;
+
+      /** If each rank has its share. Collective. */
+      void
+      sum_over_ranks(const MPI_Comm &communicator);
+    };
+
+    /** The prescribed part of the increments; empty if no condition moves
+     * anything in this step. */
+    const NodeValues &
+    prescribed_increments() const
+    {
+      return prescribed;
+    }
+
+    /**
+     * Count the work of a step, the mean of both ends, before accept(). What
+     * holds the prescribed motion does work as a boundary; what forces are
+     * missing at free nodes at the start of the step is counted as lost in
+     * transfer. Collective.
+     */
+    void
+    count(const StepWorks &step);
+
+    const Works &
+    works() const
+    {
+      return done;
+    }
+
+    /** Of the committed motion. Collective. */
+    MotionSums<dim>
+    sums() const;
+
+    /** Commit the motion of the trial state. Collective. */
+    void
+    accept();
+
+  private:
+    struct Nodal
+    {
+      NodeValues v, a;
+    };
+
+    bool
+    points_carry() const
+    {
+      return transfer.scheme != VelocityTransfer::Scheme::none;
+    }
+
+    /** @f$S^+@f$ of what points carry, less what they get from @p known. */
+    Nodal
+    map_to_nodes(const Nodal *known = nullptr) const;
+
+    /** By the trial increments. */
+    Nodal
+    at_end() const;
+
+    /** Give points what they carry. */
+    void
+    map_to_points(const Nodal &end);
+
+    using Pair = std::pair<const NodeValues *, const NodeValues *>;
+
+    /** @f$u^T M w@f$ of pairs u, w. Collective. */
+    template <std::size_t n>
+    std::array<double, n>
+    mass_products(const std::array<Pair, n> &pairs) const;
+
+    double
+    mass(const unsigned int p) const;
+
+    const State<dim>                       &state;
+    PointSet<dim>                          &points;
+    const TimeIntegrator                    rule;
+    const VelocityTransfer                  transfer;
+    const bool                              lumped;
+    PointField<dim, dealii::Tensor<1, dim>> v_field, a_field;
+    PointField<dim, dealii::Tensor<2, dim>> gradient_field;
+    NodeValues                              v, a;
+    NodeValues                              prescribed; ///< increments, if any
+    double                                  step_size = 0;
+    Works                                   done;
+  };
+} // namespace moraine
+
+#endif

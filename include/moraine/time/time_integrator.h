@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_time_time_integrator_h
+#define moraine_time_time_integrator_h
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace moraine
+{
+  /** Keys of the section "Time" that choose a TimeIntegrator. */
+  struct IntegratorParameters
+  {
+    std::string  integrator      = "quasi-static";
+    double       beta            = 0.25;
+    double       gamma           = 0.5;
+    double       spectral_radius = 0.8;
+    std::string  mass            = "consistent";
+    std::string  transfer        = "APIC";
+    double       flip_share      = 0.95;
+    unsigned int fmpm_order      = 4;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+
+    /** @throws InputError, naming @p section, for an unstable integrator. */
+    void
+    check(const std::string &section) const;
+
+    bool
+    dynamic() const
+    {
+      return integrator != "quasi-static";
+    }
+  };
+
+
+
+  /**
+   * How velocity and acceleration at the end of a step follow from the
+   * increment of the displacement (Newmark 1959):
+   *
+   * @f[ a_{n+1} = \frac{\Delta u}{\beta \Delta t^2} - \frac{v_n}{\beta \Delta
+   * t}
+   *     - \Bigl(\frac{1}{2\beta} - 1\Bigr) a_n, \quad
+   *     v_{n+1} = v_n + \Delta t\, ((1 - \gamma) a_n + \gamma a_{n+1}) @f]
+   *
+   * and where in the step the balance of momentum holds (generalised-alpha,
+   * Chung and Hulbert 1993), with forces f of everything but inertia:
+   *
+   * @f[ M \bigl((1 - \alpha_m) a_{n+1} + \alpha_m a_n\bigr)
+   *     = (1 - \alpha_f) f_{n+1} + \alpha_f f_n . @f]
+   *
+   * The equations are solved divided by @f$1 - \alpha_f@f$, so that terms need
+   * not know of it. Newmark's have @f$\alpha_m = \alpha_f = 0@f$. Knows no
+   * physics.
+   */
+  class TimeIntegrator
+  {
+  public:
+    static TimeIntegrator
+    newmark(const double beta, const double gamma);
+
+    /** By its spectral radius at infinite frequency, 0 to 1. */
+    static TimeIntegrator
+    generalised_alpha(const double spectral_radius);
+
+    explicit TimeIntegrator(const IntegratorParameters &parameters);
+
+    /** @f$\partial a_{n+1} / \partial \Delta u@f$ [1/time^2] */
+    double
+    acceleration_by_increment(const double step_size) const
+    {
+      return 1 / (beta * step_size * step_size);
+    }
+
+    /** @f$\partial v_{n+1} / \partial \Delta u@f$ [1/time] */
+    double
+    velocity_by_increment(const double step_size) const
+    {
+      return gamma / (beta * step_size);
+    }
+
+    /** @f$a_{n+1}@f$ from @f$\Delta u@f$, @f$v_n@f$ and @f$a_n@f$. */
+    template <class Value>
+    Value
+    acceleration(const double step_size,
+                 const Value &du,
+                 const Value &v,
+                 const Value &a) const
+    {
+      return acceleration_by_increment(step_size) * (du - step_size * v) -
+             (0.5 / beta - 1) * a;
+    }
+
+    /** @f$v_{n+1}@f$ from the accelerations of both ends. */
+    template <class Value>
+    Value
+    velocity(const double step_size,
+             const Value &v,
+             const Value &a,
+             const Value &a_end) const
+    {
+      return v + step_size * ((1 - gamma) * a + gamma * a_end);
+    }
+
+    /** The factor of @f$M a_{n+1}@f$: @f$(1-\alpha_m)/(1-\alpha_f)@f$. */
+    double
+    end_inertia() const
+    {
+      return (1 - alpha_m) / (1 - alpha_f);
+    }
+
+    /** The factor of @f$M a_n@f$: @f$\alpha_m/(1-\alpha_f)@f$. */
+    double
+    start_inertia() const
+    {
+      return alpha_m / (1 - alpha_f);
+    }
+
+    /** The factor of @f$f_n@f$: @f$\alpha_f/(1-\alpha_f)@f$. */
+    double
+    start_forces() const
+    {
+      return alpha_f / (1 - alpha_f);
+    }
+
+  private:
+    TimeIntegrator(const double beta,
+                   const double gamma,
+                   const double alpha_m,
+                   const double alpha_f);
+
+    double beta, gamma, alpha_m, alpha_f;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,539 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/state/motion.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  double
+  Works::out_of_balance() const
+  {
+    double sum = kinetic_at_start - lost_in_transfer - kinetic;
+    for (const double work : of_forces)
+      sum += work;
+    return sum;
+  }
+
+
+
+  double
+  Works::largest() const
+  {
+    double part =
+      std::max({kinetic_at_start, kinetic, std::abs(lost_in_transfer)});
+    for (const double work : of_forces)
+      part = std::max(part, std::abs(work));
+    return part;
+  }
+
+
+
+  VelocityTransfer::VelocityTransfer(const IntegratorParameters &parameters)
+    : scheme(parameters.transfer == "APIC" ? Scheme::apic :
+             parameters.transfer == "FMPM" ? Scheme::fmpm :
+                                             Scheme::flip_and_pic)
+    , flip_share(parameters.transfer == "FLIP"  ? 1. :
+                 parameters.transfer == "blend" ? parameters.flip_share :
+                                                  0.)
+    , fmpm_order(parameters.fmpm_order)
+  {}
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::request_fields(const VelocityTransfer &transfer,
+                              PointFields            &fields)
+  {
+    if (transfer.scheme == VelocityTransfer::Scheme::none)
+      return;
+    fields.request(FieldNames<dim>::velocity);
+    fields.request(FieldNames<dim>::acceleration);
+    if (transfer.scheme == VelocityTransfer::Scheme::apic)
+      fields.request(FieldNames<dim>::velocity_gradient);
+  }
+
+
+
+  template <int dim>
+  Motion<dim>::Motion(const State<dim>       &state,
+                      PointSet<dim>          &points,
+                      const TimeIntegrator   &integrator,
+                      const VelocityTransfer &transfer,
+                      const bool              lumped_mass)
+    : state(state)
+    , points(points)
+    , rule(integrator)
+    , transfer(transfer)
+    , lumped(lumped_mass)
+    , v_field(points.fields().find(FieldNames<dim>::velocity))
+    , a_field(points.fields().find(FieldNames<dim>::acceleration))
+    , gradient_field(points.fields().find(FieldNames<dim>::velocity_gradient))
+  {}
+
+
+
+  template <int dim>
+  double
+  Motion<dim>::mass(const unsigned int p) const
+  {
+    return state.material(points.body(p)).density() * state.initial_volume(p);
+  }
+
+
+
+  template <int dim>
+  typename Motion<dim>::Nodal
+  Motion<dim>::map_to_nodes(const Nodal *known) const
+  {
+    const GridSpace<dim> &space = state.grid();
+    const Basis<dim>     &basis = state.point_basis();
+    const unsigned int    n     = space.n_nodes();
+    NodeValues            masses(n);
+    Nodal                 sums{NodeValues(n), NodeValues(n)};
+    StencilBlock<dim>     block;
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            const unsigned int point  = block.points[p];
+            const double      *values = points.values(point);
+            const double       m      = mass(point);
+            Tensor<1, dim>     V = v_field(values), A = a_field(values);
+            if (known)
+              for (unsigned int k = 0; k < block.n_nodes; ++k)
+                {
+                  V -= block.N(p)[k] * known->v[block.nodes[k]];
+                  A -= block.N(p)[k] * known->a[block.nodes[k]];
+                }
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              {
+                const unsigned int node  = block.nodes[k];
+                const double       share = block.N(p)[k] * m;
+                masses[node][0] += share;
+                sums.v[node] += share * V;
+                sums.a[node] += share * A;
+                if (gradient_field.exists())
+                  sums.v[node] +=
+                    share *
+                    (gradient_field(values) *
+                     (space.node_position(node) - points.position(point)));
+              }
+          }
+      }
+    LA::Vector all = space.vector();
+    for (NodeValues *values : {&masses, &sums.v, &sums.a})
+      {
+        space.sum_node_values(*values, all);
+        space.node_values(all, *values);
+      }
+    for (unsigned int k = 0; k < n; ++k)
+      if (masses[k][0] > 0)
+        {
+          sums.v[k] /= masses[k][0];
+          sums.a[k] /= masses[k][0];
+        }
+    return sums;
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::start(
+    const std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)>
+      &velocity)
+  {
+    if (!points_carry())
+      {
+        // A node of several bodies has the velocity of one of them.
+        v.resize(state.grid().n_nodes());
+        const Basis<dim>          &basis = state.point_basis();
+        std::vector<unsigned char> known(v.size(), 0);
+        StencilBlock<dim>          block;
+        for (unsigned int g = 0; g < basis.n_batches(); ++g)
+          {
+            basis.evaluate(g, block);
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              {
+                const unsigned int node = block.nodes[k];
+                if (!known[node])
+                  v[node] = velocity(points.body(block.points[0]),
+                                     state.grid().node_position(node));
+                known[node] = 1;
+              }
+          }
+        return;
+      }
+    // A velocity that is linear in space has an exact difference.
+    const double distance = 1e-3 * state.grid().mesh().cell_size();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        const auto at = [&, body = points.body(p)](const auto &x) {
+          return velocity(body, x);
+        };
+        const Point<dim> x      = points.position(p);
+        double          *values = points.values(p);
+        v_field.store(at(x), values);
+        if (!gradient_field.exists())
+          continue;
+        Tensor<2, dim> gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Tensor<1, dim> step;
+            step[d] = distance;
+            const Tensor<1, dim> difference =
+              (at(x + step) - at(x - step)) / (2 * distance);
+            for (unsigned int c = 0; c < dim; ++c)
+              gradient[c][d] = difference[c];
+          }
+        gradient_field.store(gradient, values);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::begin_step()
+  {
+    step_size = 0;
+    if (!points_carry())
+      {
+        v.resize(state.grid().n_nodes());
+        a.resize(state.grid().n_nodes());
+        return;
+      }
+    Nodal nodal = map_to_nodes();
+    if (transfer.scheme == VelocityTransfer::Scheme::fmpm)
+      for (unsigned int order = 2; order <= transfer.fmpm_order; ++order)
+        {
+          const Nodal missing = map_to_nodes(&nodal);
+          for (unsigned int k = 0; k < nodal.v.size(); ++k)
+            {
+              nodal.v[k] += missing.v[k];
+              nodal.a[k] += missing.a[k];
+            }
+        }
+    v = std::move(nodal.v);
+    a = std::move(nodal.a);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::set_target(const double size, const Constrain &constrain)
+  {
+    step_size = size;
+    prescribed.clear();
+    if (!constrain)
+      return;
+    const GridSpace<dim> &space       = state.grid();
+    const auto            constrained = [&](const NodeValues &values,
+                                 const Prescribed  prescribed) {
+      LA::Vector x = space.vector();
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (space.locally_owned().is_element(space.node_dof(node) + d))
+            x(space.node_dof(node) + d) = values[node][d];
+      x.compress(VectorOperation::insert);
+      constrain(prescribed, x);
+      NodeValues result;
+      space.node_values(x, result);
+      return result;
+    };
+    v = constrained(v, Prescribed::none);
+    a = constrained(a, Prescribed::none);
+    if (!(size > 0))
+      return;
+    const NodeValues none(space.n_nodes());
+    const NodeValues half  = constrained(none, Prescribed::in_the_middle),
+                     whole = constrained(none, Prescribed::at_the_end);
+    double largest         = 0;
+    for (unsigned int k = 0; k < v.size(); ++k)
+      {
+        v[k] += (4. * half[k] - whole[k]) / size;
+        a[k] += 4. * (whole[k] - 2. * half[k]) / (size * size);
+        largest = std::max(largest, whole[k].norm());
+      }
+    if (Utilities::MPI::max(largest, space.communicator()) > 0)
+      prescribed = whole;
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::set_accelerations(const LA::Vector &values)
+  {
+    state.grid().node_values(values, a);
+    if (!points_carry())
+      return;
+    const Basis<dim> &basis = state.point_basis();
+    StencilBlock<dim> block;
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            Tensor<1, dim> value;
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              value += block.N(p)[k] * a[block.nodes[k]];
+            a_field.store(value, points.values(block.points[p]));
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  typename Motion<dim>::Nodal
+  Motion<dim>::at_end() const
+  {
+    const NodeValues &du = state.nodal_increments();
+    Nodal             end{v, a};
+    for (unsigned int k = 0; k < v.size(); ++k)
+      {
+        end.a[k] = rule.acceleration(step_size, du[k], v[k], a[k]);
+        end.v[k] = rule.velocity(step_size, v[k], a[k], end.a[k]);
+      }
+    return end;
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::map_to_points(const Nodal &end)
+  {
+    const double      share = transfer.flip_share;
+    const Basis<dim> &basis = state.point_basis();
+    StencilBlock<dim> block;
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            double        *values = points.values(block.points[p]);
+            Tensor<1, dim> V_start, V_end, A_end;
+            Tensor<2, dim> gradient;
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              {
+                const unsigned int node = block.nodes[k];
+                const double       N    = block.N(p)[k];
+                V_start += N * v[node];
+                V_end += N * end.v[node];
+                A_end += N * end.a[node];
+                if (gradient_field.exists())
+                  gradient += outer_product(end.v[node], block.grad_N(p)[k]);
+              }
+            v_field.store(V_end + share * (v_field(values) - V_start), values);
+            a_field.store(A_end, values);
+            if (gradient_field.exists())
+              gradient_field.store(gradient, values);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::accept()
+  {
+    Nodal end = at_end();
+    if (points_carry())
+      map_to_points(end);
+    v = std::move(end.v);
+    a = std::move(end.a);
+  }
+
+
+
+  template <int dim>
+  template <std::size_t n>
+  std::array<double, n>
+  Motion<dim>::mass_products(const std::array<Pair, n> &pairs) const
+  {
+    const Basis<dim> &basis = state.point_basis();
+    StencilBlock<dim> block;
+    // By the values of a point, or of all its nodes.
+    std::array<double, n> products{};
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              const auto &[u, w] = pairs[i];
+              Tensor<1, dim> u_p, w_p;
+              double         of_nodes = 0;
+              for (unsigned int k = 0; k < block.n_nodes; ++k)
+                {
+                  const double          N   = block.N(p)[k];
+                  const Tensor<1, dim> &u_k = (*u)[block.nodes[k]],
+                                       &w_k = (*w)[block.nodes[k]];
+                  if (lumped)
+                    of_nodes += N * (u_k * w_k);
+                  u_p += N * u_k;
+                  w_p += N * w_k;
+                }
+              products[i] +=
+                mass(block.points[p]) * (lumped ? of_nodes : u_p * w_p);
+            }
+      }
+    for (double &product : products)
+      product = Utilities::MPI::sum(product, state.grid().communicator());
+    return products;
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::StepWorks::sum_over_ranks(const MPI_Comm &communicator)
+  {
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        at_start[k] = Utilities::MPI::sum(at_start[k], communicator);
+        at_end[k]   = Utilities::MPI::sum(at_end[k], communicator);
+      }
+    on_prescribed_at_start =
+      Utilities::MPI::sum(on_prescribed_at_start, communicator);
+    on_prescribed_at_end =
+      Utilities::MPI::sum(on_prescribed_at_end, communicator);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::count(const StepWorks &step)
+  {
+    const Nodal       end = at_end();
+    const NodeValues &du  = state.nodal_increments();
+    const auto [v_v, a_du, v_v_end] =
+      mass_products<3>({{{&v, &v}, {&a, &du}, {&end.v, &end.v}}});
+    if (!done.begun)
+      done.kinetic_at_start = 0.5 * v_v;
+    else
+      done.lost_in_transfer += done.kinetic - 0.5 * v_v;
+    done.begun     = true;
+    double missing = 0.5 * a_du;
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        done.of_forces[k] += 0.5 * (step.at_start[k] + step.at_end[k]);
+        missing -= 0.5 * step.at_start[k];
+      }
+    if (!prescribed.empty())
+      {
+        const auto [at_start, at_end] =
+          mass_products<2>({{{&a, &prescribed}, {&end.a, &prescribed}}});
+        const double of_start = 0.5 * (at_start - step.on_prescribed_at_start);
+        const double of_end   = 0.5 * (at_end - step.on_prescribed_at_end);
+        done.of_forces[unsigned(WorkKind::boundaries)] += of_start + of_end;
+        missing -= of_start;
+      }
+    done.lost_in_transfer -= missing;
+    done.kinetic = 0.5 * v_v_end;
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::write(Archive &archive) const
+  {
+    archive.write("motion/works",
+                  std::vector<double>(std::begin(done.of_forces),
+                                      std::end(done.of_forces)));
+    archive.write("motion/lost_in_transfer", done.lost_in_transfer);
+    archive.write("motion/kinetic_at_start", done.kinetic_at_start);
+    archive.write("motion/kinetic", done.kinetic);
+    archive.write("motion/begun", done.begun ? 1u : 0u);
+    if (points_carry())
+      return;
+    state.grid().write_node_values(v, "motion/velocity", archive);
+    state.grid().write_node_values(a, "motion/acceleration", archive);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::read(const Archive &archive)
+  {
+    const auto &works = archive.numbers("motion/works");
+    AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
+    std::copy(works.begin(), works.end(), done.of_forces);
+    done.lost_in_transfer = archive.number("motion/lost_in_transfer");
+    done.kinetic_at_start = archive.number("motion/kinetic_at_start");
+    done.kinetic          = archive.number("motion/kinetic");
+    done.begun            = archive.integer("motion/begun") != 0;
+    if (points_carry())
+      return;
+    state.grid().read_node_values(archive, "motion/velocity", v);
+    state.grid().read_node_values(archive, "motion/acceleration", a);
+  }
+
+
+
+  template <int dim>
+  MotionSums<dim>
+  Motion<dim>::sums() const
+  {
+    MotionSums<dim>   result;
+    const Basis<dim> &basis = state.point_basis();
+    const auto        add = [&](const unsigned int p, const Tensor<1, dim> &v) {
+      const double     m = mass(p);
+      const Point<dim> x = points.position(p);
+      result.mass += m;
+      result.momentum += m * v;
+      result.kinetic_energy += 0.5 * m * v.norm_square();
+      if constexpr (dim == 2)
+        result.angular_momentum[0] += m * (x[0] * v[1] - x[1] * v[0]);
+      else
+        result.angular_momentum += m * cross_product_3d(x, v);
+    };
+    if (points_carry())
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        add(p, v_field(points.values(p)));
+    else
+      {
+        StencilBlock<dim> block;
+        for (unsigned int g = 0; g < basis.n_batches(); ++g)
+          {
+            basis.evaluate(g, block);
+            for (unsigned int p = 0; p < block.n_points; ++p)
+              {
+                Tensor<1, dim> of_point;
+                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                  of_point += block.N(p)[k] * v[block.nodes[k]];
+                add(block.points[p], of_point);
+              }
+          }
+      }
+    const MPI_Comm communicator = state.grid().communicator();
+    result.mass     = Utilities::MPI::sum(result.mass, communicator);
+    result.momentum = Utilities::MPI::sum(result.momentum, communicator);
+    result.angular_momentum =
+      Utilities::MPI::sum(result.angular_momentum, communicator);
+    result.kinetic_energy =
+      Utilities::MPI::sum(result.kinetic_energy, communicator);
+    return result;
+  }
+
+
+
+  template class Motion<2>;
+  template class Motion<3>;
+} // namespace moraine

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/time/time_integrator.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  IntegratorParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Integrator",
+      integrator,
+      "quasi-static: every step is in equilibrium, and nothing has inertia. "
+      "Newmark: by beta and gamma. generalised-alpha: by the spectral radius.",
+      patterns::selection({"quasi-static", "Newmark", "generalised-alpha"}));
+    prm.add_parameter(
+      "Newmark beta",
+      beta,
+      "Of integrator Newmark: at least gamma / 2; (gamma + 1/2)^2 / 4 damps "
+      "high frequencies most.",
+      patterns::positive());
+    prm.add_parameter(
+      "Newmark gamma",
+      gamma,
+      "Of integrator Newmark: 1/2 for second order, more damps.",
+      patterns::positive());
+    prm.add_parameter(
+      "Spectral radius",
+      spectral_radius,
+      "Of integrator generalised-alpha: what is left of the highest "
+      "frequencies after a step. 1: no damping, 0: they end at once.",
+      Patterns::Double(0, 1));
+    prm.add_parameter(
+      "Mass",
+      mass,
+      "consistent, or lumped: all of a point's share of a node at the node",
+      patterns::selection({"consistent", "lumped"}));
+    prm.add_parameter(
+      "Velocity transfer",
+      transfer,
+      "How points that move through the mesh get their velocity from nodes. "
+      "FLIP: theirs and the change of the nodes'. PIC: the nodes'. blend: a "
+      "share of FLIP, the rest PIC. APIC: the nodes', and its gradient goes "
+      "back to nodes. FMPM: the nodes', which are made from the points' by an "
+      "approximate inverse of the consistent mass.",
+      patterns::selection({"FLIP", "PIC", "blend", "APIC", "FMPM"}));
+    prm.add_parameter("FLIP share",
+                      flip_share,
+                      "Of velocity transfer blend.",
+                      Patterns::Double(0, 1));
+    prm.add_parameter("FMPM order",
+                      fmpm_order,
+                      "Of velocity transfer FMPM: 1 is PIC.",
+                      patterns::integer_in_range(1, 20));
+  }
+
+
+
+  void
+  IntegratorParameters::check(const std::string &section) const
+  {
+    if (integrator != "Newmark" || (gamma >= 0.5 && 2 * beta >= gamma))
+      return;
+    std::ostringstream text;
+    text << "section '" << section << "', key 'Newmark beta': found " << beta
+         << " with Newmark gamma = " << gamma
+         << ", allowed: gamma >= 1/2 and beta >= gamma / 2; others are not "
+            "stable in steps of any size";
+    throw InputError(text.str());
+  }
+
+
+
+  TimeIntegrator::TimeIntegrator(const double beta,
+                                 const double gamma,
+                                 const double alpha_m,
+                                 const double alpha_f)
+    : beta(beta)
+    , gamma(gamma)
+    , alpha_m(alpha_m)
+    , alpha_f(alpha_f)
+  {}
+
+
+
+  TimeIntegrator
+  TimeIntegrator::newmark(const double beta, const double gamma)
+  {
+    return {beta, gamma, 0., 0.};
+  }
+
+
+
+  TimeIntegrator
+  TimeIntegrator::generalised_alpha(const double rho)
+  {
+    const double alpha_m = (2 * rho - 1) / (rho + 1);
+    const double alpha_f = rho / (rho + 1);
+    const double damping = alpha_f - alpha_m;
+    return {(1 + damping) * (1 + damping) / 4, 0.5 + damping, alpha_m, alpha_f};
+  }
+
+
+
+  TimeIntegrator::TimeIntegrator(const IntegratorParameters &parameters)
+    : TimeIntegrator(parameters.integrator == "generalised-alpha" ?
+                       generalised_alpha(parameters.spectral_radius) :
+                       newmark(parameters.beta, parameters.gamma))
+  {}
+} // namespace moraine
