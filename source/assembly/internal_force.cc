@@ -136,24 +136,6 @@ namespace moraine
 
 
 
-    template <int dim>
-    std::string
-    why_no_stress(const State<dim>       &state,
-                  const TrialPoints<dim> &trial,
-                  const Material         &material,
-                  const unsigned int      point)
-    {
-      std::ostringstream text;
-      text << "point " << state.material_points().id(point) << " at ("
-           << state.material_points().position(point) << ") "
-           << (trial.inverted(trial.first_failure()) ?
-                 "would be turned inside out" :
-                 material.why_no_stress());
-      return text.str();
-    }
-
-
-
     /**
      * @f$G = \sum_p v_p\, g_p g_p^T@f$ of a run of points. A size known to the
      * compiler (0 if not) lets it unroll the loops.
@@ -230,6 +212,24 @@ namespace moraine
 
 
   template <int dim>
+  std::string
+  why_no_stress(const State<dim>       &state,
+                const TrialPoints<dim> &trial,
+                const Material         &material,
+                const unsigned int      point)
+  {
+    std::ostringstream text;
+    text << "point " << state.material_points().id(point) << " at ("
+         << state.material_points().position(point) << ") "
+         << (trial.inverted(trial.first_failure()) ?
+               "would be turned inside out" :
+               material.why_no_stress());
+    return text.str();
+  }
+
+
+
+  template <int dim>
   std::vector<Effect>
   InternalForce<dim>::effects(const StepContext<dim> &) const
   {
@@ -289,6 +289,13 @@ namespace moraine
 
 
 
-  template class InternalForce<2>;
-  template class InternalForce<3>;
+#define INSTANTIATE(dim)                                       \
+  template std::string why_no_stress(const State<dim> &,       \
+                                     const TrialPoints<dim> &, \
+                                     const Material &,         \
+                                     const unsigned int);      \
+  template class InternalForce<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -5,6 +5,7 @@
 
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/boundary_term.h>
+#include <moraine/assembly/conserving_force.h>
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/assembly/grid_condition_term.h>
 #include <moraine/assembly/inertia.h>
@@ -19,10 +20,14 @@ namespace moraine
              const std::vector<GridCondition<dim>> &conditions,
              Loads<dim>                            &loads,
              const double                           fictitious_stiffness,
-             const bool                             inertia)
+             const bool                             inertia,
+             const bool                             conserving)
   {
     Terms<dim> terms;
-    terms.push_back(std::make_unique<InternalForce<dim>>());
+    if (conserving)
+      terms.push_back(std::make_unique<ConservingForce<dim>>());
+    else
+      terms.push_back(std::make_unique<InternalForce<dim>>());
     if (inertia)
       terms.push_back(std::make_unique<Inertia<dim>>());
     if (fictitious_stiffness > 0)
@@ -53,11 +58,13 @@ namespace moraine
              const std::vector<GridCondition<2>> &,
              Loads<2> &,
              const double,
+             const bool,
              const bool);
   template Terms<3>
   make_terms(std::vector<ImplicitBoundary<3>> &,
              const std::vector<GridCondition<3>> &,
              Loads<3> &,
              const double,
+             const bool,
              const bool);
 } // namespace moraine

@@ -151,7 +151,7 @@ namespace moraine
       }
     else if (context.cells_moved)
       rigid_modes = rigid_modes_of(state.grid());
-    if (!context.motion)
+    if (!context.motion || forces_in_the_middle())
       return;
     find_forces_at_start();
     const double share = context.motion->integrator().start_forces();
@@ -273,10 +273,32 @@ namespace moraine
       set_target_of_motion();
     if (constraints.any_lines())
       constraints.set_values(lines_of_terms());
+    find_dead_forces();
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::find_dead_forces()
+  {
     TimerOutput::Scope scope(timer, "external forces");
-    sums.begin(false);
-    add_terms([](const auto &term) { return term.is_dead(); }, false);
-    sums.end(forces.dead);
+    const auto         find = [this](const double t) {
+      context.t_end = t;
+      sums.begin(false);
+      add_terms([](const auto &term) { return term.is_dead(); }, false);
+      sums.end(forces.dead);
+    };
+    const double t_end = context.t_end;
+    LA::Vector   at_start;
+    if (forces_in_the_middle())
+      {
+        find(context.t_start);
+        at_start = forces.dead;
+      }
+    find(t_end);
+    if (forces_in_the_middle())
+      forces.dead.sadd(0.5, 0.5, at_start);
     scale.dead_squares.resize(body_names.size());
     Utilities::MPI::sum(sums.squares_of_bodies(),
                         state.grid().communicator(),
@@ -498,6 +520,8 @@ namespace moraine
   LA::Vector
   MechanicsSystem<dim>::forces_and_mass()
   {
+    if (forces_in_the_middle())
+      find_forces_at_start();
     LA::Vector at_start = sum_of_kinds();
     constraints.condense(at_start);
     context.motion->set_target(0., {});
@@ -522,8 +546,10 @@ namespace moraine
     const double                    of_dead = forces.dead * x;
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {
+        works.at_end[k] = forces.works[k];
+        if (forces_in_the_middle())
+          continue;
         works.at_start[k] = product(forces.by_kind[k], increments);
-        works.at_end[k]   = forces.works[k];
         if (!prescribed.empty())
           works.on_prescribed_at_start +=
             product(forces.by_kind[k], prescribed);
@@ -669,7 +695,10 @@ namespace moraine
       TimerOutput::Scope scope(timer, "update and search");
       if (context.motion)
         context.motion->accept();
-      state.accept(move_mesh);
+      StepEnergies energies;
+      state.accept(move_mesh, context.motion ? &energies : nullptr);
+      if (context.motion)
+        context.motion->count(energies);
     }
     for (const auto &term : terms)
       term->keep();

@@ -36,4 +36,21 @@ namespace moraine
           }
       }
   }
+
+
+
+  void
+  NeoHookean::stored_energies(const ArrayView<const Tensor<1, 3>> &strains,
+                              const ArrayView<double> &energies) const
+  {
+    const auto [lambda, mu] = stiffness;
+    for (unsigned int i = 0; i < energies.size(); ++i)
+      {
+        const Tensor<1, 3> &e          = strains[i];
+        const double        volumetric = e[0] + e[1] + e[2];
+        energies[i]                    = 0.5 * lambda * volumetric * volumetric;
+        for (unsigned int A = 0; A < 3; ++A)
+          energies[i] += 0.5 * mu * (std::expm1(2 * e[A]) - 2 * e[A]);
+      }
+  }
 } // namespace moraine

@@ -111,26 +111,34 @@ namespace moraine
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies);
     make_points(scene);
-    state           = std::make_unique<State<dim>>(*space,
+    state              = std::make_unique<State<dim>>(*space,
                                          *points,
                                          *basis,
                                          materials,
                                          scene.method.after_step(),
                                          scene.method.strain_measure(),
                                          scene.method.weights());
-    boundaries      = make_boundaries(scene);
-    grid_conditions = make_grid_conditions(scene, *mesh);
-    loads           = make_loads(scene, *mesh, body_names);
-    system          = std::make_unique<MechanicsSystem<dim>>(
-      *state,
+    boundaries         = make_boundaries(scene);
+    grid_conditions    = make_grid_conditions(scene, *mesh);
+    loads              = make_loads(scene, *mesh, body_names);
+    const bool dynamic = scene.time.integrator.dynamic();
+    Terms<dim> terms =
       make_terms(boundaries,
                  grid_conditions,
                  loads,
                  scene.method.fictitious_stiffness,
-                 scene.time.integrator.dynamic()),
-      body_names,
-      &timer);
-    if (scene.time.integrator.dynamic())
+                 dynamic,
+                 TimeIntegrator(scene.time.integrator).forces_in_the_middle());
+    const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
+    if (std::any_of(damping.begin(), damping.end(), [](const auto &factors) {
+          return factors.damps();
+        }))
+      terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
+    system = std::make_unique<MechanicsSystem<dim>>(*state,
+                                                    std::move(terms),
+                                                    body_names,
+                                                    &timer);
+    if (dynamic)
       {
         motion =
           std::make_unique<Motion<dim>>(*state,

@@ -20,12 +20,16 @@ namespace moraine
     std::vector<NamedValue>
     values_of(const Works &works)
     {
-      const auto       &W    = works.of_forces;
+      const auto work = [&works](const WorkKind kind) {
+        return works.of_forces[static_cast<unsigned int>(kind)];
+      };
       const std::string unit = "force length";
-      return {{"internal work", unit, -W[0]},
-              {"external work", unit, W[1]},
-              {"work of boundaries", unit, W[2]},
-              {"absorbed energy", unit, -W[3]},
+      return {{"strain energy", unit, works.stored},
+              {"plastic dissipation", unit, works.dissipated},
+              {"external work", unit, work(WorkKind::external)},
+              {"work of boundaries", unit, work(WorkKind::boundaries)},
+              {"absorbed energy", unit, -work(WorkKind::absorbed)},
+              {"damping energy", unit, -work(WorkKind::damping)},
               {"energy lost in transfer", unit, works.lost_in_transfer},
               {"kinetic energy of nodes", unit, works.kinetic},
               {"energy out of balance", unit, works.out_of_balance()}};

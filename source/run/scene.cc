@@ -34,6 +34,7 @@ namespace moraine
                       "In dynamics: of its points at the start, an expression "
                       "of x for each component, separated by semicolons. If "
                       "left out, the body is at rest.");
+    damping.add_parameters(prm);
     shape.add_parameters(prm);
   }
 

@@ -91,11 +91,29 @@ namespace moraine
 
 
 
+  template <int dim>
+  std::vector<RayleighFactors>
+  make_damping(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies)
+  {
+    std::vector<RayleighFactors> factors;
+    for (const Body<dim> &body : bodies)
+      for (const auto &[name, parameters] : scene.bodies)
+        if (name == body.name)
+          factors.push_back(
+            parameters.damping.factors("Bodies/" + name,
+                                       !scene.time.integrator.dynamic()));
+    return factors;
+  }
+
+
+
 #define INSTANTIATE(dim)                                                \
   template NamedShapes<dim>       body_shapes(const Scene<dim> &);      \
   template std::set<std::string>  operands_of(const Scene<dim> &);      \
   template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
   template std::vector<std::shared_ptr<const Material>> make_materials( \
+    const Scene<dim> &, const std::vector<Body<dim>> &);                \
+  template std::vector<RayleighFactors> make_damping(                   \
     const Scene<dim> &, const std::vector<Body<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -203,6 +203,7 @@ namespace moraine
     for (const auto &[name, body] : bodies)
       {
         const std::string section = "Bodies/" + name;
+        body.damping.factors(section, !time.integrator.dynamic());
         if (!body.point_grid.empty() &&
             (body.shape.kind() != "box" || body.point_grid.size() != dim))
           reject(section,

@@ -45,7 +45,10 @@ namespace moraine
       const double largest = works.largest();
       return {{"kinetic", works.kinetic},
               {"kinetic_at_start", works.kinetic_at_start},
-              {"internal_work", -W[unsigned(WorkKind::internal)]},
+              {"strain", works.stored},
+              {"strain_at_start", works.stored_at_start},
+              {"plastic_dissipation", works.dissipated},
+              {"damping", -W[unsigned(WorkKind::damping)]},
               {"external_work", W[unsigned(WorkKind::external)]},
               {"work_of_boundaries", W[unsigned(WorkKind::boundaries)]},
               {"absorbed", -W[unsigned(WorkKind::absorbed)]},

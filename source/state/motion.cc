@@ -15,9 +15,11 @@ namespace moraine
   double
   Works::out_of_balance() const
   {
-    double sum = kinetic_at_start - lost_in_transfer - kinetic;
-    for (const double work : of_forces)
-      sum += work;
+    double sum = kinetic_at_start - lost_in_transfer - kinetic +
+                 stored_at_start - stored - dissipated;
+    for (unsigned int k = 0; k < n_kinds; ++k)
+      if (WorkKind(k) != WorkKind::internal)
+        sum += of_forces[k];
     return sum;
   }
 
@@ -26,8 +28,12 @@ namespace moraine
   double
   Works::largest() const
   {
-    double part =
-      std::max({kinetic_at_start, kinetic, std::abs(lost_in_transfer)});
+    double part = std::max({kinetic_at_start,
+                            kinetic,
+                            stored_at_start,
+                            stored,
+                            dissipated,
+                            std::abs(lost_in_transfer)});
     for (const double work : of_forces)
       part = std::max(part, std::abs(work));
     return part;
@@ -427,23 +433,29 @@ namespace moraine
       done.kinetic_at_start = 0.5 * v_v;
     else
       done.lost_in_transfer += done.kinetic - 0.5 * v_v;
-    done.begun     = true;
-    double missing = 0.5 * a_du;
+    // The parts of the forces at both ends in what moves the nodes.
+    const double share   = rule.forces_in_the_middle() ? 0. : 0.5;
+    double       missing = share * a_du;
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {
-        done.of_forces[k] += 0.5 * (step.at_start[k] + step.at_end[k]);
-        missing -= 0.5 * step.at_start[k];
+        const double of_start = share * step.at_start[k];
+        done.of_forces[k] += of_start + (1 - share) * step.at_end[k];
+        missing -= of_start;
       }
     if (!prescribed.empty())
       {
         const auto [at_start, at_end] =
           mass_products<2>({{{&a, &prescribed}, {&end.a, &prescribed}}});
-        const double of_start = 0.5 * (at_start - step.on_prescribed_at_start);
-        const double of_end   = 0.5 * (at_end - step.on_prescribed_at_end);
+        const double of_start =
+          share * (at_start - step.on_prescribed_at_start);
+        const double of_end =
+          (1 - share) * (at_end - step.on_prescribed_at_end);
         done.of_forces[unsigned(WorkKind::boundaries)] += of_start + of_end;
         missing -= of_start;
       }
-    done.lost_in_transfer -= missing;
+    // Only Newmark's rule has accelerations that balance the forces.
+    if (points_carry() && rule.start_forces() == 0.)
+      done.lost_in_transfer -= missing;
     done.kinetic = 0.5 * v_v_end;
   }
 
@@ -459,6 +471,9 @@ namespace moraine
     archive.write("motion/lost_in_transfer", done.lost_in_transfer);
     archive.write("motion/kinetic_at_start", done.kinetic_at_start);
     archive.write("motion/kinetic", done.kinetic);
+    archive.write("motion/stored_at_start", done.stored_at_start);
+    archive.write("motion/stored", done.stored);
+    archive.write("motion/dissipated", done.dissipated);
     archive.write("motion/begun", done.begun ? 1u : 0u);
     if (points_carry())
       return;
@@ -478,11 +493,32 @@ namespace moraine
     done.lost_in_transfer = archive.number("motion/lost_in_transfer");
     done.kinetic_at_start = archive.number("motion/kinetic_at_start");
     done.kinetic          = archive.number("motion/kinetic");
+    done.stored_at_start  = archive.number("motion/stored_at_start");
+    done.stored           = archive.number("motion/stored");
+    done.dissipated       = archive.number("motion/dissipated");
     done.begun            = archive.integer("motion/begun") != 0;
     if (points_carry())
       return;
     state.grid().read_node_values(archive, "motion/velocity", v);
     state.grid().read_node_values(archive, "motion/acceleration", a);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::count(const StepEnergies &energies)
+  {
+    const MPI_Comm communicator = state.grid().communicator();
+    const double   start =
+      Utilities::MPI::sum(energies.stored_at_start, communicator);
+    if (!done.begun)
+      done.stored_at_start = start;
+    else
+      done.lost_in_transfer += done.stored - start;
+    done.begun  = true;
+    done.stored = Utilities::MPI::sum(energies.stored, communicator);
+    done.dissipated += Utilities::MPI::sum(energies.dissipated, communicator);
   }
 
 

@@ -162,7 +162,8 @@ namespace moraine
 
   template <int dim>
   void
-  State<dim>::accept(const std::function<void()> &move_mesh)
+  State<dim>::accept(const std::function<void()> &move_mesh,
+                     StepEnergies                *energies)
   {
     StencilBlock<dim>           block;
     std::vector<Tensor<1, dim>> nodal;
@@ -180,6 +181,8 @@ namespace moraine
           {
             end = end_of_body(block, begin);
             trial_points.evaluate(*this, block, begin, end, nodal.data());
+            if (energies)
+              trial_points.add_energies(*this, block, begin, *energies);
             for (unsigned int p = begin; p < end; ++p)
               {
                 commit(trial_points, p - begin, block.points[p]);

@@ -21,8 +21,10 @@ namespace moraine
       "Integrator",
       integrator,
       "quasi-static: every step is in equilibrium, and nothing has inertia. "
-      "Newmark: by beta and gamma. generalised-alpha: by the spectral radius.",
-      patterns::selection({"quasi-static", "Newmark", "generalised-alpha"}));
+      "Newmark: by beta and gamma. generalised-alpha: by the spectral radius. "
+      "energy-momentum: conserves both at finite strain.",
+      patterns::selection(
+        {"quasi-static", "Newmark", "generalised-alpha", "energy-momentum"}));
     prm.add_parameter(
       "Newmark beta",
       beta,
@@ -84,11 +86,13 @@ namespace moraine
   TimeIntegrator::TimeIntegrator(const double beta,
                                  const double gamma,
                                  const double alpha_m,
-                                 const double alpha_f)
+                                 const double alpha_f,
+                                 const bool   in_the_middle)
     : beta(beta)
     , gamma(gamma)
     , alpha_m(alpha_m)
     , alpha_f(alpha_f)
+    , in_the_middle(in_the_middle)
   {}
 
 
@@ -112,9 +116,19 @@ namespace moraine
 
 
 
+  TimeIntegrator
+  TimeIntegrator::energy_momentum()
+  {
+    return {0.5, 1., 0., 0., true};
+  }
+
+
+
   TimeIntegrator::TimeIntegrator(const IntegratorParameters &parameters)
     : TimeIntegrator(parameters.integrator == "generalised-alpha" ?
                        generalised_alpha(parameters.spectral_radius) :
+                     parameters.integrator == "energy-momentum" ?
+                       energy_momentum() :
                        newmark(parameters.beta, parameters.gamma))
   {}
 } // namespace moraine

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/assembly/rayleigh_damping.h>
 #include <moraine/basis/cpdi1_basis.h>
 #include <moraine/basis/cpdi2_basis.h>
 #include <moraine/material/linear_elastic.h>
@@ -44,12 +45,21 @@ namespace
 
 
 
+  /** Where in the step internal forces are. */
+  enum class Forces
+  {
+    at_the_end,
+    conserving
+  };
+
   /** A box at finite strain in a mesh of 3^dim unit cells, cut by its faces. */
   template <int dim>
   struct Box
   {
     static PointFields
-    fields(const Method method, const std::shared_ptr<const Material> &material)
+    fields(const Method                           method,
+           const std::shared_ptr<const Material> &material,
+           const StrainMeasure                    measure)
     {
       PointFields layout;
       if (method == Method::gimp)
@@ -58,15 +68,18 @@ namespace
         Cpdi1Basis<dim>::request_fields(layout);
       if (method == Method::cpdi2)
         Cpdi2Basis<dim>::request_fields(layout);
-      StateFields<dim>(layout, StrainMeasure::finite, {material});
+      StateFields<dim>(layout, measure, {material});
       return layout;
     }
 
-    Box(const Method method, const bool plastic)
+    Box(const Method        method,
+        const bool          plastic,
+        const Forces        forces  = Forces::at_the_end,
+        const StrainMeasure measure = StrainMeasure::finite)
       : law(material(plastic))
       , mesh(unit_cells<dim>(3), MPI_COMM_WORLD)
       , space(mesh, method == Method::quadratic_elements ? 2 : 1)
-      , points(mesh, fields(method, law))
+      , points(mesh, fields(method, law, measure))
     {
       const bool            fe = method == Method::quadratic_elements;
       const unsigned int    n  = fe ? 3 : 2;
@@ -102,19 +115,39 @@ namespace
             break;
         }
       basis->initialise_points(points);
-      state  = std::make_unique<State<dim>>(space,
+      state = std::make_unique<State<dim>>(space,
                                            points,
                                            *basis,
                                            std::vector{law},
                                            fe ? MeshAfterStep::follow_material :
-                                                 MeshAfterStep::reset,
-                                           StrainMeasure::finite);
-      system = std::make_unique<MechanicsSystem<dim>>(
-        *state,
-        make_terms(boundaries, conditions, loads),
-        std::vector<std::string>{"box"});
-      system->begin_step(0);
-      system->set_target(1);
+                                                MeshAfterStep::reset,
+                                           measure);
+      system =
+        std::make_unique<MechanicsSystem<dim>>(*state,
+                                               make_terms(boundaries,
+                                                          conditions,
+                                                          loads,
+                                                          0.,
+                                                          false,
+                                                          forces ==
+                                                            Forces::conserving),
+                                               std::vector<std::string>{"box"});
+      begin_step(0);
+    }
+
+    void
+    begin_step(const double t)
+    {
+      system->begin_step(t);
+      system->set_target(t + 1);
+    }
+
+    /** Take a step, so that the next one starts with stress. */
+    void
+    deform()
+    {
+      system->accept(displacements(0.03, 0.4));
+      begin_step(1);
     }
 
     /** Displacements of all nodes, by place, that @p seed varies. */
@@ -159,13 +192,12 @@ namespace
 
 
 
-  /** Against central differences, along two directions. */
+  /** Against central differences, along two directions, at @p scale. */
   template <int dim>
   void
-  check_tangent(const Method method, const bool plastic)
+  check_tangent(Box<dim> &box, const double scale = 0.03)
   {
-    Box<dim>         box(method, plastic);
-    const LA::Vector x = box.displacements(0.03, 0.4);
+    const LA::Vector x = box.displacements(scale, 0.4);
     box.system->assemble(x, false); // the next one is not linearised
     for (const double seed : {1.1, 2.3})
       {
@@ -206,9 +238,139 @@ namespace
   {
     const auto [dim, method, plastic] = GetParam();
     if (dim == 2)
-      check_tangent<2>(method, plastic);
+      {
+        Box<2> box(method, plastic);
+        check_tangent(box);
+      }
     else
-      check_tangent<3>(method, plastic);
+      {
+        Box<3> box(method, plastic);
+        check_tangent(box);
+      }
+  }
+
+
+
+  /** Of conserving forces in the second step. */
+  template <int dim>
+  void
+  check_conserving_forces(const Method        method,
+                          const bool          plastic,
+                          const StrainMeasure measure)
+  {
+    Box<dim> box(method, plastic, Forces::conserving, measure);
+    box.deform();
+    check_tangent(box);
+
+    const LA::Vector x = box.displacements(0.05, 1.7);
+    const LA::Vector f = box.residual(x);
+    // The forces are internal ones alone.
+    Tensor<1, dim == 2 ? 1 : 3> moment;
+    double                      size = 0;
+    std::vector<Tensor<1, dim>> du, force;
+    box.space.node_values(x, du);
+    box.space.node_values(f, force);
+    for (unsigned int node = 0; node < box.space.n_nodes(); ++node)
+      if (box.space.locally_owned().is_element(box.space.node_dof(node)))
+        {
+          Tensor<1, dim> r(box.space.node_position(node));
+          // At small strain places do not change.
+          if (measure == StrainMeasure::finite)
+            r += 0.5 * du[node];
+          if constexpr (dim == 2)
+            moment[0] += r[0] * force[node][1] - r[1] * force[node][0];
+          else
+            moment += cross_product_3d(r, force[node]);
+          size += r.norm() * force[node].norm();
+        }
+    const double moments = Utilities::MPI::sum(moment, MPI_COMM_WORLD).norm();
+    EXPECT_LT(moments, 1e-14 * Utilities::MPI::sum(size, MPI_COMM_WORLD));
+
+    const double work = -(f * x);
+    StepEnergies energies;
+    box.state->set_trial(x);
+    box.state->accept({}, &energies);
+    const auto all = [](const double value) {
+      return Utilities::MPI::sum(value, MPI_COMM_WORLD);
+    };
+    const double stored     = all(energies.stored),
+                 change     = stored - all(energies.stored_at_start),
+                 dissipated = all(energies.dissipated);
+    EXPECT_GT(std::abs(change), 0.05 * stored);
+    if (plastic)
+      EXPECT_GT(dissipated, 0.02 * work);
+    else
+      EXPECT_EQ(dissipated, 0.);
+    EXPECT_NEAR(work, change + dissipated, 1e-13 * (stored + dissipated));
+  }
+
+
+
+  TEST_P(EveryMethod, ConservingForcesDoTheWorkThatIsStoredAndDissipated)
+  {
+    const auto [dim, method, plastic] = GetParam();
+    for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+      if (dim == 2)
+        check_conserving_forces<2>(method, plastic, measure);
+      else
+        check_conserving_forces<3>(method, plastic, measure);
+  }
+
+
+
+  TEST(ConservingForces, AreTheMeanOfBothEndsInSmallSteps)
+  {
+    double far = 0;
+    for (const double scale : {1e-2, 1e-3, 1e-4, 1e-5, 1e-9})
+      {
+        LA::Vector f[2];
+        for (const auto forces : {Forces::at_the_end, Forces::conserving})
+          {
+            Box<2> box(Method::material_point, false, forces);
+            box.deform();
+            const LA::Vector x = box.displacements(scale, 1.7);
+            box.system->assemble(x, false);
+            LA::Vector &of = f[forces == Forces::conserving];
+            of             = box.residual(x);
+            if (forces == Forces::conserving)
+              continue;
+            of.sadd(0.5, 0.5, box.residual(box.space.vector()));
+          }
+        const double size = f[0].l2_norm();
+        f[1] -= f[0];
+        const double now = f[1].l2_norm() / size;
+        if (far > 0 && scale > 1e-6)
+          {
+            EXPECT_NEAR(now / far, 0.01, 0.004);
+          }
+        else
+          EXPECT_LT(now, 1e-2) << scale;
+        far = now;
+      }
+  }
+
+
+
+  TEST(RayleighDamping, TangentIsTheDerivativeOfTheForces)
+  {
+    for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+      for (const auto &integrator : {TimeIntegrator::newmark(0.25, 0.5),
+                                     TimeIntegrator::energy_momentum()})
+        {
+          Box<2>     box(Method::quadratic_elements,
+                     false,
+                     Forces::at_the_end,
+                     measure);
+          const bool lumped = measure == StrainMeasure::small;
+          Motion<2>  motion(
+            *box.state, box.points, integrator, VelocityTransfer(), lumped);
+          box.system->set_motion(motion);
+          motion.begin_step();
+          box.system->set_target(0.3);
+          box.system->add(std::make_unique<RayleighDamping<2>>(
+            std::vector<RayleighFactors>{{0.7, 2.}}));
+          check_tangent(box);
+        }
   }
 
   INSTANTIATE_TEST_SUITE_P(

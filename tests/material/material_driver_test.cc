@@ -625,6 +625,34 @@ TEST(Materials, TangentInPrincipalDirections)
   record_largest(largest);
 }
 
+TEST(Materials, StressIsTheDerivativeOfTheStoredEnergy)
+{
+  const Tensor<1, 3> strain = vector(0.3, -0.2, 0.05);
+  for (const auto &[name, material] : all_materials())
+    {
+      if (material->dissipates())
+        continue;
+      SCOPED_TRACE(name);
+      const double size = 1e-5;
+      for (unsigned int A = 0; A < 3; ++A)
+        {
+          std::vector<Tensor<1, 3>> strains(2, strain);
+          strains[0][A] -= size;
+          strains[1][A] += size;
+          std::vector<double> energies(2);
+          material->stored_energies(
+            ArrayView<const Tensor<1, 3>>(strains.data(), 2),
+            make_array_view(energies));
+          const auto answer = respond(*material, strain);
+          EXPECT_NEAR((energies[1] - energies[0]) / (2 * size),
+                      answer.stress[A],
+                      1e-7 * E);
+        }
+    }
+}
+
+
+
 TEST(VonMises, TangentAtKinks)
 {
   // The slope that follows counts: against differences towards more strain.

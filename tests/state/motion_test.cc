@@ -234,6 +234,7 @@ TEST(Motion, ArchivesKeepNodesAndWorks)
   works.at_start = {{1., 2., 3., 4.}};
   works.at_end   = {{5., 6., 7., 8.}};
   block.motion->count(works);
+  block.motion->count(StepEnergies{1., 2., 3.});
   block.motion->accept();
   const Archive kept = archive_of(*block.motion);
 
@@ -243,4 +244,8 @@ TEST(Motion, ArchivesKeepNodesAndWorks)
   other.motion->read(kept);
   EXPECT_TRUE(archive_of(*other.motion) == kept);
   EXPECT_EQ(other.motion->works().of_forces[2], 5.);
+  const double n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  EXPECT_EQ(other.motion->works().stored_at_start, n_ranks);
+  EXPECT_EQ(other.motion->works().stored, 2 * n_ranks);
+  EXPECT_EQ(other.motion->works().dissipated, 3 * n_ranks);
 }

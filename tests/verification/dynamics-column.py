@@ -46,7 +46,7 @@ def compare(name, result, exact):
           result.summary["energy"]["balance_error"], 1e-10)
     for row in rows:
         # The sum is written down, too.
-        bound_all = row["internal work"] + row["kinetic energy of nodes"] \
+        bound_all = row["strain energy"] + row["kinetic energy of nodes"] \
             + row["absorbed energy"] - row["external work"]
         if abs(bound_all) > 1e-10 * rows[-1]["external work"]:
             text(f"{name}: energy at t = {row['t']}", f"NO, {bound_all}")

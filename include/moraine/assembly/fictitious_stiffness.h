@@ -37,10 +37,11 @@ namespace moraine
       return fraction;
     }
 
+    /** It stores nothing from one step to the next. */
     WorkKind
     work_kind() const override
     {
-      return WorkKind::internal;
+      return WorkKind::damping;
     }
 
     std::vector<Effect>

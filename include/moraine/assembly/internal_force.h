@@ -8,6 +8,16 @@
 
 namespace moraine
 {
+  /** Why @p trial has no stress for its first failure, local point @p point. */
+  template <int dim>
+  std::string
+  why_no_stress(const State<dim>       &state,
+                const TrialPoints<dim> &trial,
+                const Material         &material,
+                const unsigned int      point);
+
+
+
   /**
    * @f$-\sum_p B_p^T \sigma_p v_p@f$ with trial stresses, and
    * @f$K = \sum_p B_p^T C B_p v_p@f$ (Cortis et al. 2017, eqs. 7-9).

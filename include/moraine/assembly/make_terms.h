@@ -20,7 +20,8 @@ namespace moraine
   /**
    * The terms of a solid body with what holds and loads it, all of which must
    * live longer than the terms. @p fictitious_stiffness is the fraction of
-   * FictitiousStiffness, or 0 for none. With @p inertia points have mass.
+   * FictitiousStiffness, or 0 for none. With @p inertia points have mass, with
+   * @p conserving internal forces are in the middle of the step.
    */
   template <int dim>
   Terms<dim>
@@ -28,7 +29,8 @@ namespace moraine
              const std::vector<GridCondition<dim>> &conditions,
              Loads<dim>                            &loads,
              const double                           fictitious_stiffness = 0.,
-             const bool                             inertia = false);
+             const bool                             inertia    = false,
+             const bool                             conserving = false);
 } // namespace moraine
 
 #endif

@@ -206,6 +206,10 @@ namespace moraine
     void
     set_target_of_motion();
 
+    /** Find those of loads where the integrator asks for them. */
+    void
+    find_dead_forces();
+
     /** Let every term begin a step and learn whether couplings are new. */
     void
     begin_terms();
@@ -259,6 +263,13 @@ namespace moraine
     /** The sum of those at the start. Collective. */
     LA::Vector
     sum_of_kinds() const;
+
+    bool
+    forces_in_the_middle() const
+    {
+      return context.motion &&
+             context.motion->integrator().forces_in_the_middle();
+    }
 
     /** Let the motion know of the work of the step to the trial state @p x,
      * at which forces were assembled last. */

@@ -192,6 +192,35 @@ namespace moraine
       return true;
     }
 
+    /**
+     * The energies per initial volume that elastic strains, given by their
+     * principal values, store, if it is isotropic: @f$\psi =
+     * \frac12\, \varepsilon^e : C : \varepsilon^e@f$ with
+     * elastic_stiffness() unless said otherwise.
+     */
+    virtual void
+    stored_energies(
+      const dealii::ArrayView<const dealii::Tensor<1, 3>> &strains,
+      const dealii::ArrayView<double>                     &energies) const
+    {
+      const LameConstants C = elastic_stiffness();
+      for (unsigned int i = 0; i < energies.size(); ++i)
+        {
+          const dealii::Tensor<1, 3> &e          = strains[i];
+          const double                volumetric = e[0] + e[1] + e[2];
+          energies[i] =
+            0.5 * C.lambda * volumetric * volumetric + C.mu * (e * e);
+        }
+    }
+
+    /** Whether elastic strains at the end of a step can be others than the
+     * trial ones. Stress is then linear in them by elastic_stiffness(). */
+    virtual bool
+    dissipates() const
+    {
+      return false;
+    }
+
     /** For messages: why respond() can fail, as "it cannot return to ...". */
     virtual std::string
     why_no_stress() const

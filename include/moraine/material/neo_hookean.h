@@ -32,6 +32,11 @@ namespace moraine
     respond(const StepTime                          &time,
             const dealii::ArrayView<PrincipalState> &points) const override;
 
+    void
+    stored_energies(
+      const dealii::ArrayView<const dealii::Tensor<1, 3>> &strains,
+      const dealii::ArrayView<double> &energies) const override;
+
     LameConstants
     elastic_stiffness() const override
     {

@@ -78,6 +78,12 @@ namespace moraine
       return false;
     }
 
+    bool
+    dissipates() const override
+    {
+      return true;
+    }
+
     /** The accumulated plastic strain @f$\kappa@f$. */
     std::vector<InternalVariable>
     internal_variables() const override

@@ -12,6 +12,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
+#include <moraine/run/damping_parameters.h>
 #include <moraine/run/method.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
@@ -40,6 +41,7 @@ namespace moraine
     ShapeParameters<dim>      shape;
     std::vector<unsigned int> point_grid;
     std::string               initial_velocity;
+    DampingParameters         damping;
 
     /** Whether the cells of the mesh give the body its points. */
     bool

@@ -41,6 +41,11 @@ namespace moraine
   template <int dim>
   std::vector<std::shared_ptr<const Material>>
   make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
+
+  /** The damping of each body. */
+  template <int dim>
+  std::vector<RayleighFactors>
+  make_damping(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
 } // namespace moraine
 
 #endif

@@ -47,24 +47,30 @@ namespace moraine
     external,
     boundaries,
     absorbed,
+    damping,
     none
   };
 
   /** Of all steps so far [force length]. */
   struct Works
   {
-    static constexpr unsigned int n_kinds = 4;
+    static constexpr unsigned int n_kinds = 5;
     /** By WorkKind, positive where forces push the material along. */
-    double of_forces[n_kinds] = {0, 0, 0, 0};
-    /** Kinetic energy that went as velocities went from nodes to points and
-     * back, and with accelerations that are out of balance after that. */
+    double of_forces[n_kinds] = {0, 0, 0, 0, 0};
+    /** Energy that went as velocities went from nodes to points and back, with
+     * accelerations that are out of balance after that, and as the weights of
+     * points changed. */
     double lost_in_transfer = 0;
     double kinetic_at_start = 0;
     double kinetic          = 0; ///< of the nodes at the end of the last step
+    double stored_at_start  = 0;
+    double stored           = 0; ///< in elastic strain, at the end of the last
+    double dissipated       = 0; ///< by plastic strain
     bool   begun            = false;
 
-    /** What kinetic energy is less than works say: energy that the integrator
-     * made or took. */
+    /** What kinetic and stored energy and what was dissipated are less than
+     * works of all but internal forces say: energy that the integrator took, or
+     * made if negative. */
     double
     out_of_balance() const;
 
@@ -180,12 +186,16 @@ namespace moraine
       return rule.end_inertia() * rule.acceleration_by_increment(step_size);
     }
 
-    /** @f$v_{n+1}@f$ of the trial state; @f$v_n@f$ in a step of size 0. */
+    /** The velocity where the integrator asks for forces: @f$v_{n+1}@f$ of the
+     * trial state or that in the middle of the step, @f$\Delta u/\Delta t@f$;
+     * @f$v_n@f$ in a step of size 0. */
     dealii::Tensor<1, dim>
     velocity(const unsigned int node, const dealii::Tensor<1, dim> &du) const
     {
       if (!(step_size > 0))
         return v[node];
+      if (rule.forces_in_the_middle())
+        return du / step_size;
       return rule.velocity(step_size,
                            v[node],
                            a[node],
@@ -196,7 +206,11 @@ namespace moraine
     double
     velocity_by_increment() const
     {
-      return step_size > 0 ? rule.velocity_by_increment(step_size) : 0.;
+      if (!(step_size > 0))
+        return 0.;
+      return rule.forces_in_the_middle() ?
+               1 / step_size :
+               rule.velocity_by_increment(step_size);
     }
 
     const TimeIntegrator &
@@ -257,6 +271,11 @@ namespace moraine
      */
     void
     count(const StepWorks &step);
+
+    /** Count the @p energies of this rank in a step that count() was called
+     * for. Collective. */
+    void
+    count(const StepEnergies &energies);
 
     const Works &
     works() const

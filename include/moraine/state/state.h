@@ -99,12 +99,14 @@ namespace moraine
      * @f$b^e@f$ and @f$v = \det(\Delta F)\, v_n@f$ too, and the stress is
      * Cauchy's @f$\sigma = \tau/J@f$. Where points move through the mesh,
      * @p move_mesh, if there is one, moves its vertices before the cells of the
-     * points are searched.
+     * points are searched. @p energies, if asked for, gets the sums of this
+     * rank's points, weighted as their stress.
      *
      * @throws ComputationError if a point leaves the mesh. Collective.
      */
     void
-    accept(const std::function<void()> &move_mesh = {});
+    accept(const std::function<void()> &move_mesh = {},
+           StepEnergies                *energies  = nullptr);
 
     /** Forget the trial state. */
     void

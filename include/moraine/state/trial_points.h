@@ -44,6 +44,17 @@ namespace moraine
     std::vector<std::vector<PointField<dim, double>>> internal;
   };
 
+  /** Stored energies at both ends of a step, and what was dissipated in it. Of
+   * a point per initial volume, or of points. */
+  struct StepEnergies
+  {
+    double stored_at_start = 0;
+    double stored          = 0;
+    double dissipated      = 0;
+  };
+
+
+
   /**
    * The trial state of points of one body that share their nodes: a function of
    * their committed values and the nodal increments.
@@ -119,6 +130,55 @@ namespace moraine
     dealii::SymmetricTensor<2, 3>
     elastic_left_cauchy_green(const unsigned int i) const;
 
+    /**
+     * Find energies() of the points evaluated last, @p block and @p begin as
+     * then; their material is isotropic. What dissipates is the work on plastic
+     * strain of the mean stress of both ends,
+     *
+     * @f[ \tfrac12 (\tau_n^* + \tau_{n+1}) : \Delta\varepsilon^p , \qquad
+     *   \Delta\varepsilon^p = \varepsilon^{tr} - \varepsilon^e , \qquad
+     *   \tau_n^* = \mathrm{sym}(\Delta F\, \tau_n\, \Delta F^{-1}) . @f]
+     *
+     * @f$\tau_n^*@f$ is @f$\tau_n@f$ turned with the material but for terms of
+     * second order in the strain of the step. At small strain it is
+     * @f$\sigma_n@f$, and then energies and the work of the mean stress agree
+     * exactly.
+     */
+    void
+    find_energies(const State<dim>        &state,
+                  const StencilBlock<dim> &block,
+                  const unsigned int       begin);
+
+    /** find_energies() and add them, weighted, to @p sums. */
+    void
+    add_energies(const State<dim>        &state,
+                 const StencilBlock<dim> &block,
+                 const unsigned int       begin,
+                 StepEnergies            &sums);
+
+    /** Of the i-th point, per initial volume. */
+    const StepEnergies &
+    energies(const unsigned int i) const
+    {
+      return energy_points[i].energies;
+    }
+
+    /** Kirchhoff's stress at the start of the step, or Cauchy's, after
+     * find_energies(). */
+    const dealii::SymmetricTensor<2, 3> &
+    stress_at_start(const unsigned int i) const
+    {
+      return energy_points[i].stress;
+    }
+
+    /**
+     * G, by which the sum of stored and dissipated energy of the i-th point
+     * changes in the trial state: G : d, @f$d = \mathrm{sym}(\delta\Delta F\,
+     * \Delta F^{-1})@f$. At finite strain, after find_energies().
+     */
+    dealii::SymmetricTensor<2, 3>
+    energy_gradient(const unsigned int i) const;
+
     /** Internal variables after the step, in the order of the material. */
     const double *
     internal_variables(const unsigned int i) const
@@ -157,6 +217,24 @@ namespace moraine
       Spectrum                      principal;
       dealii::Tensor<1, 3>          trial_strain;
     };
+
+    /** What find_energies() finds. */
+    struct EnergyPoint
+    {
+      StepEnergies                  energies;
+      dealii::SymmetricTensor<2, 3> stress; ///< at the start of the step
+      dealii::Tensor<2, 3> carried; ///< @f$\Delta F\,\tau_n\,\Delta F^{-1}@f$
+    };
+
+    void
+    find_small_energies(const State<dim>        &state,
+                        const StencilBlock<dim> &block,
+                        const unsigned int       begin);
+
+    void
+    find_finite_energies(const State<dim>        &state,
+                         const StencilBlock<dim> &block,
+                         const unsigned int       begin);
 
     void
     ask_linear(const State<dim>        &state,
@@ -209,6 +287,13 @@ namespace moraine
     std::vector<PrincipalState>         answers;
     std::vector<TensorState>            tensor_answers;
     std::vector<double>                 internal;
+
+    /** After find_energies(). */
+    std::vector<EnergyPoint>          energy_points;
+    std::vector<dealii::Tensor<1, 3>> elastic_strains;
+    std::vector<double>               stored;
+    LameConstants                     stiffness{};
+    bool                              dissipates = false;
   };
 } // namespace moraine
 

@@ -59,6 +59,12 @@ namespace moraine
    * The equations are solved divided by @f$1 - \alpha_f@f$, so that terms need
    * not know of it. Newmark's have @f$\alpha_m = \alpha_f = 0@f$. Knows no
    * physics.
+   *
+   * The rule of energy and momentum (Simo and Tarnow 1992, Gonzalez 2000) has
+   * @f$(v_n + v_{n+1})/2 = \Delta u/\Delta t@f$ and @f$M (v_{n+1} -
+   * v_n)/\Delta t = f@f$ with forces in the middle of the step: Newmark's
+   * formulas with @f$\beta = 1/2@f$, @f$\gamma = 1@f$ and the mean acceleration
+   * of the step for @f$a_{n+1}@f$.
    */
   class TimeIntegrator
   {
@@ -70,7 +76,19 @@ namespace moraine
     static TimeIntegrator
     generalised_alpha(const double spectral_radius);
 
+    /** With forces in the middle of the step. */
+    static TimeIntegrator
+    energy_momentum();
+
     explicit TimeIntegrator(const IntegratorParameters &parameters);
+
+    /** Whether the balance of momentum holds for forces in the middle of the
+     * step, by velocities there; else for those at its end. */
+    bool
+    forces_in_the_middle() const
+    {
+      return in_the_middle;
+    }
 
     /** @f$\partial a_{n+1} / \partial \Delta u@f$ [1/time^2] */
     double
@@ -134,9 +152,11 @@ namespace moraine
     TimeIntegrator(const double beta,
                    const double gamma,
                    const double alpha_m,
-                   const double alpha_f);
+                   const double alpha_f,
+                   const bool   in_the_middle = false);
 
     double beta, gamma, alpha_m, alpha_f;
+    bool   in_the_middle;
   };
 } // namespace moraine
 

@@ -1,0 +1,54 @@
+# ranks: 1
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Bars that vibrate with large amplitude or yield: energy over 100 periods."""
+
+hencky = "prm/dynamics/hencky-bar.prm"
+
+
+def energies(rows):
+    return [row["kinetic energy of nodes"] + row["strain energy"]
+            for row in rows]
+
+
+def imbalance(rows, names=("kinetic energy of nodes", "strain energy")):
+    """The largest energy out of balance, over the largest energy."""
+    return (max(abs(row["energy out of balance"]) for row in rows)
+            / max(row[name] for row in rows for name in names))
+
+
+result = run(hencky)
+text("energy and momentum, T/20", result.summary["status"])
+bound("energy and momentum, T/20: out of balance",
+      imbalance(result.history()), 1e-10)
+result = run(hencky, {"Time/Integrator": "Newmark"}, expect=None)
+text("average acceleration, T/20", result.summary["status"])
+total = energies(result.history())
+at_least("average acceleration, T/20: largest energy, times the "
+         "first", max(total) / total[0], 100)
+result = run(hencky, {"Time/Integrator": "Newmark", "Time/Steps": 5000})
+total = energies(result.history())
+change = 100 * max(abs(value / total[0] - 1) for value in total)
+at_least("average acceleration, T/50: change of energy, %", change, 1)
+bound("average acceleration, T/50: change of energy, %", change, 10)
+result = run(hencky, {"Time/Integrator": "generalised-alpha"})
+total = energies(result.history())
+number("generalised-alpha, T/20: energy at the end, %",
+       100 * total[-1] / total[0], 3)
+
+# Plastic bars.
+bar = "prm/dynamics/bar.prm"
+plastic = {"Materials/elastic/Model": "von Mises", "Time/Steps": 400,
+           "Time/End time": 40, "Materials/elastic/Poisson ratio": 0.3}
+names = ("kinetic energy of nodes", "strain energy", "plastic dissipation")
+yields = "Materials/elastic/Uniaxial yield stress"
+rows = run(bar, {**plastic, yields: "0: 0.005, 1: 0.1"}).history()
+number("plastic bar, small strain: dissipated, % of the first energy",
+       100 * rows[-1]["plastic dissipation"] / energies(rows)[0], 3)
+bound("plastic bar, small strain, average acceleration: out of balance",
+      imbalance(rows, names), 1e-10)
+rows = run(hencky, {**plastic, yields: "0: 0.2, 1: 1"}).history()
+number("plastic bar, finite strain: dissipated, % of the first energy",
+       100 * rows[-1]["plastic dissipation"] / energies(rows)[0], 3)
+bound("plastic bar, finite strain, energy and momentum: out of balance",
+      imbalance(rows, names), 1e-10)
