@@ -567,12 +567,26 @@ namespace moraine
   double
   MechanicsSystem<dim>::work_on_prescribed()
   {
-    sums.begin(false);
-    add_terms(
-      [](const auto &term) { return term.work_kind() != WorkKind::none; },
-      false);
-    return product(sums.forces_of_this_rank(),
-                   context.motion->prescribed_increments());
+    const auto work = [this](const Which &which) {
+      sums.begin(false);
+      add_terms(
+        [&which](const auto &term) {
+          return term.work_kind() != WorkKind::none && which(term);
+        },
+        false);
+      return product(sums.forces_of_this_rank(),
+                     context.motion->prescribed_increments());
+    };
+    if (!forces_in_the_middle())
+      return work([](const auto &) { return true; });
+    const auto   is_dead = [](const auto &term) { return term.is_dead(); };
+    const double t_end   = context.t_end;
+    double       sum = work([](const auto &term) { return !term.is_dead(); });
+    sum += 0.5 * work(is_dead);
+    context.t_end = context.t_start;
+    sum += 0.5 * work(is_dead);
+    context.t_end = t_end;
+    return sum;
   }
 
 

@@ -36,6 +36,16 @@ total = energies(result.history())
 number("generalised-alpha, T/20: energy at the end, %",
        100 * total[-1] / total[0], 3)
 
+# Its end is moved, under a growing load.
+rows = run(hencky, {"Time/Steps": 100, "Time/End time": 10,
+                    "Bodies/bar/Initial velocity": "0; 0",
+                    "Grid conditions/held/Displacement": "0.01*t^2; 0",
+                    "Loads/growing/Type": "body force",
+                    "Loads/growing/Value": "0.01*t; 0"}).history()
+number("moved end: work of boundaries over that of the load",
+       rows[-1]["work of boundaries"] / rows[-1]["external work"], 3)
+bound("moved end, energy and momentum: out of balance", imbalance(rows), 1e-10)
+
 # Plastic bars.
 bar = "prm/dynamics/bar.prm"
 plastic = {"Materials/elastic/Model": "von Mises", "Time/Steps": 400,
