@@ -3,6 +3,11 @@
 
 #include <moraine/assembly/absorbing_term.h>
 
+#include <moraine/mesh/active_search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace moraine
@@ -10,7 +15,7 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  AbsorbingTerm<dim>::AbsorbingTerm(ImplicitBoundary<dim> &boundary)
+  AbsorbingTerm<dim>::AbsorbingTerm(AbsorbingBoundary<dim> &boundary)
     : boundary(boundary)
   {}
 
@@ -21,12 +26,13 @@ namespace moraine
   AbsorbingTerm<dim>::effects(const StepContext<dim> &context) const
   {
     const std::string &name = boundary.name();
-    return {{"absorbing boundary " + name,
-             "boundary",
-             name + ", absorbing, " +
-               std::to_string(
-                 boundary.n_points(context.state.grid().communicator())) +
-               " quadrature points"}};
+    const unsigned int n =
+      Utilities::MPI::sum<unsigned int>(local_places.size(),
+                                        context.state.grid().communicator());
+    return {
+      {"absorbing boundary " + name,
+       "boundary",
+       name + ", absorbing, " + std::to_string(n) + " quadrature points"}};
   }
 
 
@@ -35,12 +41,13 @@ namespace moraine
   bool
   AbsorbingTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    boundary.begin_step(context.state.grid(),
-                        context.t_start,
-                        context.search_tolerance,
-                        context.state.mesh_after_step() != MeshAfterStep::keep,
-                        context.state.strain_measure(),
-                        context.cells_moved);
+    const bool moves_through_mesh =
+      context.state.mesh_after_step() == MeshAfterStep::reset;
+    if (context.couplings_changed || moves_through_mesh ||
+        !boundary.has_cells())
+      boundary.find_cells(context.state.grid(), context.search_tolerance);
+    if (context.cells_moved || moves_through_mesh)
+      find_local_places(context);
     return false;
   }
 
@@ -48,29 +55,91 @@ namespace moraine
 
   template <int dim>
   void
-  AbsorbingTerm<dim>::begin_trial(const StepContext<dim> &context)
+  AbsorbingTerm<dim>::find_local_places(const StepContext<dim> &context)
   {
-    boundary.set_target(context.t_end);
+    const auto &places = boundary.places();
+    local_places.clear();
+    for (unsigned int k = 0; k < places.size(); ++k)
+      if (places[k].active_cell_index != GridSpace<dim>::no_cell)
+        {
+          const unsigned int cell         = places[k].active_cell_index;
+          const auto         coefficients = boundary.law().coefficients(
+            context.cell_materials.elastic_stiffness(cell),
+            context.cell_materials.density(cell));
+          local_places.push_back(
+            {k,
+             cell,
+             coefficients.dashpots.template matrix<dim>(places[k].normal),
+             coefficients.springs.template matrix<dim>(places[k].normal)});
+        }
+    std::stable_sort(local_places.begin(),
+                     local_places.end(),
+                     [](const auto &a, const auto &b) {
+                       return a.cell < b.cell;
+                     });
+    const unsigned int  n = context.state.grid().nodes_per_cell();
+    std::vector<Vector> gradients(n);
+    shapes.resize(n * local_places.size());
+    for (unsigned int q = 0; q < local_places.size(); ++q)
+      evaluate_shapes(context.state.grid(),
+                      local_places[q].cell,
+                      places[local_places[q].number].x,
+                      &shapes[n * q],
+                      gradients.data());
   }
 
 
 
   template <int dim>
-  std::pair<SymmetricTensor<2, dim>, SymmetricTensor<2, dim>>
-  AbsorbingTerm<dim>::impedance(const StepContext<dim> &context,
-                                const unsigned int      q) const
+  void
+  AbsorbingTerm<dim>::check_values(const StepContext<dim> &context)
   {
-    const BoundaryPoint<dim> &point = boundary.points()[q];
-    const LameConstants      &C =
-      context.cell_materials.elastic_stiffness(point.cell);
-    const double rho    = context.cell_materials.density(point.cell);
-    const Matrix normal = symmetrize(outer_product(point.normal, point.normal));
-    const Matrix tangents = unit_symmetric_tensor<dim>() - normal;
-    const double r        = boundary.spring_radius();
-    return {std::sqrt(rho * (C.lambda + 2 * C.mu)) * normal +
-              std::sqrt(rho * C.mu) * tangents,
-            r > 0 ? 2 * C.mu / r * normal + C.mu / (2 * r) * tangents :
-                    Matrix()};
+    if (!local_places.empty())
+      boundary.incident_velocity(local_places[0].number, context.t_end);
+  }
+
+
+
+  namespace
+  {
+    /** How far in the step the integrator asks for forces. */
+    template <int dim>
+    double
+    share_of_step(const StepContext<dim> &context)
+    {
+      return context.motion &&
+                 context.motion->integrator().forces_in_the_middle() ?
+               0.5 :
+               1.;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  AbsorbingTerm<dim>::traction(const StepContext<dim>    &context,
+                               const unsigned int         q,
+                               const std::vector<Vector> &increments) const
+  {
+    const LocalPlace   &place = local_places[q];
+    const unsigned int *nodes = context.state.grid().cell_nodes(place.cell);
+    const double       *N     = &shapes[increments.size() * q];
+    const double        share = share_of_step(context);
+    const double        t     = context.t_start + share * context.step_size();
+    Vector              v;
+    if (context.motion)
+      v = -2. * boundary.incident_velocity(place.number, t);
+    Vector u = boundary.extension(place.number) -
+               boundary.incident_increment(place.number, context.t_start, t);
+    for (unsigned int a = 0; a < increments.size(); ++a)
+      {
+        u += share * N[a] * increments[a];
+        if (context.motion)
+          v += N[a] * context.motion->velocity(nodes[a], increments[a]);
+      }
+    return boundary.held_traction(place.number) - place.dashpots * v -
+           place.springs * u;
   }
 
 
@@ -82,29 +151,26 @@ namespace moraine
                           GlobalSystem<dim>      &system) const
   {
     LocalSystem<dim>      local;
-    const Motion<dim>    &motion = *context.motion;
-    const GridSpace<dim> &space  = context.state.grid();
-    const unsigned int    n      = space.nodes_per_cell();
-    const auto           &points = boundary.points();
-    for (unsigned int begin = 0, end = 0; begin < points.size(); begin = end)
+    const GridSpace<dim> &space = context.state.grid();
+    const unsigned int    n     = space.nodes_per_cell();
+    const double          share = share_of_step(context);
+    const double          dv_du =
+      context.motion ? context.motion->velocity_by_increment() : 0.;
+    for (unsigned int begin = 0, end = 0; begin < local_places.size();
+         begin = end)
       {
-        const unsigned int  cell  = points[begin].cell;
-        const unsigned int *nodes = space.cell_nodes(cell);
-        local.reinit(context.state, nodes, n, tangent);
-        for (; end < points.size() && points[end].cell == cell; ++end)
+        const unsigned int cell = local_places[begin].cell;
+        local.reinit(context.state, space.cell_nodes(cell), n, tangent);
+        for (; end < local_places.size() && local_places[end].cell == cell;
+             ++end)
           {
-            const auto [C, k] = impedance(context, end);
-            const double  *N  = boundary.N(end);
-            Tensor<1, dim> u  = points[end].accumulated_violation, v;
-            for (unsigned int a = 0; a < n; ++a)
-              {
-                u += N[a] * local.nodal_increments[a];
-                v +=
-                  N[a] * motion.velocity(nodes[a], local.nodal_increments[a]);
-              }
-            const Tensor<1, dim> force = -points[end].JxW * (C * v + k * u);
-            const Matrix         stiffness =
-              points[end].JxW * (motion.velocity_by_increment() * C + k);
+            const LocalPlace &place = local_places[end];
+            const double     *N     = &shapes[n * end];
+            const double      area  = boundary.places()[place.number].weight;
+            const Vector      force =
+              area * traction(context, end, local.nodal_increments);
+            const Matrix stiffness =
+              area * (dv_du * place.dashpots + share * place.springs);
             for (unsigned int a = 0; a < n; ++a)
               for (unsigned int i = 0; i < dim; ++i)
                 {
@@ -127,30 +193,31 @@ namespace moraine
   AbsorbingTerm<dim>::prepare(const StepContext<dim> &context,
                               const LA::Vector &)
   {
-    const GridSpace<dim>       &space  = context.state.grid();
-    const auto                 &points = boundary.points();
-    std::vector<Tensor<1, dim>> tractions(points.size()),
-      displacements(points.size());
+    const State<dim>     &state = context.state;
+    const GridSpace<dim> &space = state.grid();
+    std::vector<Vector>   increments(space.nodes_per_cell());
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
-    for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int q = 0; q < local_places.size(); ++q)
       {
-        const auto [C, k]         = impedance(context, q);
-        const unsigned int *nodes = space.cell_nodes(points[q].cell);
-        Tensor<1, dim>      v;
-        for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
-          {
-            const Tensor<1, dim> &du = context.increments()[nodes[a]];
-            displacements[q] += boundary.N(q)[a] * du;
-            v += boundary.N(q)[a] * context.motion->velocity(nodes[a], du);
-          }
-        const Tensor<1, dim> force =
-          -points[q].JxW *
-          (C * v + k * (points[q].accumulated_violation + displacements[q]));
+        const unsigned int *nodes = space.cell_nodes(local_places[q].cell);
+        for (unsigned int a = 0; a < increments.size(); ++a)
+          increments[a] = context.increments()[nodes[a]];
+        const Vector force = boundary.places()[local_places[q].number].weight *
+                             traction(context, q, increments);
         prepared.reaction += force;
         prepared.force_magnitude += force.norm();
       }
     sum_over_ranks(prepared, space.communicator());
-    boundary.prepare(tractions, displacements);
+    const bool through_mesh = state.mesh_after_step() == MeshAfterStep::reset;
+    boundary.prepare(space,
+                     context.increments(),
+                     context.t_start,
+                     context.t_end,
+                     {state.mesh_after_step() ==
+                          MeshAfterStep::follow_material ||
+                        (through_mesh && !boundary.is_on_side()),
+                      through_mesh,
+                      state.strain_measure() == StrainMeasure::finite});
   }
 
 
@@ -170,6 +237,90 @@ namespace moraine
                              std::vector<BoundaryReport<dim>> &reports) const
   {
     reports.push_back(prepared);
+  }
+
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  AbsorbingTerm<dim>::interpolate(const GridSpace<dim>      &space,
+                                  const std::vector<Vector> &nodal) const
+  {
+    const unsigned int  n = space.nodes_per_cell();
+    std::vector<Vector> values(local_places.size());
+    for (unsigned int q = 0; q < local_places.size(); ++q)
+      for (unsigned int a = 0; a < n; ++a)
+        values[q] +=
+          shapes[n * q + a] * nodal[space.cell_nodes(local_places[q].cell)[a]];
+    return values;
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  AbsorbingTerm<dim>::integrate(const GridSpace<dim>      &space,
+                                const std::vector<Vector> &tractions) const
+  {
+    const unsigned int  n = space.nodes_per_cell();
+    std::vector<Vector> sums(space.n_nodes());
+    for (unsigned int q = 0; q < local_places.size(); ++q)
+      for (unsigned int a = 0; a < n; ++a)
+        sums[space.cell_nodes(local_places[q].cell)[a]] +=
+          shapes[n * q + a] * boundary.places()[local_places[q].number].weight *
+          tractions[q];
+    LA::Vector forces = space.vector();
+    space.sum_node_values(sums, forces);
+    return forces;
+  }
+
+
+
+  template <int dim>
+  double
+  AbsorbingTerm<dim>::hold(const StepContext<dim> &context,
+                           const LA::Vector       &forces)
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    std::vector<Vector>   nodal;
+    const auto            traction_of = [&](const LA::Vector &x) {
+      space.node_values(x, nodal);
+      return interpolate(space, nodal);
+    };
+    const auto mass_times = [&](const LA::Vector &x) {
+      return integrate(space, traction_of(x));
+    };
+    // Conjugate gradients for least squares: sums of functions that vanish on
+    // the surface, and forces that it cannot give, do no harm.
+    LA::Vector   lambda = space.vector(), rest = forces;
+    LA::Vector   gradient = mass_times(rest), direction = gradient;
+    const double first = gradient.l2_norm();
+    double       now   = first;
+    for (unsigned int k = 0; k < 1000 && now > 1e-15 * first; ++k)
+      {
+        const LA::Vector image = mass_times(direction);
+        const double length = Utilities::fixed_power<2>(now) / (image * image);
+        lambda.add(length, direction);
+        rest.add(-length, image);
+        gradient            = mass_times(rest);
+        const double before = now;
+        now                 = gradient.l2_norm();
+        direction.sadd(Utilities::fixed_power<2>(now / before), gradient);
+      }
+
+    const std::vector<Vector> of_this_rank = traction_of(lambda);
+    std::vector<double>       all(dim * boundary.places().size(), 0.);
+    for (unsigned int q = 0; q < local_places.size(); ++q)
+      for (unsigned int d = 0; d < dim; ++d)
+        all[dim * local_places[q].number + d] = of_this_rank[q][d];
+    Utilities::MPI::sum(all, space.communicator(), all);
+    std::vector<Vector> tractions(boundary.places().size());
+    for (unsigned int k = 0; k < tractions.size(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        tractions[k][d] = all[dim * k + d];
+    boundary.hold(std::move(tractions));
+    const double norm = forces.l2_norm();
+    return norm > 0 ? rest.l2_norm() / norm : 0.;
   }
 
 

@@ -293,7 +293,10 @@ namespace moraine
                                 const LA::Vector &)
   {
     if (context.state.mesh_after_step() != MeshAfterStep::keep)
-      load.prepare_move(context.state.grid(), context.increments());
+      load.prepare_move(context.state.grid(),
+                        context.increments(),
+                        context.state.mesh_after_step() ==
+                          MeshAfterStep::reset);
   }
 
 

@@ -3,7 +3,6 @@
 
 #include <moraine/assembly/make_terms.h>
 
-#include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/conserving_force.h>
 #include <moraine/assembly/fictitious_stiffness.h>
@@ -34,10 +33,7 @@ namespace moraine
       terms.push_back(
         std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
     for (auto &boundary : boundaries)
-      if (boundary.absorbs())
-        terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
-      else
-        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
+      terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
     if (!conditions.empty())
       terms.push_back(std::make_unique<GridConditionTerm<dim>>(conditions));
     for (const auto &force : loads.body_forces)

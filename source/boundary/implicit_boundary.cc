@@ -114,7 +114,7 @@ namespace moraine
       M = symmetrize(outer_product(normal, normal));
     else
       for (unsigned int d = 0; d < dim; ++d)
-        M[d][d] = (kind != components || component[d]) ? 1. : 0.;
+        M[d][d] = (kind == fixed || component[d]) ? 1. : 0.;
     return M;
   }
 
@@ -172,7 +172,7 @@ namespace moraine
     boundary_points.clear();
     find_pieces(space, search_tolerance);
     evaluate_shapes(space);
-    if (carries())
+    if (how.carries_multiplier)
       take_over_nearest(space.communicator());
     kept_at_points = false;
     placed = has_pieces = true;
@@ -339,8 +339,9 @@ namespace moraine
         point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
-        point.multiplier =
-          carries() ? turn * point.multiplier_at_start : Tensor<1, dim>();
+        point.multiplier = how.carries_multiplier ?
+                             turn * point.multiplier_at_start :
+                             Tensor<1, dim>();
       }
   }
 
@@ -391,7 +392,7 @@ namespace moraine
   ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
                                  const std::vector<Tensor<1, dim>> &violations)
   {
-    if (!carries())
+    if (!how.carries_multiplier)
       return;
     const Placement<dim> &pose = at_start.pose();
     const Tensor<2, dim>  into_frame =
@@ -416,7 +417,7 @@ namespace moraine
   void
   ImplicitBoundary<dim>::keep() noexcept
   {
-    if (!carries())
+    if (!how.carries_multiplier)
       return;
     std::swap(carried, prepared);
     kept_at_points = true;
@@ -506,8 +507,6 @@ namespace moraine
   std::string
   ImplicitBoundary<dim>::constraint_name() const
   {
-    if (absorbs())
-      return "absorbing";
     if (constraint.kind != Constraint<dim>::components)
       return constraint.kind == Constraint<dim>::fixed ? "fixed" : "roller";
     std::string components;

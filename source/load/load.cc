@@ -5,11 +5,8 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/object_error.h>
-#include <moraine/mesh/active_search.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <deal.II/grid/grid_tools.h>
 
 #include <limits>
 #include <sstream>
@@ -24,7 +21,7 @@ namespace moraine
                                 std::vector<Place>         places)
     : load_name(name)
     , function(value)
-    , load_places(std::move(places))
+    , carried(std::move(places))
   {}
 
 
@@ -34,35 +31,18 @@ namespace moraine
   CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
                                const double          search_tolerance)
   {
-    typename GridSpace<dim>::CellIterator hint;
-    for (Place &place : load_places)
+    const auto without = carried.find_cells(space, search_tolerance);
+    if (!without.empty())
       {
-        place.active_cell_index = GridSpace<dim>::no_cell;
-        const auto cell =
-          GridTools::find_active_cell_around_point(space.mesh().search_cache(),
-                                                   place.x,
-                                                   hint)
-            .first;
-        if (cell.state() == IteratorState::valid)
-          {
-            hint = cell;
-            const auto owner =
-              nearest_active_cell(space, cell, place.x, search_tolerance);
-            if (owner.state() == IteratorState::valid)
-              {
-                if (owner->is_locally_owned())
-                  place.active_cell_index = owner->active_cell_index();
-                continue;
-              }
-          }
+        const Point<dim>  &x = places()[without[0]].x;
         std::ostringstream message;
         if (!placed)
           {
-            message << "found the place (" << place.x
+            message << "found the place (" << x
                     << "), allowed: places on or in the material of a body";
             throw ObjectError("load", load_name, message.str());
           }
-        message << "load '" << load_name << "': its place (" << place.x
+        message << "load '" << load_name << "': its place (" << x
                 << ") is no longer on any material";
         throw ComputationError(message.str());
       }
@@ -75,28 +55,12 @@ namespace moraine
   void
   CarriedLoad<dim>::prepare_move(
     const GridSpace<dim>              &space,
-    const std::vector<Tensor<1, dim>> &nodal_increments)
+    const std::vector<Tensor<1, dim>> &nodal_increments,
+    const bool                         through_mesh)
   {
-    const unsigned int          n = space.nodes_per_cell();
-    std::vector<double>         N(n);
-    std::vector<Tensor<1, dim>> grad_N(n);
-    std::vector<double>         moved(dim * load_places.size(), 0.);
-    for (unsigned int k = 0; k < load_places.size(); ++k)
-      {
-        const unsigned int cell = load_places[k].active_cell_index;
-        if (cell == GridSpace<dim>::no_cell)
-          continue;
-        evaluate_shapes(space, cell, load_places[k].x, N.data(), grad_N.data());
-        const unsigned int *nodes = space.cell_nodes(cell);
-        for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            moved[dim * k + d] += N[a] * nodal_increments[nodes[a]][d];
-      }
-    Utilities::MPI::sum(moved, space.communicator(), moved);
-    next_places = load_places;
-    for (unsigned int k = 0; k < load_places.size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        next_places[k].x[d] += moved[dim * k + d];
+    carried.prepare_move(carried.increments(space, nodal_increments),
+                         through_mesh,
+                         false);
   }
 
 
@@ -105,9 +69,7 @@ namespace moraine
   void
   CarriedLoad<dim>::move() noexcept
   {
-    if (!next_places.empty())
-      std::swap(load_places, next_places);
-    next_places.clear();
+    carried.move();
   }
 
 
@@ -116,11 +78,7 @@ namespace moraine
   void
   CarriedLoad<dim>::write(Archive &archive) const
   {
-    std::vector<double> places;
-    for (const Place &place : load_places)
-      for (unsigned int d = 0; d < dim; ++d)
-        places.push_back(place.x[d]);
-    archive.write("loads/" + load_name + "/place", places, dim);
+    carried.write(archive, "loads/" + load_name);
     archive.write("loads/" + load_name + "/is_placed", placed ? 1u : 0u);
   }
 
@@ -130,15 +88,8 @@ namespace moraine
   void
   CarriedLoad<dim>::read(const Archive &archive)
   {
-    const std::string name   = "loads/" + load_name + "/place";
-    const auto       &places = archive.numbers(name, dim);
-    if (places.size() != dim * load_places.size())
-      throw InputError("'" + name + "' is not of this load");
-    for (unsigned int k = 0; k < load_places.size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        load_places[k].x[d] = places[dim * k + d];
+    carried.read(archive, "loads/" + load_name);
     placed = archive.integer("loads/" + load_name + "/is_placed") != 0;
-    undo();
   }
 
 
@@ -147,7 +98,7 @@ namespace moraine
   void
   CarriedLoad<dim>::undo()
   {
-    next_places.clear();
+    carried.undo();
   }
 
 
@@ -225,44 +176,8 @@ namespace moraine
 
 
 
-  template <int dim>
-  std::vector<typename CarriedLoad<dim>::Place>
-  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
-  {
-    std::vector<SurfacePoint<dim>> pieces;
-    const BoundingBox<dim>         box = surface.bounding_box();
-    for (const auto &cell : mesh.triangulation().active_cell_iterators())
-      {
-        const BoundingBox<dim> cell_box = cell->bounding_box();
-        bool                   apart    = false;
-        for (unsigned int d = 0; d < dim; ++d)
-          apart = apart ||
-                  box.lower_bound(d) >
-                    cell_box.upper_bound(d) + 1e-9 * mesh.cell_size() ||
-                  cell_box.lower_bound(d) >
-                    box.upper_bound(d) + 1e-9 * mesh.cell_size();
-        if (!apart)
-          surface.pieces(vertices_of<dim>(cell), 3, pieces);
-      }
-    std::vector<typename CarriedLoad<dim>::Place> places;
-    for (const auto &piece : pieces)
-      {
-        typename CarriedLoad<dim>::Place place;
-        place.x      = piece.x;
-        place.weight = piece.JxW;
-        places.push_back(place);
-      }
-    return places;
-  }
-
-
-
   template class CarriedLoad<2>;
   template class CarriedLoad<3>;
   template class ForceOnPoints<2>;
   template class ForceOnPoints<3>;
-  template std::vector<CarriedLoad<2>::Place>
-  places_on(const Surface<2> &, const BackgroundMesh<2> &);
-  template std::vector<CarriedLoad<3>::Place>
-  places_on(const Surface<3> &, const BackgroundMesh<3> &);
 } // namespace moraine

@@ -235,6 +235,15 @@ namespace moraine
         throw InputError("section 'Boundaries/" + boundary.name() +
                          "': found a surface that touches no body, allowed: a "
                          "surface on or in a body");
+    for (const auto &boundary : model.absorbing_boundaries)
+      if (boundary.n_on_material() == 0)
+        throw InputError("section '" +
+                         (boundary.is_on_side() ?
+                            std::string("Grid conditions/") :
+                            std::string("Boundaries/")) +
+                         boundary.name() + "': found a " +
+                         (boundary.is_on_side() ? "side" : "surface") +
+                         " that touches no body, allowed: one on or in a body");
     std::vector<std::string> notes;
     check_prescribed_motion(scene, model);
     check_loads(model);

@@ -3,6 +3,7 @@
 
 #include <moraine/run/model.h>
 
+#include <moraine/assembly/absorbing_term.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
@@ -111,17 +112,18 @@ namespace moraine
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies);
     make_points(scene);
-    state              = std::make_unique<State<dim>>(*space,
+    state                = std::make_unique<State<dim>>(*space,
                                          *points,
                                          *basis,
                                          materials,
                                          scene.method.after_step(),
                                          scene.method.strain_measure(),
                                          scene.method.weights());
-    boundaries         = make_boundaries(scene);
-    grid_conditions    = make_grid_conditions(scene, *mesh);
-    loads              = make_loads(scene, *mesh, body_names);
-    const bool dynamic = scene.time.integrator.dynamic();
+    boundaries           = make_boundaries(scene);
+    grid_conditions      = make_grid_conditions(scene, *mesh);
+    loads                = make_loads(scene, *mesh, body_names);
+    absorbing_boundaries = make_absorbing_boundaries(scene, *mesh);
+    const bool dynamic   = scene.time.integrator.dynamic();
     Terms<dim> terms =
       make_terms(boundaries,
                  grid_conditions,
@@ -138,6 +140,8 @@ namespace moraine
                                                     std::move(terms),
                                                     body_names,
                                                     &timer);
+    for (auto &boundary : absorbing_boundaries)
+      system->add(std::make_unique<AbsorbingTerm<dim>>(boundary));
     if (dynamic)
       {
         motion =

@@ -152,7 +152,10 @@ namespace moraine
           {std::string("reaction_") + "xyz"[d] + " of " + report.name,
            "force",
            report.reaction[d]});
-    for (unsigned int b = 0; b < reports.size(); ++b)
+    // Those of absorbing boundaries, which do not turn, follow.
+    for (unsigned int b = 0;
+         b < boundaries.size() + model.grid_conditions.size();
+         ++b)
       {
         const RigidMotion<dim> &motion =
           b < boundaries.size() ?

@@ -122,20 +122,14 @@ namespace moraine
   BoundaryParameters<dim>::add_parameters(ParameterHandler &prm)
   {
     surface.add_parameters(prm);
-    prm.add_parameter("Constraint",
-                      constraint,
-                      "fixed: all components. roller: the component normal to "
-                      "the surface. components: those of key 'Components'. "
-                      "absorbing: dashpots that swallow waves, in dynamics.",
-                      patterns::selection(
-                        {"fixed", "roller", "components", "absorbing"}));
-    prm.add_parameter("Spring radius",
-                      spring_radius,
-                      "Of 'absorbing': the distance r_b to the source "
-                      "(length), by which springs of 2 G/r_b normal and G/(2 "
-                      "r_b) along the surface hold what is static. 0: dashpots "
-                      "alone.",
-                      patterns::non_negative());
+    prm.add_parameter(
+      "Constraint",
+      constraint,
+      "fixed: all components. roller: the component normal to "
+      "the surface. components: those of key 'Components'. "
+      "absorbing: dashpots, and springs if wanted, that swallow "
+      "waves, in dynamics; the material carries its places.",
+      patterns::selection({"fixed", "roller", "components", "absorbing"}));
     prm.add_parameter("Components",
                       components,
                       "Of 'components': which, as x, y or x, y.",
@@ -153,6 +147,7 @@ namespace moraine
       "that goes deeper is rejected and halved. 0: no limit, only reported.",
       patterns::non_negative());
     enforcement.add_parameters(prm);
+    absorbing.add_parameters(prm);
   }
 
 
@@ -190,6 +185,13 @@ namespace moraine
                       "Prescribed displacement (length), dim expressions in x, "
                       "y, z, t separated by ';'; zero if left out.");
     motion.add_parameters(prm, "the nodes");
+    prm.add_parameter("Constraint",
+                      constraint,
+                      "fixed: the components that are prescribed. absorbing: "
+                      "dashpots, and springs if wanted, on a side, that "
+                      "swallow waves, in dynamics.",
+                      patterns::selection({"fixed", "absorbing"}));
+    absorbing.add_parameters(prm);
   }
 
 

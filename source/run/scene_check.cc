@@ -106,6 +106,55 @@ namespace moraine
                              "': found no 'Density', allowed: a density > 0; "
                              "a dynamic scene needs that of every material");
     }
+
+
+
+    /** What prescribes or enforces a motion. */
+    bool
+    is_of_motion(const std::string &key)
+    {
+      return is_one_of(key,
+                       {"Components",
+                        "Displacement",
+                        "Translation",
+                        "Rotation angle",
+                        "Rotation centre",
+                        "Rotation axis",
+                        "Penetration limit",
+                        "Enforcement",
+                        "Band width",
+                        "Nitsche factor",
+                        "Penalty factor"});
+    }
+
+
+
+    void
+    check_absorbing(const std::string                   &section,
+                    const std::string                   &constraint,
+                    const AbsorbingParameters           &parameters,
+                    const IntegratorParameters          &integrator,
+                    const std::vector<InputFile::Entry> &given)
+    {
+      const bool absorbs = constraint == "absorbing";
+      for (const auto &entry : given)
+        if (entry.section == section &&
+            (absorbs ? is_of_motion(entry.key) :
+                       AbsorbingParameters::has(entry.key)))
+          reject(section,
+                 entry.key,
+                 entry.value,
+                 "nothing; key 'Constraint' is '" + constraint + "'");
+      if (!absorbs)
+        return;
+      if (!integrator.dynamic())
+        reject(section,
+               "Constraint",
+               constraint,
+               "what holds; key 'Integrator' of section 'Time' is "
+               "'quasi-static', and only waves are absorbed");
+      parameters.law(section);
+    }
   } // namespace
 
 
@@ -162,14 +211,51 @@ namespace moraine
                    entry.value,
                    "nothing; a " + load.type + " has no such key");
       }
-    for (const auto &[name, boundary] : boundaries)
-      if (!boundary.components.empty() && boundary.constraint != "components")
-        reject("Boundaries/" + name,
-               "Components",
-               boundary.components,
-               "nothing; key 'Constraint' is '" + boundary.constraint + "'");
+    check_conditions(given);
     for (const auto &probe : probes)
       probe.check();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check_conditions(const std::vector<InputFile::Entry> &given) const
+  {
+    for (const auto &[name, boundary] : boundaries)
+      {
+        const std::string section = "Boundaries/" + name;
+        if (!boundary.components.empty() && boundary.constraint != "components")
+          reject(section,
+                 "Components",
+                 boundary.components,
+                 "nothing; key 'Constraint' is '" + boundary.constraint + "'");
+        check_absorbing(section,
+                        boundary.constraint,
+                        boundary.absorbing,
+                        time.integrator,
+                        given);
+      }
+    for (const auto &[name, condition] : grid_conditions)
+      {
+        const std::string section = "Grid conditions/" + name;
+        check_absorbing(section,
+                        condition.constraint,
+                        condition.absorbing,
+                        time.integrator,
+                        given);
+        if (condition.constraint != "absorbing")
+          continue;
+        if (condition.side.empty())
+          throw InputError(place(section, "Side") +
+                           ": found nothing, allowed: a side of the mesh that "
+                           "absorbs");
+        if (!mesh_motion.follow.empty() || !mesh_motion.stretch.empty())
+          reject(section,
+                 "Constraint",
+                 condition.constraint,
+                 "fixed; section 'Mesh motion' moves the mesh");
+      }
   }
 
 

@@ -62,11 +62,6 @@ namespace moraine
       Constraint<dim> constraint;
       if (parameters.constraint == "roller")
         constraint.kind = Constraint<dim>::roller;
-      else if (parameters.constraint == "absorbing")
-        {
-          constraint.kind          = Constraint<dim>::absorbing;
-          constraint.spring_radius = parameters.spring_radius;
-        }
       else if (parameters.constraint == "components")
         {
           constraint.kind = Constraint<dim>::components;
@@ -83,6 +78,23 @@ namespace moraine
 
 
 
+    /** A vector function times a curve over time, if there is one. */
+    template <int dim>
+    VectorFunction<dim>
+    times_curve(const VectorFunction<dim> &value,
+                const std::string         &text,
+                const std::string         &place)
+    {
+      if (text.empty())
+        return value;
+      const auto curve = std::make_shared<TimeCurve>(text, place);
+      return [value, curve](const Point<dim> &x, const double t) {
+        return curve->value(t) * value(x, t);
+      };
+    }
+
+
+
     /** The value of a load, times its curve. */
     template <int dim>
     VectorFunction<dim>
@@ -93,15 +105,44 @@ namespace moraine
         throw InputError(place(section, "Value") +
                          ": found nothing, allowed: " + std::to_string(dim) +
                          " expressions separated by ';'");
-      const VectorFunction<dim> value =
-        vector_function<dim>(parameters.value, place(section, "Value"));
-      if (parameters.curve.empty())
-        return value;
-      const auto curve =
-        std::make_shared<TimeCurve>(parameters.curve, place(section, "Curve"));
-      return [value, curve](const Point<dim> &x, const double t) {
-        return curve->value(t) * value(x, t);
-      };
+      return times_curve<dim>(vector_function<dim>(parameters.value,
+                                                   place(section, "Value")),
+                              parameters.curve,
+                              place(section, "Curve"));
+    }
+
+
+
+    /** The wave that comes from outside; none without a text. */
+    template <int dim>
+    VectorFunction<dim>
+    incident_velocity(const AbsorbingParameters &parameters,
+                      const std::string         &section)
+    {
+      if (parameters.incident_velocity.empty())
+        return {};
+      return times_curve<dim>(vector_function<dim>(parameters.incident_velocity,
+                                                   place(section,
+                                                         "Incident velocity")),
+                              parameters.incident_curve,
+                              place(section, "Incident curve"));
+    }
+
+
+
+    /** The box of a grid condition, if it names one. */
+    template <int dim>
+    std::optional<BoundingBox<dim>>
+    region_of(const GridConditionParameters<dim> &parameters,
+              const std::string                  &section)
+    {
+      if (parameters.lower_corner.empty() && parameters.upper_corner.empty())
+        return {};
+      return BoundingBox<dim>(
+        std::make_pair(point_from<dim>(parameters.lower_corner,
+                                       place(section, "Lower corner")),
+                       point_from<dim>(parameters.upper_corner,
+                                       place(section, "Upper corner"))));
     }
 
 
@@ -137,6 +178,8 @@ namespace moraine
     std::vector<ImplicitBoundary<dim>> boundaries;
     for (const auto &[name, parameters] : scene.boundaries)
       {
+        if (parameters.constraint == "absorbing")
+          continue;
         const std::string section = "Boundaries/" + name;
         boundaries.emplace_back(
           name,
@@ -154,25 +197,65 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<AbsorbingBoundary<dim>>
+  make_absorbing_boundaries(const Scene<dim>          &scene,
+                            const BackgroundMesh<dim> &mesh)
+  {
+    const NamedShapes<dim>              shapes = body_shapes(scene);
+    std::vector<AbsorbingBoundary<dim>> absorbing;
+    for (const auto &[name, parameters] : scene.boundaries)
+      if (parameters.constraint == "absorbing")
+        {
+          const std::string section = "Boundaries/" + name;
+          absorbing.emplace_back(
+            name,
+            places_on(*make_surface<dim>(parameters.surface, shapes, section),
+                      mesh),
+            parameters.absorbing.law(section),
+            incident_velocity<dim>(parameters.absorbing, section),
+            false);
+        }
+    for (const auto &[name, parameters] : scene.grid_conditions)
+      if (parameters.constraint == "absorbing")
+        {
+          const std::string section = "Grid conditions/" + name;
+          auto              places  = places_on_side(
+            mesh, mesh.boundary_id(parameters.side, place(section, "Side")));
+          if (const auto region = region_of(parameters, section))
+            places.erase(std::remove_if(places.begin(),
+                                        places.end(),
+                                        [&](const auto &place) {
+                                          return !region->point_inside(place.x);
+                                        }),
+                         places.end());
+          absorbing.emplace_back(name,
+                                 std::move(places),
+                                 parameters.absorbing.law(section),
+                                 incident_velocity<dim>(parameters.absorbing,
+                                                        section),
+                                 true);
+        }
+    return absorbing;
+  }
+
+
+
+  template <int dim>
   std::vector<GridCondition<dim>>
   make_grid_conditions(const Scene<dim> &scene, const BackgroundMesh<dim> &mesh)
   {
     std::vector<GridCondition<dim>> conditions;
     for (const auto &[name, parameters] : scene.grid_conditions)
       {
+        if (parameters.constraint == "absorbing")
+          continue;
         const std::string  section = "Grid conditions/" + name;
         GridCondition<dim> condition;
         condition.name = name;
         if (!parameters.side.empty())
           condition.side =
             mesh.boundary_id(parameters.side, place(section, "Side"));
-        if (!parameters.lower_corner.empty() ||
-            !parameters.upper_corner.empty())
-          condition.region = BoundingBox<dim>(
-            std::make_pair(point_from<dim>(parameters.lower_corner,
-                                           place(section, "Lower corner")),
-                           point_from<dim>(parameters.upper_corner,
-                                           place(section, "Upper corner"))));
+        condition.region = region_of(parameters, section);
         if (!condition.side && !condition.region)
           throw InputError("section '" + section +
                            "': found neither 'Side' nor 'Lower corner' and "
@@ -434,6 +517,8 @@ namespace moraine
 #define INSTANTIATE(dim)                                                  \
   template std::vector<ImplicitBoundary<dim>> make_boundaries(            \
     const Scene<dim> &);                                                  \
+  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries( \
+    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
   template std::vector<GridCondition<dim>> make_grid_conditions(          \
     const Scene<dim> &, const BackgroundMesh<dim> &);                     \
   template Loads<dim> make_loads(const Scene<dim> &,                      \

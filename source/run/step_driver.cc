@@ -64,6 +64,8 @@ namespace moraine
       lasting.add(*model.motion);
     for (auto &boundary : model.boundaries)
       lasting.add(boundary);
+    for (auto &boundary : model.absorbing_boundaries)
+      lasting.add(boundary);
     for (auto &load : model.loads.carried)
       lasting.add(load);
     for (auto &load : model.loads.on_points)

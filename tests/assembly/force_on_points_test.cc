@@ -123,11 +123,11 @@ namespace
     load.find_cells(scene.space, 0.5);
     const Tensor<1, 2>              shift({0.3, -0.1});
     const std::vector<Tensor<1, 2>> shifts(scene.space.n_nodes(), shift);
-    load.prepare_move(scene.space, shifts);
+    load.prepare_move(scene.space, shifts, true);
     load.undo();
     load.move();
     EXPECT_EQ(load.places()[0].x, Point<2>(1.5, 2.2));
-    load.prepare_move(scene.space, shifts);
+    load.prepare_move(scene.space, shifts, true);
     load.move();
     EXPECT_LT((load.places()[0].x - (Point<2>(1.5, 2.2) + shift)).norm(),
               1e-14);

@@ -5,30 +5,29 @@
 #define moraine_assembly_absorbing_term_h
 
 #include <moraine/assembly/term.h>
-#include <moraine/boundary/implicit_boundary.h>
+#include <moraine/boundary/absorbing_boundary.h>
 
-#include <utility>
+#include <vector>
 
 namespace moraine
 {
   /**
-   * An implicit boundary that swallows waves (Lysmer and Kuhlemeyer 1969; with
-   * springs Deeks and Randolph 1994), with the material beside it:
+   * The forces of an AbsorbingBoundary, with the material beside it: in a step
    *
-   * @f[ t = -\rho\, (c_p\, n \otimes n + c_s (1 - n \otimes n))\, v
-   *       - \Bigl(\frac{2 G}{r_b} n \otimes n
-   *       + \frac{G}{2 r_b} (1 - n \otimes n)\Bigr) u , @f]
+   * @f[ t_{n+1} = t_0 - C\, (v_{n+1} - 2 v_{in})
+   *     - K\, (e_n + \Delta u - \Delta u_{in}) , @f]
    *
-   * u being the displacement of the place since the start. Phuong et al. 2023,
-   * eqs. (9) to (16), where the square root must cover all of
-   * @f$E(1-\nu)/(\rho(1+\nu)(1-2\nu))@f$ and the sign of (15) is that of
-   * (12).
+   * e being the extension of the springs; areas and normals are those at its
+   * start. An integrator with forces in the middle of the step gets those
+   * there. Phuong et al. 2023, eqs. (9) to (16), where the square root must
+   * cover all of @f$E(1-\nu)/(\rho(1+\nu)(1-2\nu))@f$ and the sign of (15) and
+   * (16) is that of (12). In quasi-static steps the springs act alone.
    */
   template <int dim>
   class AbsorbingTerm : public Term<dim>
   {
   public:
-    explicit AbsorbingTerm(ImplicitBoundary<dim> &boundary);
+    explicit AbsorbingTerm(AbsorbingBoundary<dim> &boundary);
 
     WorkKind
     work_kind() const override
@@ -49,7 +48,7 @@ namespace moraine
     begin_step(const StepContext<dim> &context) override;
 
     void
-    begin_trial(const StepContext<dim> &context) override;
+    check_values(const StepContext<dim> &context) override;
 
     void
     add(const StepContext<dim> &context,
@@ -67,15 +66,52 @@ namespace moraine
     report(const StepContext<dim>           &context,
            std::vector<BoundaryReport<dim>> &reports) const override;
 
+    /**
+     * Hold from now on, as tractions, the forces that the surface put on nodes
+     * so far, as a constraint did that ends now: @f$t_0 = \sum_a N_a
+     * \lambda_a@f$ with @f$\sum_b \int N_a N_b\,d\Gamma\, \lambda_b = f_a@f$ at
+     * the nodes around it. To be called in a step that has begun.
+     * @return what of @p forces no traction on the surface can give, as a
+     * fraction. Collective.
+     */
+    double
+    hold(const StepContext<dim> &context, const LA::Vector &forces);
+
   private:
     using Matrix = dealii::SymmetricTensor<2, dim>;
+    using Vector = dealii::Tensor<1, dim>;
 
-    /** Dashpots and springs per area at the q-th point. */
-    std::pair<Matrix, Matrix>
-    impedance(const StepContext<dim> &context, const unsigned int q) const;
+    /** A place in a cell of this rank. */
+    struct LocalPlace
+    {
+      unsigned int number;
+      unsigned int cell;
+      Matrix       dashpots, springs;
+    };
 
-    ImplicitBoundary<dim> &boundary;
-    BoundaryReport<dim>    prepared;
+    void
+    find_local_places(const StepContext<dim> &context);
+
+    /** At a local place, where nodes move by @p increments in cell order. */
+    Vector
+    traction(const StepContext<dim>    &context,
+             const unsigned int         q,
+             const std::vector<Vector> &increments) const;
+
+    /** @f$\sum_a N_a x_a@f$ at each local place. */
+    std::vector<Vector>
+    interpolate(const GridSpace<dim>      &space,
+                const std::vector<Vector> &nodal) const;
+
+    /** @f$\int N_a t\,d\Gamma@f$, summed over ranks. Collective. */
+    LA::Vector
+    integrate(const GridSpace<dim>      &space,
+              const std::vector<Vector> &tractions) const;
+
+    AbsorbingBoundary<dim> &boundary;
+    std::vector<LocalPlace> local_places; ///< by cell
+    std::vector<double>     shapes;       ///< of nodes of cells, by place
+    BoundaryReport<dim>     prepared;
   };
 } // namespace moraine
 

@@ -27,15 +27,12 @@ namespace moraine
   {
     enum Kind
     {
-      fixed,      ///< @f$M = 1@f$
-      roller,     ///< @f$M = n \otimes n@f$
-      components, ///< @f$M = \sum e_i \otimes e_i@f$
-      absorbing   ///< none: dashpots and springs; see AbsorbingTerm
+      fixed,     ///< @f$M = 1@f$
+      roller,    ///< @f$M = n \otimes n@f$
+      components ///< @f$M = \sum e_i \otimes e_i@f$
     };
     Kind                  kind = fixed;
     std::array<bool, dim> component{};
-    /** Of springs of an absorbing boundary: @f$r_b@f$; 0: none. */
-    double spring_radius = 0;
 
     dealii::SymmetricTensor<2, dim>
     projection(const dealii::Tensor<1, dim> &normal) const;
@@ -235,19 +232,6 @@ namespace moraine
     unsigned int
     n_points(const MPI_Comm &communicator) const;
 
-    bool
-    absorbs() const
-    {
-      return constraint.kind == Constraint<dim>::absorbing;
-    }
-
-    /** @f$r_b@f$ of its springs; 0 if it has none. */
-    double
-    spring_radius() const
-    {
-      return constraint.spring_radius;
-    }
-
     /** What it constrains, in words. */
     std::string
     constraint_name() const;
@@ -272,13 +256,6 @@ namespace moraine
     }
 
   private:
-    /** Whether places have something from the steps before. */
-    bool
-    carries() const
-    {
-      return how.carries_multiplier || constraint.spring_radius > 0;
-    }
-
     /** Functions of the nodes of each point's cell, point by point. */
     struct Shapes
     {

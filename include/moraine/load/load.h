@@ -4,12 +4,10 @@
 #ifndef moraine_load_load_h
 #define moraine_load_load_h
 
-#include <moraine/geometry/shape.h>
+#include <moraine/geometry/carried_places.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
-
-#include <deal.II/grid/grid_tools_cache.h>
 
 #include <algorithm>
 #include <functional>
@@ -48,20 +46,12 @@ namespace moraine
 
   /**
    * Forces carried by the material: tractions on a surface, or single forces.
-   * Places are moved with the displacement increment of the grid. They are few
-   * and known to all ranks.
    */
   template <int dim>
   class CarriedLoad : public StatePart
   {
   public:
-    struct Place
-    {
-      dealii::Point<dim> x;
-      double             weight; ///< area it stands for; 1 for a single force
-      /** Cell whose functions it sees, if this rank owns it. */
-      unsigned int active_cell_index = GridSpace<dim>::no_cell;
-    };
+    using Place = typename CarriedPlaces<dim>::Place;
 
     CarriedLoad(const std::string         &name,
                 const VectorFunction<dim> &value,
@@ -75,10 +65,12 @@ namespace moraine
     void
     find_cells(const GridSpace<dim> &space, const double search_tolerance);
 
-    /** Find where the trial increments carry the places. Collective. */
+    /** Find where the trial increments carry the places, through a mesh that
+     * stays or not. Collective. */
     void
     prepare_move(const GridSpace<dim>                      &space,
-                 const std::vector<dealii::Tensor<1, dim>> &nodal_increments);
+                 const std::vector<dealii::Tensor<1, dim>> &nodal_increments,
+                 const bool                                 through_mesh);
 
     /** Let the places be where prepare_move() found them, if it was called. */
     void
@@ -97,7 +89,7 @@ namespace moraine
     const std::vector<Place> &
     places() const
     {
-      return load_places;
+      return carried.places();
     }
 
     dealii::Tensor<1, dim>
@@ -116,14 +108,13 @@ namespace moraine
     bool
     is_single() const
     {
-      return load_places.size() == 1 && load_places[0].weight == 1;
+      return places().size() == 1 && places()[0].weight == 1;
     }
 
   private:
     const std::string         load_name;
     const VectorFunction<dim> function;
-    std::vector<Place>        load_places;
-    std::vector<Place>        next_places; ///< if the trial is accepted
+    CarriedPlaces<dim>        carried;
     bool                      placed = false;
   };
 
@@ -190,11 +181,6 @@ namespace moraine
     std::vector<unsigned int> ids;          ///< sorted, the same on all ranks
     std::vector<unsigned int> local_points; ///< flat numbers, sorted
   };
-
-  /** The places of a traction surface in a mesh, the same on all ranks. */
-  template <int dim>
-  std::vector<typename CarriedLoad<dim>::Place>
-  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
 
   /** Everything that pushes from outside. */
   template <int dim>

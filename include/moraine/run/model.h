@@ -47,6 +47,7 @@ namespace moraine
     std::unique_ptr<Motion<dim>>                 motion; ///< in dynamics
     std::vector<ImplicitBoundary<dim>>           boundaries;
     std::vector<GridCondition<dim>>              grid_conditions;
+    std::vector<AbsorbingBoundary<dim>>          absorbing_boundaries;
     Loads<dim>                                   loads;
     MeshMotion<dim>                              mesh_motion;
     std::unique_ptr<MechanicsSystem<dim>>        system;

@@ -12,6 +12,7 @@
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
+#include <moraine/run/absorbing_parameters.h>
 #include <moraine/run/damping_parameters.h>
 #include <moraine/run/method.h>
 #include <moraine/run/study.h>
@@ -87,8 +88,8 @@ namespace moraine
     std::string           components;
     std::string           displacement;
     MotionParameters<dim> motion;
-    double                spring_radius     = 0;
     double                penetration_limit = 0;
+    AbsorbingParameters   absorbing;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -98,12 +99,14 @@ namespace moraine
   template <int dim>
   struct GridConditionParameters
   {
+    std::string           constraint = "fixed";
     std::string           side;
     std::vector<double>   lower_corner;
     std::vector<double>   upper_corner;
     std::string           components;
     std::string           displacement;
     MotionParameters<dim> motion;
+    AbsorbingParameters   absorbing;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -210,6 +213,10 @@ namespace moraine
 
     void
     check_bodies(const InputFile &input) const;
+
+    /** Boundaries and grid conditions. */
+    void
+    check_conditions(const std::vector<InputFile::Entry> &given) const;
 
     /** What boundaries are enforced by at finite strain if nothing is said. */
     void

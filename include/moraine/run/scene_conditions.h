@@ -4,6 +4,7 @@
 #ifndef moraine_run_scene_conditions_h
 #define moraine_run_scene_conditions_h
 
+#include <moraine/boundary/absorbing_boundary.h>
 #include <moraine/boundary/mesh_motion.h>
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
@@ -22,6 +23,12 @@ namespace moraine
   template <int dim>
   std::vector<ImplicitBoundary<dim>>
   make_boundaries(const Scene<dim> &scene);
+
+  /** Boundaries and grid conditions that absorb, in this order. */
+  template <int dim>
+  std::vector<AbsorbingBoundary<dim>>
+  make_absorbing_boundaries(const Scene<dim>          &scene,
+                            const BackgroundMesh<dim> &mesh);
 
   template <int dim>
   std::vector<GridCondition<dim>>

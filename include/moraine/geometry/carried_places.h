@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_geometry_carried_places_h
+#define moraine_geometry_carried_places_h
+
+#include <moraine/core/archive.h>
+#include <moraine/geometry/shape.h>
+#include <moraine/mesh/grid_space.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Single places or those of a surface, on the material, which carries them
+   * along: they move with the displacement increment of the grid. They are few
+   * and known to all ranks.
+   */
+  template <int dim>
+  class CarriedPlaces
+  {
+  public:
+    struct Place
+    {
+      dealii::Point<dim>     x;
+      double                 weight; ///< area it stands for; 1 for a single one
+      dealii::Tensor<1, dim> normal = {}; ///< outward; none for a single one
+      /** Cell whose functions it sees, if this rank owns it. */
+      unsigned int active_cell_index = GridSpace<dim>::no_cell;
+      /** Where it is in the mesh as the search knows it. */
+      dealii::Point<dim> in_mesh = {};
+    };
+
+    /** How a place moves in a step. */
+    struct Increment
+    {
+      dealii::Tensor<1, dim> u;
+      dealii::Tensor<2, dim> gradient; ///< @f$\partial u_i/\partial x_j@f$
+    };
+
+    explicit CarriedPlaces(std::vector<Place> places);
+
+    /**
+     * Find the cells of the places.
+     * @return the numbers of those that are on no material, the same on all
+     * ranks.
+     */
+    std::vector<unsigned int>
+    find_cells(const GridSpace<dim> &space, const double search_tolerance);
+
+    /** Leave out places by their numbers, ascending. */
+    void
+    remove(const std::vector<unsigned int> &numbers);
+
+    /** Trial increments of all places. Collective. */
+    std::vector<Increment>
+    increments(
+      const GridSpace<dim>                      &space,
+      const std::vector<dealii::Tensor<1, dim>> &nodal_increments) const;
+
+    /**
+     * Find where the increments carry the places; through a mesh that stays,
+     * if @p through_mesh. If they @p turn, areas and normals follow by Nanson's
+     * formula, @f$n\,da = \det F\, F^{-T} n_0\,da_0@f$ with @f$F = 1 +
+     * \nabla u@f$.
+     */
+    void
+    prepare_move(const std::vector<Increment> &increments,
+                 const bool                    through_mesh,
+                 const bool                    turn);
+
+    /** Let the places be where prepare_move() found them, if it was called. */
+    void
+    move() noexcept;
+
+    /** The places, in @p group. */
+    void
+    write(Archive &archive, const std::string &group) const;
+
+    void
+    read(const Archive &archive, const std::string &group);
+
+    void
+    undo();
+
+    const std::vector<Place> &
+    places() const
+    {
+      return now;
+    }
+
+  private:
+    std::vector<Place> now;
+    std::vector<Place> next; ///< if the trial is accepted
+  };
+
+  /** The places of a surface in a mesh, the same on all ranks. */
+  template <int dim>
+  std::vector<typename CarriedPlaces<dim>::Place>
+  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
+
+  /** The places of a side of a mesh, the same on all ranks. */
+  template <int dim>
+  std::vector<typename CarriedPlaces<dim>::Place>
+  places_on_side(const BackgroundMesh<dim>       &mesh,
+                 const dealii::types::boundary_id side);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/carried_places.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/mesh/active_search.h>
+#include <moraine/mesh/straight_mapping.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** In each direction of a piece or a face: products of Q2. */
+    constexpr unsigned int n_gauss_points = 3;
+  } // namespace
+
+
+
+  template <int dim>
+  CarriedPlaces<dim>::CarriedPlaces(std::vector<Place> places)
+    : now(std::move(places))
+  {
+    for (Place &place : now)
+      place.in_mesh = place.x;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  CarriedPlaces<dim>::find_cells(const GridSpace<dim> &space,
+                                 const double          search_tolerance)
+  {
+    std::vector<unsigned int>             without;
+    typename GridSpace<dim>::CellIterator hint;
+    for (unsigned int k = 0; k < now.size(); ++k)
+      {
+        Place &place            = now[k];
+        place.active_cell_index = GridSpace<dim>::no_cell;
+        const auto cell =
+          GridTools::find_active_cell_around_point(space.mesh().search_cache(),
+                                                   place.in_mesh,
+                                                   hint)
+            .first;
+        if (cell.state() != IteratorState::valid)
+          {
+            without.push_back(k);
+            continue;
+          }
+        hint = cell;
+        const auto owner =
+          nearest_active_cell(space, cell, place.in_mesh, search_tolerance);
+        if (owner.state() != IteratorState::valid)
+          without.push_back(k);
+        else if (owner->is_locally_owned())
+          place.active_cell_index = owner->active_cell_index();
+      }
+    return without;
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::remove(const std::vector<unsigned int> &numbers)
+  {
+    for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
+      now.erase(now.begin() + *number);
+  }
+
+
+
+  template <int dim>
+  std::vector<typename CarriedPlaces<dim>::Increment>
+  CarriedPlaces<dim>::increments(
+    const GridSpace<dim>              &space,
+    const std::vector<Tensor<1, dim>> &nodal_increments) const
+  {
+    const unsigned int          n        = space.nodes_per_cell();
+    constexpr unsigned int      n_values = dim + dim * dim;
+    std::vector<double>         N(n);
+    std::vector<Tensor<1, dim>> grad_N(n);
+    std::vector<double>         values(n_values * now.size(), 0.);
+    for (unsigned int k = 0; k < now.size(); ++k)
+      {
+        const unsigned int cell = now[k].active_cell_index;
+        if (cell == GridSpace<dim>::no_cell)
+          continue;
+        evaluate_shapes(space, cell, now[k].x, N.data(), grad_N.data());
+        const unsigned int *nodes = space.cell_nodes(cell);
+        double             *of_k  = &values[n_values * k];
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              const double u = nodal_increments[nodes[a]][i];
+              of_k[i] += N[a] * u;
+              for (unsigned int j = 0; j < dim; ++j)
+                of_k[dim + dim * i + j] += u * grad_N[a][j];
+            }
+      }
+    Utilities::MPI::sum(values, space.communicator(), values);
+    std::vector<Increment> increments(now.size());
+    for (unsigned int k = 0; k < now.size(); ++k)
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const double *of_k = &values[n_values * k];
+          increments[k].u[i] = of_k[i];
+          for (unsigned int j = 0; j < dim; ++j)
+            increments[k].gradient[i][j] = of_k[dim + dim * i + j];
+        }
+    return increments;
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::prepare_move(const std::vector<Increment> &increments,
+                                   const bool                    through_mesh,
+                                   const bool                    turn)
+  {
+    next = now;
+    for (unsigned int k = 0; k < now.size(); ++k)
+      {
+        Place &place = next[k];
+        place.x += increments[k].u;
+        if (through_mesh)
+          place.in_mesh = place.x;
+        if (turn)
+          {
+            const Tensor<2, dim> F =
+              Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+              increments[k].gradient;
+            const Tensor<1, dim> area =
+              determinant(F) * (transpose(invert(F)) * place.normal);
+            place.weight *= area.norm();
+            place.normal = unit_or_any(area);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::move() noexcept
+  {
+    if (!next.empty())
+      std::swap(now, next);
+    next.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::write(Archive &archive, const std::string &group) const
+  {
+    std::vector<double> x, in_mesh, normals, weights;
+    for (const Place &place : now)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            x.push_back(place.x[d]);
+            in_mesh.push_back(place.in_mesh[d]);
+            normals.push_back(place.normal[d]);
+          }
+        weights.push_back(place.weight);
+      }
+    archive.write(group + "/place", x, dim);
+    archive.write(group + "/place in mesh", in_mesh, dim);
+    archive.write(group + "/normal", normals, dim);
+    archive.write(group + "/weight", weights);
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::read(const Archive &archive, const std::string &group)
+  {
+    const auto &x       = archive.numbers(group + "/place", dim);
+    const auto &in_mesh = archive.numbers(group + "/place in mesh", dim);
+    const auto &normals = archive.numbers(group + "/normal", dim);
+    const auto &weights = archive.numbers(group + "/weight");
+    now.resize(weights.size());
+    for (unsigned int k = 0; k < now.size(); ++k)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            now[k].x[d]       = x[dim * k + d];
+            now[k].in_mesh[d] = in_mesh[dim * k + d];
+            now[k].normal[d]  = normals[dim * k + d];
+          }
+        now[k].weight = weights[k];
+      }
+    undo();
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedPlaces<dim>::undo()
+  {
+    next.clear();
+  }
+
+
+
+  template <int dim>
+  std::vector<typename CarriedPlaces<dim>::Place>
+  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
+  {
+    std::vector<SurfacePoint<dim>> pieces;
+    const BoundingBox<dim>         box = surface.bounding_box();
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      {
+        const BoundingBox<dim> cell_box = cell->bounding_box();
+        bool                   apart    = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          apart = apart ||
+                  box.lower_bound(d) >
+                    cell_box.upper_bound(d) + 1e-9 * mesh.cell_size() ||
+                  cell_box.lower_bound(d) >
+                    box.upper_bound(d) + 1e-9 * mesh.cell_size();
+        if (!apart)
+          surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+      }
+    std::vector<typename CarriedPlaces<dim>::Place> places;
+    for (const auto &piece : pieces)
+      places.push_back({piece.x, piece.JxW, piece.normal});
+    return places;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename CarriedPlaces<dim>::Place>
+  places_on_side(const BackgroundMesh<dim> &mesh, const types::boundary_id side)
+  {
+    const StraightMapping<dim>                      mapping;
+    const FE_Nothing<dim>                           nothing;
+    FEFaceValues<dim>                               on_face(mapping,
+                              nothing,
+                              QGauss<dim - 1>(n_gauss_points),
+                              update_quadrature_points | update_JxW_values |
+                                update_normal_vectors);
+    std::vector<typename CarriedPlaces<dim>::Place> places;
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() &&
+            cell->face(f)->boundary_id() == side)
+          {
+            on_face.reinit(cell, f);
+            for (const unsigned int q : on_face.quadrature_point_indices())
+              places.push_back({on_face.quadrature_point(q),
+                                on_face.JxW(q),
+                                on_face.normal_vector(q)});
+          }
+    return places;
+  }
+
+
+
+#define INSTANTIATE(dim)                                                   \
+  template class CarriedPlaces<dim>;                                       \
+  template std::vector<typename CarriedPlaces<dim>::Place> places_on(      \
+    const Surface<dim> &, const BackgroundMesh<dim> &);                    \
+  template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
+    const BackgroundMesh<dim> &, const types::boundary_id);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
