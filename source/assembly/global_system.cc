@@ -103,6 +103,7 @@ namespace moraine
   GlobalSystem<dim>::begin(const bool                         tangent,
                            const std::vector<Tensor<1, dim>> &predicted_)
   {
+    first_failure.clear();
     with_tangent = tangent;
     predicted    = predicted_;
     std::fill(squares.begin(), squares.end(), 0.);
@@ -118,6 +119,8 @@ namespace moraine
   void
   GlobalSystem<dim>::add(const LocalSystem<dim> &local, const bool tangent)
   {
+    if (first_failure.empty())
+      first_failure = local.failure;
     const unsigned int n_nodes = local.nodal_increments.size();
     work_sum += local.work();
     for (unsigned int a = 0; a < n_nodes; ++a)

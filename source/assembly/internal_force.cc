@@ -152,7 +152,8 @@ namespace moraine
         dim * (fixed_n_nodes > 0 ? fixed_n_nodes : block.n_nodes);
       for (unsigned int p = begin; p < end; ++p)
         {
-          const double v = state.integration_volume(block.points[p]);
+          const double v =
+            block.share(p) * state.integration_volume(block.points[p]);
           const double *DEAL_II_RESTRICT g = block.grad_N(p)->begin_raw();
           for (unsigned int r = 0; r < n; ++r)
             {

@@ -20,10 +20,13 @@ namespace moraine
              Loads<dim>                            &loads,
              const double                           fictitious_stiffness,
              const bool                             inertia,
-             const bool                             conserving)
+             const bool                             conserving,
+             std::unique_ptr<Term<dim>>             internal_force)
   {
     Terms<dim> terms;
-    if (conserving)
+    if (internal_force)
+      terms.push_back(std::move(internal_force));
+    else if (conserving)
       terms.push_back(std::make_unique<ConservingForce<dim>>());
     else
       terms.push_back(std::make_unique<InternalForce<dim>>());
@@ -55,12 +58,14 @@ namespace moraine
              Loads<2> &,
              const double,
              const bool,
-             const bool);
+             const bool,
+             std::unique_ptr<Term<2>>);
   template Terms<3>
   make_terms(std::vector<ImplicitBoundary<3>> &,
              const std::vector<GridCondition<3>> &,
              Loads<3> &,
              const double,
              const bool,
-             const bool);
+             const bool,
+             std::unique_ptr<Term<3>>);
 } // namespace moraine

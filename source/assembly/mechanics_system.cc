@@ -400,7 +400,6 @@ namespace moraine
           }
         sums.add(local, tangent && local.failure.empty());
       }
-    local_failure = local.failure;
   }
 
 
@@ -419,7 +418,6 @@ namespace moraine
   void
   MechanicsSystem<dim>::add_terms(const Which &which, const bool tangent)
   {
-    local_failure.clear();
     scale.stabilising_squares = 0;
     add_point_terms(which, tangent);
     for (const auto &term : terms)
@@ -595,7 +593,7 @@ namespace moraine
   std::string
   MechanicsSystem<dim>::failure() const
   {
-    return first_of_ranks(local_failure, state.grid().communicator());
+    return first_of_ranks(sums.failure(), state.grid().communicator());
   }
 
 

@@ -14,23 +14,23 @@ namespace moraine
 {
   using namespace dealii;
 
+  template <int dim>
+  std::array<unsigned int, dim>
+  place_in(const BoxGrid<dim> &grid, const Point<dim> &x)
+  {
+    std::array<unsigned int, dim> ijk;
+    for (unsigned int d = 0; d < dim; ++d)
+      ijk[d] = static_cast<unsigned int>(std::clamp(
+        std::floor((x[d] - grid.lower_corner[d]) / grid.cell_size[d]),
+        0.,
+        grid.n_cells[d] - 1.));
+    return ijk;
+  }
+
+
+
   namespace
   {
-    template <int dim>
-    std::array<unsigned int, dim>
-    place_in(const BoxGrid<dim> &grid, const Point<dim> &x)
-    {
-      std::array<unsigned int, dim> ijk;
-      for (unsigned int d = 0; d < dim; ++d)
-        ijk[d] = static_cast<unsigned int>(std::clamp(
-          std::floor((x[d] - grid.lower_corner[d]) / grid.cell_size[d]),
-          0.,
-          grid.n_cells[d] - 1.));
-      return ijk;
-    }
-
-
-
     template <int dim>
     bool
     in_unit_cell(const Point<dim> &xi)
@@ -393,6 +393,10 @@ namespace moraine
 
 
 
+  template std::array<unsigned int, 2>
+  place_in<2>(const BoxGrid<2> &, const Point<2> &);
+  template std::array<unsigned int, 3>
+  place_in<3>(const BoxGrid<3> &, const Point<3> &);
   template class CellNeighbours<2>;
   template class CellNeighbours<3>;
   template class CellPatch<2>;

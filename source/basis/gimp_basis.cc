@@ -5,7 +5,6 @@
 
 #include <moraine/basis/domain_tools.h>
 #include <moraine/core/exceptions.h>
-#include <moraine/core/object_error.h>
 #include <moraine/mesh/cell_shapes.h>
 
 #include <algorithm>
@@ -16,32 +15,17 @@ namespace moraine
 {
   using namespace dealii;
 
-  namespace
-  {
-    template <int dim>
-    void
-    check_mesh(const GridSpace<dim> &space)
-    {
-      if (!space.mesh().box_grid() || space.degree() != 1)
-        throw ObjectError("method",
-                          "GIMP",
-                          "found 'GIMP' on a mesh or with shape functions it "
-                          "cannot use, allowed: a box of equal cells with "
-                          "degree 1");
-    }
-  } // namespace
-
-
-
   template <int dim>
   GimpBasis<dim>::GimpBasis(const GridSpace<dim>    &space,
                             const PointSet<dim>     &points,
                             const unsigned int       points_per_direction,
                             const std::vector<bool> &is_seeded,
                             const DomainUpdate       update,
-                            const bool               split)
+                            const bool               split,
+                            const std::string       &name)
     : Basis<dim>(space, points)
-    , neighbours((check_mesh(space), space.mesh()))
+    , name(name)
+    , neighbours((require_box_mesh(space, name), space.mesh()))
     , points_per_direction(points_per_direction)
     , is_seeded(is_seeded)
     , update(DomainTools::finite_strain(points) ? update : DomainUpdate::frozen)
@@ -88,29 +72,12 @@ namespace moraine
 
 
   template <int dim>
-  typename GimpBasis<dim>::Window
+  CellWindow<dim>
   GimpBasis<dim>::window_of(const unsigned int point) const
   {
-    const BoxGrid<dim> &grid = this->grid();
-    // A cell touched with next to no overlap must not become active: its far
-    // nodes would get no stiffness.
-    static const double shrink =
-      1 - std::sqrt(std::numeric_limits<double>::epsilon());
-    const Point<dim> &x = this->points.position(point);
-    const double     *l = this->points.values(point) + half_length_offset;
-    Window            window;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double position =
-          (x[d] - grid.lower_corner[d]) / grid.cell_size[d];
-        const double half      = shrink * l[d] / grid.cell_size[d];
-        const double last_cell = grid.n_cells[d] - 1;
-        // Where the box reaches over the edge of the mesh it is cut there.
-        window.first[d] =
-          std::clamp(std::floor(position - half), 0., last_cell);
-        window.last[d] = std::clamp(std::floor(position + half), 0., last_cell);
-      }
-    return window;
+    return cells_of_box(grid(),
+                        this->points.position(point),
+                        this->points.values(point) + half_length_offset);
   }
 
 
@@ -138,7 +105,7 @@ namespace moraine
   void
   GimpBasis<dim>::mark_cells(std::vector<unsigned char> &active)
   {
-    check_mesh(this->space);
+    require_box_mesh(this->space, name);
     std::string failure;
     for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {
@@ -155,21 +122,8 @@ namespace moraine
                         "cells, or 'Split domains = true'";
             continue;
           }
-        const Window window = window_of(p);
-        auto         ijk    = window.first;
-        for (;;)
-          {
-            active[neighbours.box_cell(ijk)] = 1;
-            unsigned int d                   = 0;
-            while (d < dim && ijk[d] == window.last[d])
-              {
-                ijk[d] = window.first[d];
-                ++d;
-              }
-            if (d == dim)
-              break;
-            ++ijk[d];
-          }
+        window_of(p).for_each_cell(
+          [&](const auto &ijk) { active[neighbours.box_cell(ijk)] = 1; });
       }
     DomainTools::throw_first(failure, this->space.communicator());
   }
@@ -180,26 +134,8 @@ namespace moraine
   void
   GimpBasis<dim>::append_batch(const Window &window)
   {
-    const unsigned int          first_node = this->batch_node_list.size();
-    std::array<unsigned int, 3> n_nodes{{1, 1, 1}};
-    for (unsigned int d = 0; d < dim; ++d)
-      n_nodes[d] = window.last[d] - window.first[d] + 2;
-    for (unsigned int k = 0; k < n_nodes[2]; ++k)
-      for (unsigned int j = 0; j < n_nodes[1]; ++j)
-        for (unsigned int i = 0; i < n_nodes[0]; ++i)
-          {
-            // Any cell of the window with that node will do.
-            const std::array<unsigned int, 3> node{{i, j, k}};
-            std::array<unsigned int, dim>     cell;
-            unsigned int                      corner = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                cell[d] = std::min(window.first[d] + node[d], window.last[d]);
-                corner += (window.first[d] + node[d] - cell[d]) << d;
-              }
-            this->batch_node_list.push_back(
-              this->space.cell_nodes(neighbours.box_cell(cell))[corner]);
-          }
+    const unsigned int first_node = this->batch_node_list.size();
+    append_nodes(window, neighbours, this->space, this->batch_node_list);
     this->batches.push_back(
       {0,
        0,
@@ -266,9 +202,8 @@ namespace moraine
       const double length = upper - lower;
       std::fill(S, S + n_cells + 1, 0.);
       std::fill(dS, dS + n_cells + 1, 0.);
-      if (length < 1e-8)
+      if (length < thin_box)
         {
-          // A box as thin as that is a point; its average would be round-off.
           const unsigned int c = std::clamp(std::floor(xi), 0., n_cells - 1.);
           S[c]                 = 1 - (xi - c);
           S[c + 1]             = xi - c;
@@ -279,14 +214,12 @@ namespace moraine
       const double per_length = 1 / length;
       for (unsigned int c = 0; c < n_cells; ++c)
         {
-          const double a     = std::clamp(lower - c, 0., 1.);
-          const double b     = std::clamp(upper - c, 0., 1.);
-          const double share = (b - a) * per_length;
-          const double right = 0.5 * (a + b) * share;
-          S[c] += share - right;
-          S[c + 1] += right;
-          dS[c] -= share * per_h;
-          dS[c + 1] += share * per_h;
+          const auto   local = local_hats(lower - c, upper - c, per_length);
+          const double slope = (local[0] + local[1]) * per_h;
+          S[c] += local[0];
+          S[c + 1] += local[1];
+          dS[c] -= slope;
+          dS[c + 1] += slope;
         }
     }
   } // namespace

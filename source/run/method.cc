@@ -3,6 +3,8 @@
 
 #include <moraine/run/method.h>
 
+#include <moraine/assembly/double_mapping.h>
+#include <moraine/basis/composite_functions.h>
 #include <moraine/basis/cpdi1_basis.h>
 #include <moraine/basis/cpdi2_basis.h>
 #include <moraine/core/exceptions.h>
@@ -61,24 +63,31 @@ namespace moraine
 
 
 
+    const auto no_own_internal_force = [](const auto &, const auto &) {
+      return nullptr;
+    };
+
+
+
     template <int dim>
     Method<dim>
     finite_element()
     {
       Method<dim> method;
-      method.name               = "finite element";
-      method.text               = "Gauss points that stay in their cell.";
-      method.mesh_after_step    = MeshAfterStep::follow_material;
-      method.refused_after_step = "reset";
-      method.allowed_after_step = "follow material or keep with finite "
-                                  "elements, whose points stay in their cells";
-      method.largest_degree     = 2;
-      method.can_fit_weights    = false;
-      method.can_split_domains  = false;
-      method.must_split_domains = false;
-      method.make_seeder        = gauss_points<dim>;
-      method.request_fields     = [](const auto &, PointFields &) {};
-      method.make_basis         = cell_basis<dim>;
+      method.name                = "finite element";
+      method.text                = "Gauss points that stay in their cell.";
+      method.mesh_after_step     = MeshAfterStep::follow_material;
+      method.refused_after_step  = "reset";
+      method.allowed_after_step  = "follow material or keep with finite "
+                                   "elements, whose points stay in their cells";
+      method.largest_degree      = 2;
+      method.can_fit_weights     = false;
+      method.can_split_domains   = false;
+      method.must_split_domains  = false;
+      method.make_seeder         = gauss_points<dim>;
+      method.request_fields      = [](const auto &, PointFields &) {};
+      method.make_basis          = cell_basis<dim>;
+      method.make_internal_force = no_own_internal_force;
       return method;
     }
 
@@ -89,16 +98,17 @@ namespace moraine
     material_point()
     {
       Method<dim> method;
-      method.name               = "material point";
-      method.text               = "points that move through the mesh.";
-      method.mesh_after_step    = MeshAfterStep::reset;
-      method.largest_degree     = 1;
-      method.can_fit_weights    = true;
-      method.can_split_domains  = false;
-      method.must_split_domains = false;
-      method.make_seeder        = material_points<dim>;
-      method.request_fields     = [](const auto &, PointFields &) {};
-      method.make_basis         = cell_basis<dim>;
+      method.name                = "material point";
+      method.text                = "points that move through the mesh.";
+      method.mesh_after_step     = MeshAfterStep::reset;
+      method.largest_degree      = 1;
+      method.can_fit_weights     = true;
+      method.can_split_domains   = false;
+      method.must_split_domains  = false;
+      method.make_seeder         = material_points<dim>;
+      method.request_fields      = [](const auto &, PointFields &) {};
+      method.make_basis          = cell_basis<dim>;
+      method.make_internal_force = no_own_internal_force;
       return method;
     }
 
@@ -120,6 +130,25 @@ namespace moraine
 
 
 
+    /** GIMP's basis, or one derived from it. */
+    template <int dim, class BoxBasis>
+    std::unique_ptr<Basis<dim>>
+    box_basis(const typename Method<dim>::Ingredients &of)
+    {
+      std::vector<bool> is_seeded;
+      for (const Body<dim> &body : of.bodies)
+        is_seeded.push_back(body.shape != nullptr);
+      return std::make_unique<BoxBasis>(of.space,
+                                        of.points,
+                                        of.parameters.points_per_direction,
+                                        is_seeded,
+                                        of.parameters.update_of_domains(),
+                                        of.parameters.splits_domains(),
+                                        of.parameters.method);
+    }
+
+
+
     template <int dim>
     Method<dim>
     gimp()
@@ -134,16 +163,7 @@ namespace moraine
         GimpBasis<dim>::request_fields(fields, parameters.update_of_domains());
       };
       method.make_basis = [](const auto &of) {
-        std::vector<bool> is_seeded;
-        for (const Body<dim> &body : of.bodies)
-          is_seeded.push_back(body.shape != nullptr);
-        return std::make_unique<GimpBasis<dim>>(
-          of.space,
-          of.points,
-          of.parameters.points_per_direction,
-          is_seeded,
-          of.parameters.update_of_domains(),
-          of.parameters.splits_domains());
+        return box_basis<dim, GimpBasis<dim>>(of);
       };
       return method;
     }
@@ -196,6 +216,55 @@ namespace moraine
 
 
 
+    /** @p of with the stiffness integrated over Gauss points. */
+    template <int dim>
+    Method<dim>
+    double_mapping(Method<dim>        of,
+                   const std::string &name,
+                   const std::string &text)
+    {
+      of.name                   = name;
+      of.text                   = text;
+      of.allowed_after_step     = "reset or keep with method '" + name + "'";
+      of.has_own_internal_force = true;
+      of.make_internal_force = [name](const auto &space, const auto &points) {
+        return std::make_unique<DoubleMapping<dim>>(space, points, name);
+      };
+      return of;
+    }
+
+
+
+    /** Without domains. */
+    template <int dim, class PointBasis>
+    Method<dim>
+    double_mapping_of_points(const std::string &name, const std::string &text)
+    {
+      Method<dim> method =
+        double_mapping(with_domains<dim>(name, text), name, text);
+      method.make_basis = [](const auto &of) {
+        require_box_mesh(of.space, of.parameters.method);
+        return std::make_unique<PointBasis>(of.space, of.points);
+      };
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
+    dm_gc()
+    {
+      Method<dim> method =
+        double_mapping(gimp<dim>(), "DM-GC", "DM-G and DM-C together.");
+      method.make_basis = [](const auto &of) {
+        return box_basis<dim, WithCompositeStrain<dim, GimpBasis<dim>>>(of);
+      };
+      return method;
+    }
+
+
+
     /** The names of those methods for which @p holds, in words. */
     template <int dim, class Condition>
     std::string
@@ -215,11 +284,23 @@ namespace moraine
   const std::vector<Method<dim>> &
   methods()
   {
-    static const std::vector<Method<dim>> all{finite_element<dim>(),
-                                              material_point<dim>(),
-                                              gimp<dim>(),
-                                              cpdi1<dim>(),
-                                              cpdi2<dim>()};
+    static const std::vector<Method<dim>> all{
+      finite_element<dim>(),
+      material_point<dim>(),
+      gimp<dim>(),
+      cpdi1<dim>(),
+      cpdi2<dim>(),
+      double_mapping_of_points<dim, CellBasis<dim, 1>>(
+        "DM",
+        "double mapping: points whose stiffness is that of the Gauss points of each cell, to which it is mapped through the nodes; on a box of equal cells, as the next three."),
+      double_mapping(gimp<dim>(),
+                     "DM-G",
+                     "the same by the local functions of GIMP."),
+      double_mapping_of_points<dim,
+                               WithCompositeStrain<dim, CellBasis<dim, 1>>>(
+        "DM-C",
+        "DM with the strain of points from composite functions of the cells around."),
+      dm_gc<dim>()};
     return all;
   }
 
@@ -277,14 +358,14 @@ namespace moraine
     prm.add_parameter(
       "Domain update",
       domain_update,
-      "Of GIMP at finite strain, how the box of a point changes. frozen: not. "
+      "Of methods with boxes at finite strain, how the box of a point changes. frozen: not. "
       "stretch: by the diagonal of the stretch U. corners: its corners move "
       "with the mesh and the volume is corrected.",
       patterns::selection({"frozen", "stretch", "corners"}));
     prm.add_parameter(
       "Split domains",
       split_domains,
-      "Of GIMP and CPDI1: halve points whose domain grows beyond the cells "
+      "Of methods with boxes and CPDI1: halve points whose domain grows beyond the cells "
       "that touch the point's, instead of ending the run. auto: those of "
       "GIMP, unless the scene has a force on points.",
       patterns::selection({"auto", "true", "false"}));

@@ -130,7 +130,8 @@ namespace moraine
                  loads,
                  scene.method.fictitious_stiffness,
                  dynamic,
-                 TimeIntegrator(scene.time.integrator).forces_in_the_middle());
+                 TimeIntegrator(scene.time.integrator).forces_in_the_middle(),
+                 scene.method.chosen().make_internal_force(*space, *points));
     const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
     if (std::any_of(damping.begin(), damping.end(), [](const auto &factors) {
           return factors.damps();

@@ -69,6 +69,12 @@ namespace moraine
                      const std::vector<InputFile::Entry> &given)
     {
       const IntegratorParameters &chosen = scene.time.integrator;
+      if (chosen.integrator == "energy-momentum" &&
+          scene.method.chosen().has_own_internal_force)
+        reject("Time",
+               "Integrator",
+               chosen.integrator,
+               "another one with method '" + scene.method.method + "'");
       for (const auto &entry : given)
         {
           if (entry.section == "Time" && !integrator_uses(chosen, entry.key))

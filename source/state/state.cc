@@ -170,26 +170,33 @@ namespace moraine
     TrialPoints<dim>            trial_points;
     std::vector<Tensor<1, dim>> moves(points.n_local());
     std::vector<Tensor<2, dim>> gradients(points.n_local());
+    const auto evaluate = [&](const Basis<dim> &of, const unsigned int g) {
+      of.evaluate(g, block);
+      nodal.resize(block.n_nodes);
+      for (unsigned int a = 0; a < block.n_nodes; ++a)
+        nodal[a] = trial[block.nodes[a]];
+    };
+    const auto commit_stresses = [&]() {
+      for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
+        {
+          end = end_of_body(block, begin);
+          trial_points.evaluate(*this, block, begin, end, nodal.data());
+          if (energies)
+            trial_points.add_energies(*this, block, begin, *energies);
+          for (unsigned int p = begin; p < end; ++p)
+            {
+              commit(trial_points, p - begin, block.points[p]);
+              gradients[block.points[p]] =
+                trial_points.increment_gradient(p - begin);
+            }
+        }
+    };
+    const Basis<dim> &of_strains = basis.strain_basis();
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
-        basis.evaluate(g, block);
-        nodal.resize(block.n_nodes);
-        for (unsigned int a = 0; a < block.n_nodes; ++a)
-          nodal[a] = trial[block.nodes[a]];
-        for (unsigned int begin = 0, end = 0; begin < block.n_points;
-             begin = end)
-          {
-            end = end_of_body(block, begin);
-            trial_points.evaluate(*this, block, begin, end, nodal.data());
-            if (energies)
-              trial_points.add_energies(*this, block, begin, *energies);
-            for (unsigned int p = begin; p < end; ++p)
-              {
-                commit(trial_points, p - begin, block.points[p]);
-                gradients[block.points[p]] =
-                  trial_points.increment_gradient(p - begin);
-              }
-          }
+        evaluate(basis, g);
+        if (&of_strains == &basis)
+          commit_stresses();
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
             const unsigned int point = block.points[p];
@@ -200,6 +207,12 @@ namespace moraine
             u.store(u(points.values(point)) + du, points.values(point));
           }
       }
+    if (&of_strains != &basis)
+      for (unsigned int g = 0; g < of_strains.n_batches(); ++g)
+        {
+          evaluate(of_strains, g);
+          commit_stresses();
+        }
     if (after_step == MeshAfterStep::keep)
       return;
     basis.move_domains(points, trial, gradients);

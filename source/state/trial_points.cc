@@ -154,8 +154,8 @@ namespace moraine
       {
         const unsigned int p  = block.points[begin + i];
         points[i].J_increment = 1;
-        points[i].weight      = state.integration_volume(p);
-        points[i].stress      = set.stress_field()(set.values(p)) +
+        points[i].weight = block.share(begin + i) * state.integration_volume(p);
+        points[i].stress = set.stress_field()(set.values(p)) +
                            C * symmetric_part(points[i].gradient);
       }
     failure = points.size();
@@ -177,7 +177,7 @@ namespace moraine
         const unsigned int p  = block.points[begin + i];
         TrialPoint        &at = points[i];
         at.J_increment        = 1;
-        at.weight             = state.integration_volume(p);
+        at.weight = block.share(begin + i) * state.integration_volume(p);
         at.principal =
           spectrum<dim>(C.strain_of(set.stress_field()(set.values(p))) +
                         symmetric_part(at.gradient));
@@ -205,7 +205,8 @@ namespace moraine
     const Tensor<1, dim> *gradients = block.grad_N(begin + i);
     for (unsigned int a = 0; a < n_nodes; ++a)
       moved[i * n_nodes + a] = gradients[a] * inverse;
-    at.weight = state.integration_volume(p) / state.volume_ratio(p);
+    at.weight = block.share(begin + i) * state.integration_volume(p) /
+                state.volume_ratio(p);
     return dF;
   }
 
@@ -306,8 +307,8 @@ namespace moraine
           }
         else
           {
-            at.J_increment      = 1;
-            at.weight           = state.integration_volume(p);
+            at.J_increment = 1;
+            at.weight = block.share(begin + i) * state.integration_volume(p);
             to.strain_increment = symmetric_part(at.gradient);
           }
         to.stress   = set.stress_field()(set.values(p));

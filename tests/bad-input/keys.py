@@ -102,6 +102,14 @@ refused("weights fitted to cells that do not change",
                   "Method/Point weights": "fitted to cells"})
 refused("GIMP of degree 2",
         settings={"Method/Method": "GIMP", "Method/Degree": 2})
+refused("DM-GC of degree 2",
+        settings={"Method/Method": "DM-GC", "Method/Degree": 2})
+refused("DM-GC with the integrator that conserves energy",
+        settings={"Method/Method": "DM-GC", "Method/Strain": "finite",
+                  "Time/Integrator": "energy-momentum"})
+refused("DM on a mesh that moves",
+        settings={"Method/Method": "DM",
+                  "Method/Mesh after step": "follow material"})
 refused("GIMP on a mesh that moves",
         settings={"Method/Method": "GIMP",
                   "Method/Mesh after step": "follow material"})

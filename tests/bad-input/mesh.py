@@ -51,7 +51,8 @@ refused("side of a box on a generator's mesh", {**square, "Grid conditions/a/Sid
 refused("number of a side with a name", {
     **square, "Mesh/Side names": "west: 0", "Grid conditions/a/Side": "0"})
 refused("number that is no side", {**square, "Grid conditions/a/Side": "5"})
-refused("GIMP", {**square, "Method/Method": "GIMP"})
+for method in ("GIMP", "DM", "DM-G", "DM-C", "DM-GC"):
+    refused(method, {**square, "Method/Method": method})
 refused("body partly in the hole", shell)
 refused("a mesh that is turned", {
     **shell, "Bodies/block/Shape": "mesh", "Bodies/block/Lower corner": "",

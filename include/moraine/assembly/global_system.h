@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -91,6 +92,13 @@ namespace moraine
       return node_forces;
     }
 
+    /** Why a point has no stress, if one has none since begin(). */
+    const std::string &
+    failure() const
+    {
+      return first_failure;
+    }
+
     const std::shared_ptr<LA::SparseMatrix> &
     matrix() const
     {
@@ -125,7 +133,8 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> predicted;
     const std::vector<unsigned int>    *body_of_node = nullptr;
     std::vector<double>                 squares;
-    double                              work_sum     = 0;
+    double                              work_sum = 0;
+    std::string                         first_failure;
     bool                                with_tangent = false;
   };
 } // namespace moraine

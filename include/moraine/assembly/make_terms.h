@@ -21,7 +21,8 @@ namespace moraine
    * The terms of a solid body with what holds and loads it, all of which must
    * live longer than the terms. @p fictitious_stiffness is the fraction of
    * FictitiousStiffness, or 0 for none. With @p inertia points have mass, with
-   * @p conserving internal forces are in the middle of the step.
+   * @p conserving internal forces are in the middle of the step. The
+   * @p internal_force is theirs unless a method has its own.
    */
   template <int dim>
   Terms<dim>
@@ -29,8 +30,9 @@ namespace moraine
              const std::vector<GridCondition<dim>> &conditions,
              Loads<dim>                            &loads,
              const double                           fictitious_stiffness = 0.,
-             const bool                             inertia    = false,
-             const bool                             conserving = false);
+             const bool                             inertia        = false,
+             const bool                             conserving     = false,
+             std::unique_ptr<Term<dim>>             internal_force = {});
 } // namespace moraine
 
 #endif

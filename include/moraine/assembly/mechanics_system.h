@@ -304,7 +304,6 @@ namespace moraine
     bool                    assembled  = false;
     bool                    predicting = false;
     std::function<void()>   move_mesh; ///< if it moves
-    std::string             local_failure;
     std::vector<LA::Vector> rigid_modes;
     ForceScale              scale;
     double                  last_violation = 0;

@@ -74,6 +74,17 @@ namespace moraine
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const = 0;
 
     /**
+     * How the strain of points is found when a step is accepted: a basis for
+     * the same points, whose nodes this rank knows. It is batched with this
+     * one.
+     */
+    virtual const Basis &
+    strain_basis() const
+    {
+      return *this;
+    }
+
+    /**
      * Why the step that moves nodes by @p nodal_increments cannot be accepted,
      * naming the point of this rank (a domain that turns inside out), or "".
      */

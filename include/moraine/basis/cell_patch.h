@@ -12,6 +12,14 @@
 
 namespace moraine
 {
+  /** The place in a box mesh of the cell that holds @p x, or is nearest to it.
+   */
+  template <int dim>
+  std::array<unsigned int, dim>
+  place_in(const BoxGrid<dim> &grid, const dealii::Point<dim> &x);
+
+
+
   /**
    * Which cells touch which: a list of the cells at each vertex, or of the
    * cells of a box by their place in it.

@@ -6,9 +6,9 @@
 
 #include <moraine/basis/basis.h>
 #include <moraine/basis/cell_patch.h>
+#include <moraine/basis/local_functions.h>
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace moraine
@@ -46,6 +46,10 @@ namespace moraine
   class GimpBasis : public Basis<dim>
   {
   public:
+    inline static const typename FieldNames<dim>::Vector half_length_name{
+      "half_length",
+      "length"};
+
     /**
      * Ask for what the basis stores with a point: `half_length`, and
      * `initial_half_length` if boxes are stretched.
@@ -64,6 +68,7 @@ namespace moraine
      * boxes their shape. @p is_seeded says which bodies were seeded that way;
      * the others, all if left out, have points of their own (a file). With
      * @p split, boxes longer than the limit are halved, see split_domains().
+     * @p name is the method's in messages.
      * @throws InputError if the mesh is not a box of equal cells.
      */
     GimpBasis(const GridSpace<dim>    &space,
@@ -71,7 +76,8 @@ namespace moraine
               const unsigned int       points_per_direction,
               const std::vector<bool> &is_seeded = {},
               const DomainUpdate       update    = DomainUpdate::frozen,
-              const bool               split     = false);
+              const bool               split     = false,
+              const std::string       &name      = "GIMP");
 
     /**
      * Half lengths. Of a seeded point: its distance to the nearer face of its
@@ -125,44 +131,11 @@ namespace moraine
 
   private:
     using HalfLength = PointField<dim, dealii::Tensor<1, dim>>;
+    /** The cells that a box overlaps. */
+    using Window = CellWindow<dim>;
 
-    inline static const typename FieldNames<dim>::Vector half_length_name{
-      "half_length",
-      "length"};
     inline static const typename FieldNames<dim>::Vector
       initial_half_length_name{"initial_half_length", "length"};
-
-    /** First and last cell the box overlaps, by direction. */
-    struct Window
-    {
-      std::array<unsigned int, dim> first;
-      std::array<unsigned int, dim> last;
-
-      bool
-      operator<(const Window &other) const
-      {
-        return std::tie(first, last) < std::tie(other.first, other.last);
-      }
-
-      unsigned int
-      n_cells() const
-      {
-        unsigned int n = 1;
-        for (unsigned int d = 0; d < dim; ++d)
-          n *= last[d] - first[d] + 1;
-        return n;
-      }
-
-      bool
-      contains(const Window &other) const
-      {
-        bool inside = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          inside =
-            inside && first[d] <= other.first[d] && other.last[d] <= last[d];
-        return inside;
-      }
-    };
 
     const BoxGrid<dim> &
     grid() const
@@ -186,6 +159,7 @@ namespace moraine
     void
     append_batch(const Window &window);
 
+    const std::string         name;
     const CellNeighbours<dim> neighbours;
     const unsigned int        points_per_direction;
     const std::vector<bool>   is_seeded;

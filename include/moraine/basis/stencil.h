@@ -22,6 +22,9 @@ namespace moraine
     unsigned int        n_nodes  = 0;
     const unsigned int *points   = nullptr; ///< flat point numbers
     const unsigned int *nodes    = nullptr; ///< node numbers of the GridSpace
+    /** The part of its volume with which each point counts; none if that is
+     * all of it. A point may occur more than once then. */
+    const double *shares = nullptr;
 
     /** @f$N_a@f$ of the points, point major. */
     std::vector<double> values;
@@ -40,6 +43,12 @@ namespace moraine
     grad_N(const unsigned int p) const
     {
       return &gradients[p * n_nodes];
+    }
+
+    double
+    share(const unsigned int p) const
+    {
+      return shares ? shares[p] : 1.;
     }
 
     void

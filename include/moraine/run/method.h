@@ -4,6 +4,7 @@
 #ifndef moraine_run_method_h
 #define moraine_run_method_h
 
+#include <moraine/assembly/term.h>
 #include <moraine/basis/basis.h>
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/points/bodies.h>
@@ -111,6 +112,13 @@ namespace moraine
     std::function<void(const MethodParameters<dim> &, PointFields &)>
       request_fields;
     std::function<std::unique_ptr<Basis<dim>>(const Ingredients &)> make_basis;
+    /** Whether make_internal_force makes one, which no integrator evaluates in
+     * the middle of a step. */
+    bool has_own_internal_force = false;
+    /** Its own internal force; none for InternalForce. */
+    std::function<std::unique_ptr<Term<dim>>(const GridSpace<dim> &,
+                                             const PointSet<dim> &)>
+      make_internal_force;
   };
 
   /** All methods. A new one is an entry here. */
