@@ -65,6 +65,8 @@ namespace moraine
   bool
   CompositeBasis<dim>::batch_points()
   {
+    // With boxes GimpBasis has looked before.
+    require_box_mesh(this->space, "DM-C");
     const BackgroundMesh<dim> &mesh = this->space.mesh();
     holds_points.assign(mesh.triangulation().n_active_cells(), 0);
     for (const auto &in_cell : this->points.cells())

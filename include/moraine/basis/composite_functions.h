@@ -65,7 +65,7 @@ namespace moraine
     /** Needs a mesh of equal boxes. */
     CompositeBasis(const GridSpace<dim> &space, const PointSet<dim> &points);
 
-    /** Collective. */
+    /** @throws InputError if the mesh was moved. Collective. */
     bool
     batch_points() override;
 
