@@ -104,9 +104,6 @@ refused("GIMP of degree 2",
         settings={"Method/Method": "GIMP", "Method/Degree": 2})
 refused("DM-GC of degree 2",
         settings={"Method/Method": "DM-GC", "Method/Degree": 2})
-refused("DM-GC with the integrator that conserves energy",
-        settings={"Method/Method": "DM-GC", "Method/Strain": "finite",
-                  "Time/Integrator": "energy-momentum"})
 refused("DM on a mesh that moves",
         settings={"Method/Method": "DM",
                   "Method/Mesh after step": "follow material"})
