@@ -277,10 +277,13 @@ namespace moraine
 
 
   template <int dim>
-  double
+  std::optional<double>
   AbsorbingTerm<dim>::hold(const StepContext<dim> &context,
+                           const std::string      &name,
                            const LA::Vector       &forces)
   {
+    if (name != boundary.name())
+      return {};
     const GridSpace<dim> &space = context.state.grid();
     std::vector<Vector>   nodal;
     const auto            traction_of = [&](const LA::Vector &x) {

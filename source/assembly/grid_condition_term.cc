@@ -111,6 +111,28 @@ namespace moraine
 
   template <int dim>
   void
+  GridConditionTerm<dim>::add_constraint_forces(const StepContext<dim> &context,
+                                                const std::string      &name,
+                                                const LA::Vector  &unbalanced,
+                                                GlobalSystem<dim> &system) const
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    for (const auto &entry : prescribed.entries)
+      {
+        const auto dof = space.node_dof(entry.node) + entry.component;
+        if (conditions[entry.condition].name != name ||
+            !space.locally_owned().is_element(dof))
+          continue;
+        Tensor<1, dim> force;
+        force[entry.component] = -unbalanced(dof);
+        system.add(entry.node, force);
+      }
+  }
+
+
+
+  template <int dim>
+  void
   GridConditionTerm<dim>::prepare(const StepContext<dim> &context,
                                   const LA::Vector       &unbalanced)
   {

@@ -21,8 +21,13 @@ namespace moraine
              const double                           fictitious_stiffness,
              const bool                             inertia,
              const bool                             conserving,
-             std::unique_ptr<Term<dim>>             internal_force)
+             std::unique_ptr<Term<dim>>             internal_force,
+             const IsActive                        &active)
   {
+    const auto acts = [&active](const std::string &section,
+                                const std::string &name) {
+      return !active || active(section, name);
+    };
     Terms<dim> terms;
     if (internal_force)
       terms.push_back(std::move(internal_force));
@@ -36,17 +41,26 @@ namespace moraine
       terms.push_back(
         std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
     for (auto &boundary : boundaries)
-      terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
-    if (!conditions.empty())
-      terms.push_back(std::make_unique<GridConditionTerm<dim>>(conditions));
+      if (acts("Boundaries", boundary.name()))
+        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
+    std::vector<GridCondition<dim>> acting;
+    for (const auto &condition : conditions)
+      if (acts("Grid conditions", condition.name))
+        acting.push_back(condition);
+    if (!acting.empty())
+      terms.push_back(std::make_unique<GridConditionTerm<dim>>(acting));
     for (const auto &force : loads.body_forces)
-      terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));
+      if (acts("Loads", force.name))
+        terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));
     for (const auto &traction : loads.side_tractions)
-      terms.push_back(std::make_unique<SideTractionTerm<dim>>(traction));
+      if (acts("Loads", traction.name))
+        terms.push_back(std::make_unique<SideTractionTerm<dim>>(traction));
     for (auto &load : loads.carried)
-      terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));
+      if (acts("Loads", load.name()))
+        terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));
     for (auto &force : loads.on_points)
-      terms.push_back(std::make_unique<ForceOnPointsTerm<dim>>(force));
+      if (acts("Loads", force.name()))
+        terms.push_back(std::make_unique<ForceOnPointsTerm<dim>>(force));
     return terms;
   }
 
@@ -59,7 +73,8 @@ namespace moraine
              const double,
              const bool,
              const bool,
-             std::unique_ptr<Term<2>>);
+             std::unique_ptr<Term<2>>,
+             const IsActive &);
   template Terms<3>
   make_terms(std::vector<ImplicitBoundary<3>> &,
              const std::vector<GridCondition<3>> &,
@@ -67,5 +82,6 @@ namespace moraine
              const double,
              const bool,
              const bool,
-             std::unique_ptr<Term<3>>);
+             std::unique_ptr<Term<3>>,
+             const IsActive &);
 } // namespace moraine

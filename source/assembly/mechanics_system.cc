@@ -42,20 +42,6 @@ namespace moraine
           return other;
       return "";
     }
-
-
-
-    /** The sum of scalar products. */
-    template <int dim>
-    double
-    product(const std::vector<Tensor<1, dim>> &forces,
-            const std::vector<Tensor<1, dim>> &increments)
-    {
-      double sum = 0;
-      for (unsigned int node = 0; node < forces.size(); ++node)
-        sum += forces[node] * increments[node];
-      return sum;
-    }
   } // namespace
 
 
@@ -97,6 +83,18 @@ namespace moraine
   MechanicsSystem<dim>::add(std::unique_ptr<Term<dim>> term)
   {
     terms.push_back(std::move(term));
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::set_terms(Terms<dim> others)
+  {
+    terms = std::move(others);
+    // What they couple is not known.
+    sums.clear();
+    forces.at_start = LA::Vector();
   }
 
 
@@ -280,58 +278,6 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::find_dead_forces()
-  {
-    TimerOutput::Scope scope(timer, "external forces");
-    const auto         find = [this](const double t) {
-      context.t_end = t;
-      sums.begin(false);
-      add_terms([](const auto &term) { return term.is_dead(); }, false);
-      sums.end(forces.dead);
-    };
-    const double t_end = context.t_end;
-    LA::Vector   at_start;
-    if (forces_in_the_middle())
-      {
-        find(context.t_start);
-        at_start = forces.dead;
-      }
-    find(t_end);
-    if (forces_in_the_middle())
-      forces.dead.sadd(0.5, 0.5, at_start);
-    scale.dead_squares.resize(body_names.size());
-    Utilities::MPI::sum(sums.squares_of_bodies(),
-                        state.grid().communicator(),
-                        scale.dead_squares);
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::set_target_of_motion()
-  {
-    const double t_end = context.t_end;
-    context.motion->set_target(
-      context.step_size(),
-      !constraints.any_lines() ?
-        typename Motion<dim>::Constrain() :
-        [this, t_end](const Prescribed prescribed, LA::Vector &x) {
-          if (prescribed == Prescribed::none)
-            return constraints.distribute_correction(x);
-          context.t_end = prescribed == Prescribed::in_the_middle ?
-                            (context.t_start + t_end) / 2 :
-                            t_end;
-          constraints.set_values(lines_of_terms());
-          constraints.distribute(x);
-        });
-    context.t_end = t_end;
-  }
-
-
-
-  template <int dim>
-  void
   MechanicsSystem<dim>::start_over()
   {
     assembled      = false;
@@ -406,16 +352,6 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::count_work(const Term<dim> &term, const double work)
-  {
-    if (term.work_kind() != WorkKind::none)
-      forces.works[unsigned(term.work_kind())] += work;
-  }
-
-
-
-  template <int dim>
-  void
   MechanicsSystem<dim>::add_terms(const Which &which, const bool tangent)
   {
     scale.stabilising_squares = 0;
@@ -474,117 +410,6 @@ namespace moraine
     scale.now = std::sqrt(squares);
     if (first_of_step)
       scale.at_start = scale.now;
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::find_forces_at_start()
-  {
-    TimerOutput::Scope scope(timer, "forces at start");
-    context.t_end = context.t_start;
-    state.set_step_time({context.t_start, context.t_end});
-    state.reject();
-    start_over();
-    for (unsigned int k = 0; k < Works::n_kinds; ++k)
-      {
-        sums.begin(false);
-        add_terms(
-          [k](const auto &term) { return term.work_kind() == WorkKind(k); },
-          false);
-        forces.by_kind[k] = sums.forces_of_this_rank();
-      }
-  }
-
-
-
-  template <int dim>
-  LA::Vector
-  MechanicsSystem<dim>::sum_of_kinds() const
-  {
-    NodeValues sum(state.grid().n_nodes());
-    for (const NodeValues &of_kind : forces.by_kind)
-      for (unsigned int node = 0; node < sum.size(); ++node)
-        sum[node] += of_kind[node];
-    LA::Vector result = state.grid().vector();
-    state.grid().sum_node_values(sum, result);
-    return result;
-  }
-
-
-
-  template <int dim>
-  LA::Vector
-  MechanicsSystem<dim>::forces_and_mass()
-  {
-    if (forces_in_the_middle())
-      find_forces_at_start();
-    LA::Vector at_start = sum_of_kinds();
-    constraints.condense(at_start);
-    context.motion->set_target(0., {});
-    sums.begin(true);
-    add_terms([](const auto &term) { return term.is_inertia(); }, true);
-    LA::Vector none = state.grid().vector();
-    sums.end(none);
-    return at_start;
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::count_work(const LA::Vector &x)
-  {
-    TimerOutput::Scope scope(timer, "energy");
-    assemble_forces_at(x);
-    const NodeValues &increments = state.nodal_increments();
-    const NodeValues &prescribed = context.motion->prescribed_increments();
-    typename Motion<dim>::StepWorks works;
-    const double                    of_dead = forces.dead * x;
-    for (unsigned int k = 0; k < Works::n_kinds; ++k)
-      {
-        works.at_end[k] = forces.works[k];
-        if (forces_in_the_middle())
-          continue;
-        works.at_start[k] = product(forces.by_kind[k], increments);
-        if (!prescribed.empty())
-          works.on_prescribed_at_start +=
-            product(forces.by_kind[k], prescribed);
-      }
-    if (!prescribed.empty())
-      works.on_prescribed_at_end = work_on_prescribed();
-    works.sum_over_ranks(state.grid().communicator());
-    works.at_end[unsigned(WorkKind::external)] += of_dead;
-    context.motion->count(works);
-  }
-
-
-
-  template <int dim>
-  double
-  MechanicsSystem<dim>::work_on_prescribed()
-  {
-    const auto work = [this](const Which &which) {
-      sums.begin(false);
-      add_terms(
-        [&which](const auto &term) {
-          return term.work_kind() != WorkKind::none && which(term);
-        },
-        false);
-      return product(sums.forces_of_this_rank(),
-                     context.motion->prescribed_increments());
-    };
-    if (!forces_in_the_middle())
-      return work([](const auto &) { return true; });
-    const auto   is_dead = [](const auto &term) { return term.is_dead(); };
-    const double t_end   = context.t_end;
-    double       sum = work([](const auto &term) { return !term.is_dead(); });
-    sum += 0.5 * work(is_dead);
-    context.t_end = context.t_start;
-    sum += 0.5 * work(is_dead);
-    context.t_end = t_end;
-    return sum;
   }
 
 
@@ -673,19 +498,6 @@ namespace moraine
                        rigid_modes,
                        body_names,
                        first_step);
-  }
-
-
-
-  template <int dim>
-  void
-  MechanicsSystem<dim>::assemble_forces_at(const LA::Vector &x)
-  {
-    // They are known, unless x is not where Newton ended.
-    LA::Vector difference(x);
-    difference -= assembled_at;
-    if (!assembled || predicting || difference.linfty_norm() > 0)
-      assemble(x, false);
   }
 
 

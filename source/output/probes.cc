@@ -274,7 +274,7 @@ namespace moraine
                                   values[dim + c] + probe.ahead[c] :
                                   probe.displacement[c];
               values[c]       = probe.start[c] + u;
-              values[dim + c] = u;
+              values[dim + c] = u - probe.before_reset[c];
             }
         for (const std::string &quantity : probe.parameters.quantities)
           if (quantity == "position")
@@ -297,19 +297,37 @@ namespace moraine
 
   template <int dim>
   void
+  Probes<dim>::reset_displacements(const PointSet<dim> &points)
+  {
+    for (Probe &probe : probes)
+      if (probe.parameters.kind == "interpolated")
+        {
+          if (probe.has_left)
+            probe.ahead += displacement_of(probe.point_id, points);
+          probe.before_reset =
+            probe.has_left ? probe.ahead : probe.displacement;
+        }
+  }
+
+
+
+  template <int dim>
+  void
   Probes<dim>::write(Archive &archive) const
   {
-    std::vector<unsigned int> ids;
+    std::vector<unsigned int> ids, left;
     std::vector<double>       displacements;
     for (const Probe &probe : probes)
       {
         ids.push_back(probe.point_id);
-        displacements.insert(displacements.end(),
-                             probe.displacement.begin_raw(),
-                             probe.displacement.end_raw());
+        left.push_back(probe.has_left ? 1 : 0);
+        for (const Tensor<1, dim> &u :
+             {probe.displacement, probe.ahead, probe.before_reset})
+          displacements.insert(displacements.end(), u.begin_raw(), u.end_raw());
       }
     archive.write("probes/point", std::move(ids));
-    archive.write("probes/displacement", std::move(displacements), dim);
+    archive.write("probes/has_left", std::move(left));
+    archive.write("probes/displacement", std::move(displacements), 3 * dim);
   }
 
 
@@ -319,15 +337,22 @@ namespace moraine
   Probes<dim>::read(const Archive &archive)
   {
     const auto &ids           = archive.integers("probes/point");
-    const auto &displacements = archive.numbers("probes/displacement", dim);
+    const auto &left          = archive.integers("probes/has_left");
+    const auto &displacements = archive.numbers("probes/displacement", 3 * dim);
     AssertThrow(ids.size() == probes.size(),
                 ExcMessage("The archive is of other probes."));
     for (unsigned int i = 0; i < probes.size(); ++i)
       {
-        probes[i].point_id = ids[i];
-        std::copy_n(displacements.begin() + i * dim,
-                    dim,
-                    probes[i].displacement.begin_raw());
+        Probe &probe   = probes[i];
+        probe.point_id = ids[i];
+        probe.has_left = left[i] != 0;
+        auto from      = displacements.begin() + 3 * dim * i;
+        for (Tensor<1, dim> *u :
+             {&probe.displacement, &probe.ahead, &probe.before_reset})
+          {
+            std::copy_n(from, dim, u->begin_raw());
+            from += dim;
+          }
       }
   }
 

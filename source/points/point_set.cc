@@ -312,6 +312,16 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  PointSet<dim>::reset_displacements()
+  {
+    for (unsigned int p = 0; p < n_local(); ++p)
+      u_field.store(Tensor<1, dim>(), values(p));
+  }
+
+
+
   template class PointSet<2>;
   template class PointSet<3>;
 } // namespace moraine

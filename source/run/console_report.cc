@@ -96,20 +96,35 @@ namespace moraine
     describe_conditions();
     for (const std::string &note : notes)
       console << "  note        " << note << '\n';
-    console << "  steps       " << scene.time.n_steps
-            << " from t = " << scene.time.start_time << " to "
-            << scene.time.end_time;
-    if (model.motion)
-      console << ", " << scene.time.integrator.integrator << ", Courant number "
-              << std::setprecision(3) << courant_number();
-    console << "" << std::endl;
+    for (const auto &[name, stage] : scene.stages)
+      describe_stage(name, stage.time);
+    console << "" << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe_stage(const std::string    &name,
+                                     const TimeParameters &time)
+  {
+    console << (name.empty() ? "  steps       " :
+                               "  stage       " + name + ", ")
+            << std::defaultfloat << time.n_steps
+            << (name.empty() ? "" : " steps") << " from t = " << time.start_time
+            << " to " << time.end_time;
+    if (time.integrator.dynamic())
+      console << ", " << time.integrator.integrator << ", Courant number "
+              << std::setprecision(3) << courant_number(time)
+              << std::setprecision(8);
+    console << '\n';
   }
 
 
 
   template <int dim>
   double
-  ConsoleReport<dim>::courant_number() const
+  ConsoleReport<dim>::courant_number(const TimeParameters &time) const
   {
     double speed = 0;
     for (const auto &material : model.materials)
@@ -119,9 +134,8 @@ namespace moraine
           std::max(speed,
                    std::sqrt((C.lambda + 2 * C.mu) / material->density()));
       }
-    const double size = scene.time.largest_step *
-                        (scene.time.end_time - scene.time.start_time) /
-                        scene.time.n_steps;
+    const double size =
+      time.largest_step * (time.end_time - time.start_time) / time.n_steps;
     return speed * size / model.mesh->cell_size();
   }
 
@@ -240,8 +254,8 @@ namespace moraine
   std::string
   ConsoleReport<dim>::time_left(const double t) const
   {
-    const double done = (t - scene.time.start_time) /
-                        (scene.time.end_time - scene.time.start_time);
+    const double done =
+      (t - scene.start_time()) / (scene.end_time() - scene.start_time());
     if (!(done > 0))
       return "";
     const double       seconds = since_start.wall_time() * (1 - done) / done;

@@ -23,6 +23,14 @@ namespace moraine
 
   namespace
   {
+    bool
+    has(const std::vector<std::string> &names, const std::string &name)
+    {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+
+
     /**
      * A motion without a value at the end of a step is found here, before
      * anything is computed or written; so are conditions that contradict each
@@ -30,17 +38,19 @@ namespace moraine
      */
     template <int dim>
     void
-    check_prescribed_motion(const Scene<dim> &scene, Model<dim> &model)
+    check_prescribed_motion(const StageParameters &stage, Model<dim> &model)
     {
-      const double size =
-        (scene.time.end_time - scene.time.start_time) / scene.time.n_steps;
-      for (unsigned int step = 0; step <= scene.time.n_steps; ++step)
-        model.system->check_values(scene.time.start_time + step * size);
-      check_agreement(model.grid_conditions,
-                      *model.space,
-                      scene.time.start_time,
-                      scene.time.end_time,
-                      scene.time.n_steps);
+      const TimeParameters &time = stage.time;
+      const double size = (time.end_time - time.start_time) / time.n_steps;
+      for (unsigned int step = 0; step <= time.n_steps; ++step)
+        model.system->check_values(time.start_time + step * size);
+      std::vector<GridCondition<dim>> active;
+      for (const auto &condition : model.grid_conditions)
+        if (has(stage.grid_conditions, condition.name) &&
+            !has(stage.absorbing, condition.name))
+          active.push_back(condition);
+      check_agreement(
+        active, *model.space, time.start_time, time.end_time, time.n_steps);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
@@ -162,12 +172,11 @@ namespace moraine
      * means of points around a node that is held need not be held as well. */
     template <int dim>
     void
-    check_initial_velocity(const Scene<dim> &scene, Model<dim> &model)
+    check_initial_velocity(const TimeParameters &time, Model<dim> &model)
     {
       const double allowed =
         model.state->mesh_after_step() == MeshAfterStep::reset ? 0.25 : 1e-6;
       const std::vector<Tensor<1, dim>> given = model.motion->velocities();
-      const TimeParameters             &time  = scene.time;
       model.system->set_target(
         time.start_time +
         time.largest_step * (time.end_time - time.start_time) / time.n_steps);
@@ -201,14 +210,12 @@ namespace moraine
 
 
 
-    /** From the balance of momentum: what no force changes yet stays. */
+    /** Accelerations from the balance of momentum, in a step that has begun.
+     */
     template <int dim>
     void
-    find_first_accelerations(const Scene<dim> &scene, Model<dim> &model)
+    find_accelerations(Model<dim> &model)
     {
-      model.motion->start(initial_velocity(scene, model.body_names));
-      model.motion->begin_step();
-      check_initial_velocity(scene, model);
       const LA::Vector forces = model.system->forces_and_mass();
       LA::Vector       a      = model.space->vector();
       model.linear_solver->set_up(model.system->tangent(), true, {});
@@ -219,6 +226,65 @@ namespace moraine
       model.motion->set_accelerations(a);
       model.linear_solver->clear();
     }
+
+
+
+    /** Set in motion what was at rest, by the initial velocities of bodies if
+     * this is the first stage with inertia. */
+    template <int dim>
+    void
+    start_motion(const Scene<dim>      &scene,
+                 const StageParameters &stage,
+                 Model<dim>            &model)
+    {
+      if (&stage == &scene.first_dynamic_stage())
+        model.motion->start(initial_velocity(scene, model.body_names));
+      else
+        model.motion->start([](const unsigned int, const Point<dim> &) {
+          return Tensor<1, dim>();
+        });
+      model.motion->begin_step();
+      check_initial_velocity(stage.time, model);
+      find_accelerations(model);
+    }
+
+
+
+    template <int dim>
+    void
+    check_that_it_is_held(const double t, Model<dim> &model)
+    {
+      model.system->set_target(t);
+      model.system->assemble(model.space->vector(), true);
+      model.system->check_that_it_is_held(true);
+    }
+
+
+
+    /** That boundaries which act are on material. */
+    template <int dim>
+    void
+    check_places_of_boundaries(const StageParameters &stage,
+                               const Model<dim>      &model)
+    {
+      const MPI_Comm communicator = model.space->communicator();
+      for (const auto &boundary : model.boundaries)
+        if (has(stage.boundaries, boundary.name()) &&
+            !has(stage.absorbing, boundary.name()) &&
+            boundary.n_points(communicator) == 0)
+          throw InputError("section 'Boundaries/" + boundary.name() +
+                           "': found a surface that touches no body, allowed: "
+                           "a surface on or in a body");
+      for (const auto &boundary : model.absorbing_boundaries)
+        if (boundary.has_cells() && boundary.n_on_material() == 0)
+          throw InputError(
+            "section '" +
+            (boundary.is_on_side() ? std::string("Grid conditions/") :
+                                     std::string("Boundaries/")) +
+            boundary.name() + "': found a " +
+            (boundary.is_on_side() ? "side" : "surface") +
+            " that touches no body, allowed: one on or in a body");
+    }
   } // namespace
 
 
@@ -227,25 +293,12 @@ namespace moraine
   std::vector<std::string>
   begin_first_step(const Scene<dim> &scene, Model<dim> &model)
   {
-    MechanicsSystem<dim> &system = *model.system;
-    system.begin_step(scene.time.start_time);
-    const MPI_Comm communicator = model.space->communicator();
-    for (const auto &boundary : model.boundaries)
-      if (boundary.n_points(communicator) == 0)
-        throw InputError("section 'Boundaries/" + boundary.name() +
-                         "': found a surface that touches no body, allowed: a "
-                         "surface on or in a body");
-    for (const auto &boundary : model.absorbing_boundaries)
-      if (boundary.n_on_material() == 0)
-        throw InputError("section '" +
-                         (boundary.is_on_side() ?
-                            std::string("Grid conditions/") :
-                            std::string("Boundaries/")) +
-                         boundary.name() + "': found a " +
-                         (boundary.is_on_side() ? "side" : "surface") +
-                         " that touches no body, allowed: one on or in a body");
+    const StageParameters &stage  = scene.stages.front().second;
+    MechanicsSystem<dim>  &system = *model.system;
+    system.begin_step(scene.start_time());
+    check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
-    check_prescribed_motion(scene, model);
+    check_prescribed_motion(stage, model);
     check_loads(model);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(model, notes);
@@ -253,20 +306,67 @@ namespace moraine
       grid_evaluation<dim>(*model.space, model.state->nodal_increments()));
     const ExactSolution<dim> exact = scene.exact.solution();
     if (exact.displacement || exact.stress)
-      error_norms(*model.points, exact, scene.time.end_time, false);
-    if (model.motion)
-      {
-        find_first_accelerations(scene, model);
-        return notes;
-      }
-    system.set_target(scene.time.start_time);
-    system.assemble(model.space->vector(), true);
-    system.check_that_it_is_held(true);
+      error_norms(*model.points, exact, scene.end_time(), false);
+    if (stage.time.integrator.dynamic())
+      start_motion(scene, stage, model);
+    else
+      check_that_it_is_held(scene.start_time(), model);
     return notes;
   }
 
 
 
+  template <int dim>
+  std::vector<std::string>
+  begin_stage(const Scene<dim> &scene, const unsigned int k, Model<dim> &model)
+  {
+    const StageParameters &stage  = scene.stages[k].second,
+                          &before = scene.stages[k - 1].second;
+    const double          t       = stage.time.start_time;
+    MechanicsSystem<dim> &system  = *model.system;
+    // What absorbs from now on holds what it held so far.
+    system.begin_step(t);
+    std::vector<std::pair<std::string, LA::Vector>> held;
+    for (const std::string &name : stage.absorbing)
+      if (!has(before.absorbing, name))
+        held.emplace_back(name, system.constraint_forces(name));
+
+    model.linear_solver->clear();
+    model.set_stage(scene, k);
+    system.begin_step(t);
+    std::vector<std::string> notes;
+    for (const auto &[name, forces] : held)
+      {
+        const double missed = system.hold(name, forces);
+        if (missed > 0.01)
+          notes.push_back(name + ": " +
+                          std::to_string(std::lround(100 * missed)) +
+                          " % of the forces that it held are no traction on "
+                          "it, and end");
+      }
+    if (!held.empty())
+      system.begin_step(t); // with what is held among the forces at its start
+    if (stage.reset_displacements)
+      {
+        model.probes->reset_displacements(*model.points);
+        model.points->reset_displacements();
+      }
+    check_places_of_boundaries(stage, model);
+    check_prescribed_motion(stage, model);
+    const bool dynamic = stage.time.integrator.dynamic();
+    if (dynamic && !before.time.integrator.dynamic())
+      start_motion(scene, stage, model);
+    else if (!dynamic)
+      check_that_it_is_held(t, model);
+    return notes;
+  }
+
+
+
+  template std::vector<std::string>
+  begin_stage(const Scene<2> &, const unsigned int, Model<2> &);
+  template std::vector<std::string>
+  begin_stage(const Scene<3> &, const unsigned int, Model<3> &);
   template std::vector<std::string>
   begin_first_step(const Scene<2> &, Model<2> &);
   template std::vector<std::string>

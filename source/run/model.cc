@@ -91,7 +91,7 @@ namespace moraine
     velocity_transfer(const Scene<dim> &scene)
     {
       return scene.method.after_step() == MeshAfterStep::reset ?
-               VelocityTransfer(scene.time.integrator) :
+               VelocityTransfer(scene.first_dynamic_stage().time.integrator) :
                VelocityTransfer();
     }
   } // namespace
@@ -123,45 +123,91 @@ namespace moraine
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);
     absorbing_boundaries = make_absorbing_boundaries(scene, *mesh);
-    const bool dynamic   = scene.time.integrator.dynamic();
-    Terms<dim> terms =
-      make_terms(boundaries,
-                 grid_conditions,
-                 loads,
-                 scene.method.fictitious_stiffness,
-                 dynamic,
-                 TimeIntegrator(scene.time.integrator).forces_in_the_middle(),
-                 scene.method.chosen().make_internal_force(*space, *points));
-    const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
-    if (std::any_of(damping.begin(), damping.end(), [](const auto &factors) {
-          return factors.damps();
-        }))
-      terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
+    if (scene.is_dynamic())
+      {
+        const auto &integrator = scene.first_dynamic_stage().time.integrator;
+        motion                 = std::make_unique<Motion<dim>>(*state,
+                                               *points,
+                                               TimeIntegrator(integrator),
+                                               velocity_transfer(scene),
+                                               integrator.mass == "lumped");
+      }
     system = std::make_unique<MechanicsSystem<dim>>(*state,
-                                                    std::move(terms),
+                                                    Terms<dim>(),
                                                     body_names,
                                                     &timer);
-    for (auto &boundary : absorbing_boundaries)
-      system->add(std::make_unique<AbsorbingTerm<dim>>(boundary));
-    if (dynamic)
-      {
-        motion =
-          std::make_unique<Motion<dim>>(*state,
-                                        *points,
-                                        TimeIntegrator(scene.time.integrator),
-                                        velocity_transfer(scene),
-                                        scene.time.integrator.mass == "lumped");
-        system->set_motion(*motion);
-      }
+    set_stage(scene, 0);
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
       {
-        check_mesh_motion(mesh_motion, scene.time, *mesh, grid_conditions);
+        for (const auto &[name, stage] : scene.stages)
+          check_mesh_motion(mesh_motion, stage.time, *mesh, grid_conditions);
         system->move_mesh_by(mesh_motion, *mesh);
       }
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
     probes        = std::make_unique<Probes<dim>>(
       scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
+  }
+
+
+
+  template <int dim>
+  Terms<dim>
+  Model<dim>::terms_of(const Scene<dim> &scene, const StageParameters &stage)
+  {
+    const auto has = [](const std::vector<std::string> &names,
+                        const std::string              &name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const auto active = [&](const std::string &section,
+                            const std::string &name) {
+      if (section == "Loads")
+        return has(stage.loads, name);
+      return !has(stage.absorbing, name) &&
+             has(section == "Boundaries" ? stage.boundaries :
+                                           stage.grid_conditions,
+                 name);
+    };
+    const IntegratorParameters &integrator = stage.time.integrator;
+    Terms<dim>                  terms =
+      make_terms(boundaries,
+                 grid_conditions,
+                 loads,
+                 scene.method.fictitious_stiffness,
+                 integrator.dynamic(),
+                 TimeIntegrator(integrator).forces_in_the_middle(),
+                 scene.method.chosen().make_internal_force(*space, *points),
+                 active);
+    const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
+    if (integrator.dynamic() &&
+        std::any_of(damping.begin(), damping.end(), [](const auto &factors) {
+          return factors.damps();
+        }))
+      terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
+    for (auto &boundary : absorbing_boundaries)
+      {
+        const std::string &name = boundary.name();
+        const bool         acts =
+          has(boundary.is_on_side() ? stage.grid_conditions : stage.boundaries,
+              name);
+        if (acts && (has(stage.absorbing, name) || !scene.absorbs_later(name)))
+          terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
+      }
+    return terms;
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::set_stage(const Scene<dim> &scene, const unsigned int k)
+  {
+    const StageParameters &stage = scene.stages[k].second;
+    system->set_terms(terms_of(scene, stage));
+    const bool dynamic = stage.time.integrator.dynamic();
+    if (dynamic)
+      motion->set_integrator(TimeIntegrator(stage.time.integrator));
+    system->set_motion(dynamic ? motion.get() : nullptr);
   }
 
 
@@ -180,7 +226,7 @@ namespace moraine
     PointFields fields;
     method.request_fields(parameters, fields);
     StateFields<dim>(fields, parameters.strain_measure(), materials);
-    if (scene.time.integrator.dynamic())
+    if (scene.is_dynamic())
       Motion<dim>::request_fields(velocity_transfer(scene), fields);
     request_columns(bodies, fields);
     points       = std::make_unique<PointSet<dim>>(*mesh, fields);

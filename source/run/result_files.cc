@@ -71,8 +71,8 @@ namespace moraine
     , history(directory.file("history.csv"), communicator)
     , points_pvd(directory.file("points.pvd"), communicator)
     , mesh_pvd(directory.file("mesh.pvd"), communicator)
-    , t_written(scene.time.start_time)
-    , t_accepted(scene.time.start_time)
+    , t_written(scene.start_time())
+    , t_accepted(scene.start_time())
   {}
 
 
@@ -139,20 +139,12 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<NamedValue>
-  ResultFiles<dim>::row_of(const AcceptedStep<dim> &step) const
+  void
+  ResultFiles<dim>::add_moments(const std::vector<BoundaryReport<dim>> &reports,
+                                std::vector<NamedValue> &row) const
   {
-    const auto             &reports    = step.reports;
-    const auto             &boundaries = model.boundaries;
-    std::vector<NamedValue> row;
-    row.push_back({"t", "-", step.time.time()});
-    for (const auto &report : reports)
-      for (unsigned int d = 0; d < dim; ++d)
-        row.push_back(
-          {std::string("reaction_") + "xyz"[d] + " of " + report.name,
-           "force",
-           report.reaction[d]});
     // Those of absorbing boundaries, which do not turn, follow.
+    const auto &boundaries = model.boundaries;
     for (unsigned int b = 0;
          b < boundaries.size() + model.grid_conditions.size();
          ++b)
@@ -169,7 +161,39 @@ namespace moraine
                        "force",
                        reports[b].force_magnitude});
       }
-    for (unsigned int b = 0; b < boundaries.size(); ++b)
+  }
+
+
+
+  template <int dim>
+  std::vector<NamedValue>
+  ResultFiles<dim>::row_of(const AcceptedStep<dim> &step) const
+  {
+    std::vector<NamedValue> row;
+    row.push_back({"t", "-", step.time.time()});
+    // What does not act in a stage has columns, too, of zeros.
+    std::vector<BoundaryReport<dim>> reports;
+    const auto                       add = [&](const std::string &name) {
+      for (const auto &report : step.reports)
+        if (report.name == name)
+          return reports.push_back(report);
+      reports.push_back({name, {}, 0., 0., 0., 0.});
+    };
+    for (const auto &boundary : model.boundaries)
+      add(boundary.name());
+    for (const auto &condition : model.grid_conditions)
+      add(condition.name);
+    for (const auto &boundary : model.absorbing_boundaries)
+      if (!scene.absorbs_later(boundary.name()))
+        add(boundary.name());
+    for (const auto &report : reports)
+      for (unsigned int d = 0; d < dim; ++d)
+        row.push_back(
+          {std::string("reaction_") + "xyz"[d] + " of " + report.name,
+           "force",
+           report.reaction[d]});
+    add_moments(reports, row);
+    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
       {
         row.push_back(
           {"violation of " + reports[b].name, "length", reports[b].violation});

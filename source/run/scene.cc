@@ -8,6 +8,7 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/patterns.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace moraine
@@ -301,6 +302,18 @@ namespace moraine
 
 
 
+    template <class List>
+    std::vector<std::string>
+    names_of(const List &list)
+    {
+      std::vector<std::string> names;
+      for (const auto &[name, parameters] : list)
+        names.push_back(name);
+      return names;
+    }
+
+
+
     template <class List, class Declare>
     void
     in_subsections(ParameterHandler  &prm,
@@ -334,6 +347,7 @@ namespace moraine
         probes.emplace_back();
         probes.back().name = name;
       }
+    take_names(input, "Stages", stages);
     take_names(input, "Study/Series", series);
     declare();
     refuse_old_names(input);
@@ -341,7 +355,45 @@ namespace moraine
     locate_files(input);
     if (method.strain_measure() == StrainMeasure::finite)
       choose_enforcement(input);
+    complete_stages(input,
+                    time,
+                    {names_of(boundaries),
+                     names_of(grid_conditions),
+                     names_of(loads)},
+                    stages);
     check(input, given);
+  }
+
+
+
+  template <int dim>
+  const StageParameters &
+  Scene<dim>::first_dynamic_stage() const
+  {
+    for (const auto &[name, stage] : stages)
+      if (stage.time.integrator.dynamic())
+        return stage;
+    return stages.front().second;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::is_dynamic() const
+  {
+    return first_dynamic_stage().time.integrator.dynamic();
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::absorbs_later(const std::string &name) const
+  {
+    // What absorbs once does so to the end.
+    const auto &names = stages.back().second.absorbing;
+    return std::find(names.begin(), names.end(), name) != names.end();
   }
 
 
@@ -403,6 +455,7 @@ namespace moraine
     boundaries.emplace_back(name, BoundaryParameters<dim>());
     grid_conditions.emplace_back(name, GridConditionParameters<dim>());
     loads.emplace_back(name, LoadParameters<dim>());
+    stages.emplace_back(name, StageParameters());
     probes.emplace_back();
     probes.back().name = name;
     series.emplace_back(name, std::string());
@@ -438,6 +491,7 @@ namespace moraine
     in_subsections(prm, "Loads", loads, add_all);
     section("Mesh motion", mesh_motion);
     section("Time", time);
+    in_subsections(prm, "Stages", stages, add_all);
     prm.enter_subsection("Solver");
     newton.add_parameters(prm);
     linear_solver.add_parameters(prm);

@@ -100,8 +100,7 @@ namespace moraine
       for (const auto &[name, parameters] : scene.bodies)
         if (name == body.name)
           factors.push_back(
-            parameters.damping.factors("Bodies/" + name,
-                                       !scene.time.integrator.dynamic()));
+            parameters.damping.factors("Bodies/" + name, !scene.is_dynamic()));
     return factors;
   }
 

@@ -51,7 +51,7 @@ namespace moraine
         return chosen.integrator == "Newmark";
       if (key == "Spectral radius")
         return chosen.integrator == "generalised-alpha";
-      if (is_one_of(key, {"Mass", "Velocity transfer"}))
+      if (is_one_of(key, {"Mass", "Velocity transfer", "Error tolerance"}))
         return chosen.dynamic();
       if (key == "FLIP share")
         return chosen.dynamic() && chosen.transfer == "blend";
@@ -62,22 +62,25 @@ namespace moraine
 
 
 
-    /** Keys that an integrator does not look at. */
+    /** Keys that the integrator of a stage does not look at. */
     template <int dim>
     void
     check_integrator(const Scene<dim>                    &scene,
+                     const std::string                   &section,
+                     const IntegratorParameters          &chosen,
                      const std::vector<InputFile::Entry> &given)
     {
-      const IntegratorParameters &chosen = scene.time.integrator;
       if (chosen.integrator == "energy-momentum" &&
           scene.method.chosen().has_own_internal_force)
-        reject("Time",
+        reject(section,
                "Integrator",
                chosen.integrator,
                "another one with method '" + scene.method.method + "'");
       for (const auto &entry : given)
         {
-          if (entry.section == "Time" && !integrator_uses(chosen, entry.key))
+          if (entry.section != section)
+            continue;
+          if (!integrator_uses(chosen, entry.key))
             reject(entry.section,
                    entry.key,
                    entry.value,
@@ -85,27 +88,54 @@ namespace moraine
                      (chosen.dynamic() ?
                         ", 'Velocity transfer = " + chosen.transfer + "'" :
                         ""));
-          if (entry.section == "Time" && entry.key == "Velocity transfer" &&
+          if (entry.key == "Velocity transfer" &&
               scene.method.after_step() != MeshAfterStep::reset)
             reject(entry.section,
                    entry.key,
                    entry.value,
                    "nothing where nodes stay with the material, as with method "
                    "'finite element'; they keep their velocity");
-          if (entry.key == "Initial velocity" && !chosen.dynamic())
+        }
+      const IntegratorParameters &first =
+        scene.first_dynamic_stage().time.integrator;
+      if (chosen.dynamic() &&
+          (chosen.transfer != first.transfer || chosen.mass != first.mass))
+        reject(section,
+               chosen.mass != first.mass ? "Mass" : "Velocity transfer",
+               chosen.mass != first.mass ? chosen.mass : chosen.transfer,
+               (chosen.mass != first.mass ? first.mass : first.transfer) +
+                 ", as in the first stage with inertia");
+    }
+
+
+
+    /** What only scenes with or without inertia may say. */
+    template <int dim>
+    void
+    check_dynamics(const Scene<dim>                    &scene,
+                   const std::vector<InputFile::Entry> &given)
+    {
+      for (const auto &[name, stage] : scene.stages)
+        check_integrator(scene,
+                         time_section(name),
+                         stage.time.integrator,
+                         given);
+      for (const auto &entry : given)
+        {
+          if (entry.key == "Initial velocity" && !scene.is_dynamic())
             reject(entry.section,
                    entry.key,
                    entry.value,
                    "nothing in a quasi-static scene; 'Integrator = Newmark' in "
                    "section 'Time' makes it dynamic");
           if (entry.section == "Solver" && entry.key == "Limit points" &&
-              entry.value == "pseudo-transient" && chosen.dynamic())
+              entry.value == "pseudo-transient" && scene.is_dynamic())
             reject(entry.section,
                    entry.key,
                    entry.value,
                    "stop; a dynamic scene passes limit points by inertia");
         }
-      if (chosen.dynamic())
+      if (scene.is_dynamic())
         for (const auto &[name, material] : scene.materials)
           if (!(make_material(material, "Materials/" + name)->density() > 0))
             throw InputError("section 'Materials/" + name +
@@ -139,21 +169,22 @@ namespace moraine
     check_absorbing(const std::string                   &section,
                     const std::string                   &constraint,
                     const AbsorbingParameters           &parameters,
-                    const IntegratorParameters          &integrator,
+                    const bool                           dynamic,
+                    const bool                           later,
                     const std::vector<InputFile::Entry> &given)
     {
       const bool absorbs = constraint == "absorbing";
       for (const auto &entry : given)
         if (entry.section == section &&
             (absorbs ? is_of_motion(entry.key) :
-                       AbsorbingParameters::has(entry.key)))
+                       !later && AbsorbingParameters::has(entry.key)))
           reject(section,
                  entry.key,
                  entry.value,
                  "nothing; key 'Constraint' is '" + constraint + "'");
-      if (!absorbs)
+      if (!absorbs && !later)
         return;
-      if (!integrator.dynamic())
+      if (!dynamic)
         reject(section,
                "Constraint",
                constraint,
@@ -180,8 +211,7 @@ namespace moraine
       for (const char *key : {"Lower corner", "Upper corner"})
         input.require("Mesh", key);
     mesh.check();
-    time.check();
-    check_integrator(*this, given);
+    check_dynamics(*this, given);
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
       reject("Mesh motion",
              "Stretch between",
@@ -239,7 +269,8 @@ namespace moraine
         check_absorbing(section,
                         boundary.constraint,
                         boundary.absorbing,
-                        time.integrator,
+                        is_dynamic(),
+                        absorbs_later(name),
                         given);
       }
     for (const auto &[name, condition] : grid_conditions)
@@ -248,9 +279,10 @@ namespace moraine
         check_absorbing(section,
                         condition.constraint,
                         condition.absorbing,
-                        time.integrator,
+                        is_dynamic(),
+                        absorbs_later(name),
                         given);
-        if (condition.constraint != "absorbing")
+        if (condition.constraint != "absorbing" && !absorbs_later(name))
           continue;
         if (condition.side.empty())
           throw InputError(place(section, "Side") +
@@ -295,7 +327,7 @@ namespace moraine
     for (const auto &[name, body] : bodies)
       {
         const std::string section = "Bodies/" + name;
-        body.damping.factors(section, !time.integrator.dynamic());
+        body.damping.factors(section, !is_dynamic());
         if (!body.point_grid.empty() &&
             (body.shape.kind() != "box" || body.point_grid.size() != dim))
           reject(section,

@@ -204,7 +204,7 @@ namespace moraine
     const NamedShapes<dim>              shapes = body_shapes(scene);
     std::vector<AbsorbingBoundary<dim>> absorbing;
     for (const auto &[name, parameters] : scene.boundaries)
-      if (parameters.constraint == "absorbing")
+      if (parameters.constraint == "absorbing" || scene.absorbs_later(name))
         {
           const std::string section = "Boundaries/" + name;
           absorbing.emplace_back(
@@ -216,7 +216,7 @@ namespace moraine
             false);
         }
     for (const auto &[name, parameters] : scene.grid_conditions)
-      if (parameters.constraint == "absorbing")
+      if (parameters.constraint == "absorbing" || scene.absorbs_later(name))
         {
           const std::string section = "Grid conditions/" + name;
           auto              places  = places_on_side(
@@ -411,7 +411,7 @@ namespace moraine
              "Stretch between",
              parameters.stretch[0] + ", " + parameters.stretch[1],
              "boundaries whose middles are apart");
-    return MeshMotion<dim>(A, B, scene.time.start_time);
+    return MeshMotion<dim>(A, B, scene.start_time());
   }
 
 
@@ -506,8 +506,8 @@ namespace moraine
           of_bodies.push_back(vector_function<dim>(body.initial_velocity,
                                                    place("Bodies/" + section,
                                                          "Initial velocity")));
-    return [of_bodies, t = scene.time.start_time](const unsigned int body,
-                                                  const Point<dim>  &x) {
+    return [of_bodies, t = scene.start_time()](const unsigned int body,
+                                               const Point<dim>  &x) {
       return of_bodies[body](x, t);
     };
   }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -38,6 +39,15 @@ namespace moraine
     /** A boundary that the material misses by more than both is told of. */
     constexpr double told_share_of_motion = 0.02;
     constexpr double told_share_of_cell   = 1e-3;
+
+    std::vector<TimeParameters>
+    times_of(const NamedStages &stages)
+    {
+      std::vector<TimeParameters> times;
+      for (const auto &[name, stage] : stages)
+        times.push_back(stage.time);
+      return times;
+    }
   } // namespace
 
 
@@ -46,13 +56,13 @@ namespace moraine
   StepDriver<dim>::StepDriver(const Scene<dim>                      &scene,
                               Model<dim>                            &model,
                               const std::vector<RunObserver<dim> *> &observers)
-    : newton_parameters(scene.newton)
+    : scene(scene)
     , method(scene.method)
     , model(model)
     , observers(observers)
     , communicator(model.space->communicator())
     , newton(scene.newton)
-    , time_control(scene.time)
+    , time_control(times_of(scene.stages))
   {
     if (model.mesh_motion.moves())
       lasting.add(*model.mesh);
@@ -104,7 +114,9 @@ namespace moraine
   void
   StepDriver<dim>::advance()
   {
-    if (!first_step)
+    if (time_control.stage() != stage)
+      begin_next_stage();
+    else if (!first_step)
       model.system->begin_step(time_control.time(),
                                [this]() { model.linear_solver->clear(); });
     check_separation();
@@ -126,6 +138,42 @@ namespace moraine
         ++n_rejections;
         reject(report, reason, n_rejections);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::begin_next_stage()
+  {
+    ++stage;
+    const auto &[name, parameters] = scene.stages[stage];
+    std::ostringstream text;
+    text << "stage " << name << ", " << parameters.time.integrator.integrator
+         << ", from t = " << parameters.time.start_time << " to "
+         << parameters.time.end_time;
+    tell(text.str());
+    const auto notes = begin_stage(scene, stage, model);
+    if (support)
+      add_support(accepted_fraction);
+    for (const std::string &note : notes)
+      tell(note);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::add_support(const double fraction)
+  {
+    MechanicsSystem<dim> &system = *model.system;
+    auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
+    term->begin_step(system.step_context());
+    support = nullptr;
+    if (!term->any_empty_part(system.step_context()))
+      return;
+    support = term.get();
+    system.add(std::move(term));
   }
 
 
@@ -163,7 +211,7 @@ namespace moraine
   {
     return !report.converged() && !time_control.can_cut() &&
            report.status != NewtonStatus::linear_solver_failed &&
-           newton_parameters.limit_points == "pseudo-transient";
+           scene.newton.limit_points == "pseudo-transient";
   }
 
 
@@ -214,10 +262,11 @@ namespace moraine
     model.probes->try_step(grid_evaluation<dim>(*model.space, increments),
                            *model.points);
     const double t_start = time_control.time();
+    const double growth  = allowed_growth(x);
     lasting.keep([&]() {
       last_reports = model.system->accept(x);
       model.probes->keep_step();
-      time_control.accept(report.iterations);
+      time_control.accept(report.iterations, growth);
     });
     first_step = false;
     if (support)
@@ -270,7 +319,7 @@ namespace moraine
       report.status == NewtonStatus::too_many_iterations;
     throw ComputationError(
       time_control.message() +
-      (newton_parameters.limit_points == "stop" && path_may_end ?
+      (scene.newton.limit_points == "stop" && path_may_end ?
          " If a path of equilibria ends here, 'Limit points = "
          "pseudo-transient' in section 'Solver' looks for one beyond." :
          ""));
@@ -295,10 +344,41 @@ namespace moraine
                                                  model.system->residual());
     if (!report.converged())
       return report.message.empty() ? to_string(report.status) : report.message;
+    const double tolerance = scene.stages[stage].second.time.error_tolerance;
+    if (tolerance > 0 && error_of_step(x) > tolerance)
+      {
+        std::ostringstream text;
+        text << "its estimated error is " << error_of_step(x)
+             << " of a cell, more than Error tolerance = " << tolerance;
+        return text.str();
+      }
     if (support && model.system->share_of_stabilisation() > largest_empty_share)
       return "what points leave empty would carry the load: too few points in "
              "the cells, or a body that is not held";
     return model.system->reason_to_reject(x);
+  }
+
+
+
+  template <int dim>
+  double
+  StepDriver<dim>::error_of_step(const LA::Vector &x) const
+  {
+    model.state->set_trial(x);
+    return model.motion->error_of_increment() / model.mesh->cell_size();
+  }
+
+
+
+  template <int dim>
+  double
+  StepDriver<dim>::allowed_growth(const LA::Vector &x) const
+  {
+    // The error goes with the cube of the size.
+    constexpr double margin = 0.9;
+    const double tolerance  = scene.stages[stage].second.time.error_tolerance;
+    return tolerance > 0 ? margin * std::cbrt(tolerance / error_of_step(x)) :
+                           std::numeric_limits<double>::infinity();
   }
 
 
@@ -332,12 +412,9 @@ namespace moraine
         system.initial_guess(x);
         system.assemble(x, true);
         system.check_that_it_is_held(false);
-        auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
-        term->begin_step(system.step_context());
-        if (!term->any_empty_part(system.step_context()))
+        add_support(fraction);
+        if (!support)
           return false;
-        support = term.get();
-        system.add(std::move(term));
       }
     ++sums.n_fictitious_stiffness;
     std::ostringstream text;

@@ -120,6 +120,13 @@ namespace moraine
                   V -= block.N(p)[k] * known->v[block.nodes[k]];
                   A -= block.N(p)[k] * known->a[block.nodes[k]];
                 }
+            // The mean place of what nodes see of the point: with it the
+            // gradient gives no momentum.
+            Point<dim> centre;
+            if (gradient_field.exists())
+              for (unsigned int k = 0; k < block.n_nodes; ++k)
+                centre += block.N(p)[k] *
+                          Tensor<1, dim>(space.node_position(block.nodes[k]));
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 const unsigned int node  = block.nodes[k];
@@ -129,9 +136,8 @@ namespace moraine
                 sums.a[node] += share * A;
                 if (gradient_field.exists())
                   sums.v[node] +=
-                    share *
-                    (gradient_field(values) *
-                     (space.node_position(node) - points.position(point)));
+                    share * (gradient_field(values) *
+                             (space.node_position(node) - centre));
               }
           }
       }
@@ -158,10 +164,12 @@ namespace moraine
     const std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)>
       &velocity)
   {
+    done = Works();
     if (!points_carry())
       {
         // A node of several bodies has the velocity of one of them.
-        v.resize(state.grid().n_nodes());
+        v.assign(state.grid().n_nodes(), Tensor<1, dim>());
+        a.assign(state.grid().n_nodes(), Tensor<1, dim>());
         const Basis<dim>          &basis = state.point_basis();
         std::vector<unsigned char> known(v.size(), 0);
         StencilBlock<dim>          block;
@@ -189,6 +197,7 @@ namespace moraine
         const Point<dim> x      = points.position(p);
         double          *values = points.values(p);
         v_field.store(at(x), values);
+        a_field.store(Tensor<1, dim>(), values);
         if (!gradient_field.exists())
           continue;
         Tensor<2, dim> gradient;
@@ -405,6 +414,23 @@ namespace moraine
 
 
   template <int dim>
+  double
+  Motion<dim>::error_of_increment() const
+  {
+    Nodal change = at_end();
+    for (unsigned int k = 0; k < a.size(); ++k)
+      change.a[k] -= a[k];
+    Tensor<1, dim> unit;
+    unit[0] = 1;
+    const NodeValues ones(a.size(), unit);
+    const auto [squares, mass] =
+      mass_products<2>({{{&change.a, &change.a}, {&ones, &ones}}});
+    return rule.error_of_increment(step_size) * std::sqrt(squares / mass);
+  }
+
+
+
+  template <int dim>
   void
   Motion<dim>::StepWorks::sum_over_ranks(const MPI_Comm &communicator)
   {
@@ -552,7 +578,8 @@ namespace moraine
             for (unsigned int p = 0; p < block.n_points; ++p)
               {
                 Tensor<1, dim> of_point;
-                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                // Before the first stage with inertia all is at rest.
+                for (unsigned int k = 0; k < block.n_nodes && !v.empty(); ++k)
                   of_point += block.N(p)[k] * v[block.nodes[k]];
                 add(block.points[p], of_point);
               }

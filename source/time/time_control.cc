@@ -42,38 +42,76 @@ namespace moraine
 
 
 
+  TimeControl::TimeControl(const std::vector<TimeParameters> &stages,
+                           const std::vector<double>         &asked)
+    : stages(stages)
+    , current(stages.front().start_time)
+    , trial(current)
+  {
+    for (unsigned int stage = 0; stage < stages.size(); ++stage)
+      {
+        stages[stage].check();
+        Assert(stage == 0 ||
+                 stages[stage].start_time == stages[stage - 1].end_time,
+               ExcMessage("A stage starts where the one before ends."));
+        add_stops(stage, asked);
+      }
+    size = accepted_size = one_step() * parameters().largest_step;
+  }
+
+
+
   TimeControl::TimeControl(const TimeParameters      &parameters,
                            const std::vector<double> &asked)
-    : parameters(parameters)
-    , one_step((parameters.end_time - parameters.start_time) /
-               parameters.n_steps)
-    , current(parameters.start_time)
-    , trial(parameters.start_time)
-    , size(one_step * parameters.largest_step)
-    , accepted_size(size)
-  {
-    parameters.check();
-    for (unsigned int k = 1; k < parameters.n_steps; ++k)
-      stops.push_back(
-        {parameters.start_time + (parameters.end_time - parameters.start_time) *
-                                   k / parameters.n_steps,
-         true});
-    stops.push_back({parameters.end_time, true});
+    : TimeControl(std::vector<TimeParameters>{parameters}, asked)
+  {}
 
+
+
+  void
+  TimeControl::add_stops(const unsigned int         stage,
+                         const std::vector<double> &asked)
+  {
+    const TimeParameters &times  = stages[stage];
+    const double          length = times.end_time - times.start_time;
+    const std::size_t     first  = stops.size();
+    for (unsigned int k = 1; k < times.n_steps; ++k)
+      stops.push_back(
+        {times.start_time + length * k / times.n_steps, true, stage});
+    stops.push_back({times.end_time, true, stage});
+
+    const double margin = same_time * length / times.n_steps;
     for (const double time : asked)
       {
-        const double margin = same_time * one_step;
-        const bool   known =
-          std::any_of(stops.begin(), stops.end(), [&](const Stop &stop) {
-            return std::abs(stop.time - time) <= margin;
-          });
-        if (!known && time > parameters.start_time + margin &&
-            time < parameters.end_time)
-          stops.push_back({time, false});
+        const bool known =
+          std::any_of(stops.begin() + first,
+                      stops.end(),
+                      [&](const Stop &stop) {
+                        return std::abs(stop.time - time) <= margin;
+                      });
+        if (!known && time > times.start_time + margin && time < times.end_time)
+          stops.push_back({time, false, stage});
       }
-    std::sort(stops.begin(), stops.end(), [](const Stop &a, const Stop &b) {
-      return a.time < b.time;
-    });
+    std::sort(stops.begin() + first,
+              stops.end(),
+              [](const Stop &a, const Stop &b) { return a.time < b.time; });
+  }
+
+
+
+  unsigned int
+  TimeControl::stage() const
+  {
+    return stops[std::min<std::size_t>(next_stop, stops.size() - 1)].stage;
+  }
+
+
+
+  double
+  TimeControl::one_step() const
+  {
+    const TimeParameters &times = parameters();
+    return (times.end_time - times.start_time) / times.n_steps;
   }
 
 
@@ -93,23 +131,32 @@ namespace moraine
 
 
   void
-  TimeControl::accept(const unsigned int iterations)
+  TimeControl::accept(const unsigned int iterations,
+                      const double       allowed_growth)
   {
     Assert(trial > current, ExcMessage("next() comes before accept()."));
-    current     = trial;
-    on_step_end = trial_is_stop && stops[next_stop].ends_step;
+    const double       taken  = trial - current;
+    const unsigned int before = stage();
+    current                   = trial;
+    on_step_end               = trial_is_stop && stops[next_stop].ends_step;
     if (trial_is_stop)
       ++next_stop;
     if (on_step_end)
       ++completed_steps;
     ++accepted;
-    in_a_row = rejected > rejected_before ? 1 : in_a_row + 1;
-    if (iterations <= parameters.easy_iterations || in_a_row == enough_in_a_row)
+    in_a_row             = rejected > rejected_before ? 1 : in_a_row + 1;
+    const double largest = one_step() * parameters().largest_step;
+    if (iterations <= parameters().easy_iterations ||
+        in_a_row == enough_in_a_row)
       {
-        size     = std::min(size * parameters.growth,
-                        one_step * parameters.largest_step);
+        size     = std::min(size * parameters().growth, largest);
         in_a_row = 0;
       }
+    if (allowed_growth * taken < size)
+      size = std::max(allowed_growth * taken,
+                      one_step() * parameters().smallest_step);
+    if (stage() != before)
+      size = largest;
     accepted_size   = size;
     rejected_before = rejected;
   }
@@ -160,8 +207,8 @@ namespace moraine
   bool
   TimeControl::can_cut() const
   {
-    return parameters.cut * (trial - current) >=
-           one_step * parameters.smallest_step * (1. - same_time);
+    return parameters().cut * (trial - current) >=
+           one_step() * parameters().smallest_step * (1. - same_time);
   }
 
 
@@ -172,15 +219,15 @@ namespace moraine
     Assert(trial > current, ExcMessage("next() comes before reject()."));
     ++rejected;
     const bool repeat = can_cut();
-    size              = parameters.cut * (trial - current);
+    size              = parameters().cut * (trial - current);
     text = "The step from t = " + in_words(current) + " to " + in_words(trial) +
            " failed: " + reason + ".";
     trial = current;
     if (repeat)
       return true;
     text += " A cut would go below the smallest step, " +
-            in_words(one_step * parameters.smallest_step) +
-            " (Smallest step = " + in_words(parameters.smallest_step) +
+            in_words(one_step() * parameters().smallest_step) +
+            " (Smallest step = " + in_words(parameters().smallest_step) +
             " of a step).";
     return false;
   }
@@ -291,6 +338,14 @@ namespace moraine
                       easy_iterations,
                       "a step with no more Newton iterations is easy",
                       Patterns::Integer(0));
+    prm.add_parameter(
+      "Error tolerance",
+      error_tolerance,
+      "In dynamics: largest estimated error that a step makes in the "
+      "displacement, in the mean over the mass, as a fraction of the cell "
+      "size; steps become as small as it takes, between smallest and largest. "
+      "0: no estimate",
+      patterns::non_negative());
   }
 
 

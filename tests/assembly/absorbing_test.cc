@@ -119,7 +119,7 @@ namespace
       auto of_boundary = std::make_unique<AbsorbingTerm<dim>>(boundary);
       term             = of_boundary.get();
       system.add(std::move(of_boundary));
-      system.set_motion(motion);
+      system.set_motion(&motion);
     }
 
     static Tensor<1, dim>
@@ -297,7 +297,8 @@ namespace
     box.boundary.hold(std::vector<Tensor<1, 2>>(pressure.size()));
     LA::Vector without = box.residual(space.vector());
     forces -= without;
-    EXPECT_LT(box.term->hold(context, forces), 1e-9);
+    EXPECT_LT(box.term->hold(context, "rim", forces).value(), 1e-9);
+    EXPECT_FALSE(box.term->hold(context, "another", forces).has_value());
     LA::Vector again = box.residual(space.vector());
     again -= without;
     again -= forces;
@@ -310,7 +311,7 @@ namespace
         if (space.locally_owned().is_element(space.node_dof(node)))
           elsewhere(space.node_dof(node)) = 1;
     elsewhere.compress(VectorOperation::insert);
-    EXPECT_NEAR(box.term->hold(context, elsewhere), 1., 1e-12);
+    EXPECT_NEAR(box.term->hold(context, "rim", elsewhere).value(), 1., 1e-12);
   }
 
 

@@ -364,7 +364,7 @@ namespace
           const bool lumped = measure == StrainMeasure::small;
           Motion<2>  motion(
             *box.state, box.points, integrator, VelocityTransfer(), lumped);
-          box.system->set_motion(motion);
+          box.system->set_motion(&motion);
           motion.begin_step();
           box.system->set_target(0.3);
           box.system->add(std::make_unique<RayleighDamping<2>>(

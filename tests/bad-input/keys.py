@@ -139,6 +139,41 @@ refused("velocity of a node that is held",
                   "Boundaries/left/Points": "4.5 0.5; 4.5 4.5",
                   "Bodies/block/Initial velocity": "1; 0"})
 
+# Stages.
+staged = base[:base.index("subsection Time")] + """subsection Stages
+  subsection gravity
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection later
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+"""
+refused("time beside stages", staged + "subsection Time\n  set Steps = 4\nend\n")
+refused("a stage that goes back", staged, {"Stages/later/Time/End time": 0.5})
+refused("a stage that does not follow", staged,
+        {"Stages/later/Time/Start time": 1.5})
+refused("a stage with an unknown load", staged,
+        {"Stages/later/Loads": "weigth"})
+refused("a stage with an unknown boundary", staged,
+        {"Stages/later/Boundaries": "lft"})
+refused("absorbing what is not there", staged,
+        {"Stages/later/Absorbing": "base"})
+refused("absorbing in quasi-static stages", staged,
+        {"Stages/later/Absorbing": "left"})
+refused("dynamic key in a quasi-static stage", staged,
+        {"Stages/later/Time/Spectral radius": 0.5})
+refused("error tolerance in a quasi-static scene",
+        settings={"Time/Error tolerance": 1e-4})
+refused("another mass in a later stage", staged,
+        {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
+         "Stages/later/Time/Integrator": "Newmark",
+         "Stages/later/Time/Mass": "lumped"})
+
 # Text that would take for ever, or that is no text.
 refused("two thousand million steps", settings={"Time/Steps": 2000000000})
 refused("constants that double", "subsection Constants\n  set a0 = x\n" + "".join(

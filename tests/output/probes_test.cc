@@ -113,9 +113,12 @@ namespace moraine
     probes.write(before);
     EXPECT_EQ(before.integers("probes/point")[0], 99u);
     written.write("probes/point", std::vector<unsigned int>{100, 0});
-    written.write("probes/displacement",
-                  std::vector<double>{0., 0., 0.25, -0.5},
-                  2);
+    written.write("probes/has_left", std::vector<unsigned int>{0, 0});
+    // How far they went, what is ahead of their points, and does not count.
+    written.write(
+      "probes/displacement",
+      std::vector<double>{0., 0., 0., 0., 0., 0., 0.25, -0.5, 0., 0., 0., 0.},
+      6);
     probes.read(written);
     Archive again;
     probes.write(again);

@@ -420,7 +420,14 @@ end
         names.push_back(method.name);
       }
     EXPECT_EQ(names,
-              (std::vector<std::string>{
-                "finite element", "material point", "GIMP", "CPDI1", "CPDI2"}));
+              (std::vector<std::string>{"finite element",
+                                        "material point",
+                                        "GIMP",
+                                        "CPDI1",
+                                        "CPDI2",
+                                        "DM",
+                                        "DM-G",
+                                        "DM-C",
+                                        "DM-GC"}));
   }
 } // namespace moraine

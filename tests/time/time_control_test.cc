@@ -280,3 +280,48 @@ TEST(OutputTimes, SayWhenResultsAreDue)
   EXPECT_EQ(written("all", 1).size(), 10u);
   EXPECT_EQ(written("end", 1), (std::vector<double>{1.}));
 }
+
+TEST(TimeControl, StagesFollowEachOther)
+{
+  std::vector<TimeParameters> stages{steps(2), steps(10, 2.)};
+  stages[1].start_time   = 1.;
+  stages[1].largest_step = 0.5;
+  TimeControl time(stages, {0.25, 1., 1.55});
+  EXPECT_EQ(time.stage(), 0u);
+  std::vector<double> times;
+  for (; time.time() < 1.; step(time))
+    {
+      EXPECT_EQ(time.stage(), 0u);
+      times.push_back(time.time());
+    }
+  EXPECT_EQ(times, (std::vector<double>{0., 0.25, 0.5}));
+  EXPECT_EQ(time.time(), 1.);
+  EXPECT_TRUE(time.at_step_end());
+  EXPECT_EQ(time.stage(), 1u);
+  step(time);
+  EXPECT_DOUBLE_EQ(time.time(), 1.05); // its own size, not that before
+  bool asked = false;
+  for (; !time.finished(); step(time))
+    asked = asked || time.time() == 1.55;
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(time.time(), 2.);
+  EXPECT_EQ(time.stage(), 1u);
+  EXPECT_EQ(time.n_completed_steps(), 12u);
+}
+
+TEST(TimeControl, GrowsNoMoreThanAllowed)
+{
+  TimeParameters parameters = steps(1);
+  parameters.largest_step   = 0.1;
+  TimeControl time(parameters);
+  time.next();
+  time.accept(1, 0.5);
+  time.next();
+  EXPECT_NEAR(time.trial_time(), 0.15, 0.003); // equal parts of what is left
+  time.accept(1, 1e-9);
+  time.next();
+  EXPECT_GE(time.trial_time() - time.time(), 0.9e-3); // the smallest
+  time.accept(1, 10.);
+  time.next();
+  EXPECT_LE(time.trial_time() - time.time(), 2.1e-3); // it doubles at most
+}

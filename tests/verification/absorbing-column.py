@@ -1,3 +1,4 @@
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A pulse in a column whose base absorbs it, against d'Alembert's solution:

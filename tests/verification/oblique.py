@@ -1,4 +1,4 @@
-# ranks: 1
+# ranks: 1 # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What dashpots send back of pressure waves that fall on them at an angle: the

@@ -72,10 +72,12 @@ namespace moraine
      * \lambda_a@f$ with @f$\sum_b \int N_a N_b\,d\Gamma\, \lambda_b = f_a@f$ at
      * the nodes around it. To be called in a step that has begun.
      * @return what of @p forces no traction on the surface can give, as a
-     * fraction. Collective.
+     * fraction; nothing if the surface is not @p name. Collective.
      */
-    double
-    hold(const StepContext<dim> &context, const LA::Vector &forces);
+    std::optional<double>
+    hold(const StepContext<dim> &context,
+         const std::string      &name,
+         const LA::Vector       &forces) override;
 
   private:
     using Matrix = dealii::SymmetricTensor<2, dim>;

@@ -47,6 +47,16 @@ namespace moraine
         const bool              tangent,
         GlobalSystem<dim>      &system) const override;
 
+    void
+    add_constraint_forces(const StepContext<dim> &context,
+                          const std::string      &name,
+                          const LA::Vector &,
+                          GlobalSystem<dim> &system) const override
+    {
+      if (name == boundary.name())
+        add(context, false, system);
+    }
+
     bool
     symmetric(const StepContext<dim> &context) const override;
 

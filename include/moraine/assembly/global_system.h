@@ -58,6 +58,13 @@ namespace moraine
     void
     add(const LocalSystem<dim> &local, const bool tangent);
 
+    /** Add a force at a node. */
+    void
+    add(const unsigned int node, const dealii::Tensor<1, dim> &force)
+    {
+      node_forces[node] += force;
+    }
+
     /** Sum over ranks: close the matrix, if it was asked for, and put the
      * forces into @p forces. Collective. */
     void

@@ -38,6 +38,12 @@ namespace moraine
     void
     check_values(const StepContext<dim> &context) override;
 
+    void
+    add_constraint_forces(const StepContext<dim> &context,
+                          const std::string      &name,
+                          const LA::Vector       &unbalanced,
+                          GlobalSystem<dim>      &system) const override;
+
     bool
     wants_unbalanced_forces() const override
     {
@@ -53,9 +59,9 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
-    const std::vector<GridCondition<dim>> &conditions;
-    PrescribedNodes<dim>                   prescribed;
-    std::vector<BoundaryReport<dim>>       prepared;
+    const std::vector<GridCondition<dim>> conditions;
+    PrescribedNodes<dim>                  prescribed;
+    std::vector<BoundaryReport<dim>>      prepared;
   };
 } // namespace moraine
 

@@ -9,11 +9,18 @@
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace moraine
 {
+  /** Whether what has this name, in this section of a scene ("Boundaries",
+   * "Grid conditions" or "Loads"), acts. */
+  using IsActive =
+    std::function<bool(const std::string &section, const std::string &name)>;
+
   template <int dim>
   using Terms = std::vector<std::unique_ptr<Term<dim>>>;
 
@@ -22,7 +29,8 @@ namespace moraine
    * live longer than the terms. @p fictitious_stiffness is the fraction of
    * FictitiousStiffness, or 0 for none. With @p inertia points have mass, with
    * @p conserving internal forces are in the middle of the step. The
-   * @p internal_force is theirs unless a method has its own.
+   * @p internal_force is theirs unless a method has its own. Those that are not
+   * @p active, if that is given, get no term.
    */
   template <int dim>
   Terms<dim>
@@ -32,7 +40,8 @@ namespace moraine
              const double                           fictitious_stiffness = 0.,
              const bool                             inertia        = false,
              const bool                             conserving     = false,
-             std::unique_ptr<Term<dim>>             internal_force = {});
+             std::unique_ptr<Term<dim>>             internal_force = {},
+             const IsActive                        &active         = {});
 } // namespace moraine
 
 #endif

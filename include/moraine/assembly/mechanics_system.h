@@ -46,12 +46,27 @@ namespace moraine
     void
     move_mesh_by(const MeshMotion<dim> &motion, BackgroundMesh<dim> &mesh);
 
-    /** Let material have velocities and accelerations, @p motion. */
+    /** Let material have velocities and accelerations, @p motion; none if it
+     * is null. */
     void
-    set_motion(Motion<dim> &motion)
+    set_motion(Motion<dim> *motion)
     {
-      context.motion = &motion;
+      context.motion = motion;
     }
+
+    /** From the next begin_step() on, other terms. */
+    void
+    set_terms(Terms<dim> terms);
+
+    /** The forces by which the constraint @p name holds the nodes in the
+     * committed state, in a step that has begun. Collective. */
+    LA::Vector
+    constraint_forces(const std::string &name);
+
+    /** Let the absorbing surface @p name hold @p forces; see Term::hold().
+     * @return what it cannot hold, as a fraction. Collective. */
+    double
+    hold(const std::string &name, const LA::Vector &forces);
 
     /**
      * The forces of all but inertia at the start of the step that has begun,

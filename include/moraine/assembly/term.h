@@ -12,6 +12,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -165,6 +166,28 @@ namespace moraine
     wants_unbalanced_forces() const
     {
       return false;
+    }
+
+    /**
+     * Add the forces by which the constraint @p name holds the nodes, if this
+     * is its term, in the trial state; @p unbalanced as in prepare().
+     */
+    virtual void
+    add_constraint_forces(const StepContext<dim> &,
+                          const std::string & /*name*/,
+                          const LA::Vector & /*unbalanced*/,
+                          GlobalSystem<dim> &) const
+    {}
+
+    /** Hold @p forces of nodes, those of a constraint that ended, from now on,
+     * if this term absorbs on its surface @p name; see AbsorbingTerm::hold().
+     * Collective. @return what it cannot hold, as a fraction, or nothing. */
+    virtual std::optional<double>
+    hold(const StepContext<dim> &,
+         const std::string & /*name*/,
+         const LA::Vector & /*forces*/)
+    {
+      return {};
     }
 
     /**

@@ -109,7 +109,9 @@ namespace moraine
    *     S^*_1 = \frac{b^2 - a^2}{2 L}. @f]
    * Their sum is the share of the line that is in the cell.
    *
-   * @param lower, @param upper its ends, @param per_length @f$1/L@f$
+   * @param lower its lower end
+   * @param upper its upper end
+   * @param per_length @f$1/L@f$
    */
   inline std::array<double, 2>
   local_hats(const double lower, const double upper, const double per_length)

@@ -87,6 +87,11 @@ namespace moraine
     void
     keep_step();
 
+    /** Let displacements of interpolated probes count from now; to be called
+     * before those of @p points do. Collective. */
+    void
+    reset_displacements(const PointSet<dim> &points);
+
     /** What the last keep_step() changed for the user, sentence by sentence. */
     const std::vector<std::string> &
     news() const
@@ -125,6 +130,8 @@ namespace moraine
       bool                   has_left     = false;
       /** Of a probe that has left the cells: over that of its point. */
       dealii::Tensor<1, dim> ahead;
+      /** The displacement that does not count any more. */
+      dealii::Tensor<1, dim> before_reset;
 
       bool
       follows_point() const;

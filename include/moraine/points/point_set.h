@@ -211,6 +211,10 @@ namespace moraine
       return u_field;
     }
 
+    /** Let displacements count from now. */
+    void
+    reset_displacements();
+
     const PointField<dim, dealii::SymmetricTensor<2, 3>> &
     stress_field() const
     {

@@ -70,7 +70,10 @@ namespace moraine
 
     /** Of the largest step in a cell of typical size. */
     double
-    courant_number() const;
+    courant_number(const TimeParameters &time) const;
+
+    void
+    describe_stage(const std::string &name, const TimeParameters &time);
 
     void
     print_energy(const Summary &summary);

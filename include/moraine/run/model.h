@@ -35,6 +35,11 @@ namespace moraine
 
     Model(const Model &) = delete;
 
+    /** Let act what acts in stage @p k of @p scene, by its integrator, from the
+     * next MechanicsSystem::begin_step() on. */
+    void
+    set_stage(const Scene<dim> &scene, const unsigned int k);
+
     std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
     std::vector<double>                          body_volumes;
@@ -57,6 +62,9 @@ namespace moraine
   private:
     void
     make_points(const Scene<dim> &scene);
+
+    Terms<dim>
+    terms_of(const Scene<dim> &scene, const StageParameters &stage);
   };
 
   /**
@@ -71,6 +79,17 @@ namespace moraine
   template <int dim>
   std::vector<std::string>
   begin_first_step(const Scene<dim> &scene, Model<dim> &model);
+
+  /**
+   * The same for stage @p k, after the last step of the one before: what ends,
+   * what acts, and what carries on.
+   *
+   * @return what the user should know, sentence by sentence.
+   * @throws InputError, ComputationError. Collective.
+   */
+  template <int dim>
+  std::vector<std::string>
+  begin_stage(const Scene<dim> &scene, const unsigned int k, Model<dim> &model);
 } // namespace moraine
 
 #endif

@@ -56,6 +56,11 @@ namespace moraine
     run_fails(const Summary &summary) override;
 
   private:
+    /** Columns of conditions that turn. */
+    void
+    add_moments(const std::vector<BoundaryReport<dim>> &reports,
+                std::vector<NamedValue>                &row) const;
+
     using Increments = std::vector<dealii::Tensor<1, dim>>;
 
     std::vector<NamedValue>

@@ -15,6 +15,7 @@
 #include <moraine/run/absorbing_parameters.h>
 #include <moraine/run/damping_parameters.h>
 #include <moraine/run/method.h>
+#include <moraine/run/stage_parameters.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
@@ -189,7 +190,8 @@ namespace moraine
     Named<GridConditionParameters<dim>> grid_conditions;
     Named<LoadParameters<dim>>          loads;
     MeshMotionParameters                mesh_motion;
-    TimeParameters                      time;
+    TimeParameters                      time;   ///< of a scene without stages
+    NamedStages                         stages; ///< at least one
     NewtonParameters                    newton;
     LinearSolverParameters              linear_solver;
     OutputParameters                    output;
@@ -197,6 +199,31 @@ namespace moraine
     ExactSolutionParameters<dim>        exact;
     StudyParameters                     study;
     Named<std::string>                  series;
+
+    /** Whether there is a stage with inertia. */
+    bool
+    is_dynamic() const;
+
+    /** The first stage with inertia, or else the first. */
+    const StageParameters &
+    first_dynamic_stage() const;
+
+    double
+    start_time() const
+    {
+      return stages.front().second.time.start_time;
+    }
+
+    double
+    end_time() const
+    {
+      return stages.back().second.time.end_time;
+    }
+
+    /** Whether the boundary or grid condition @p name becomes absorbing in a
+     * stage. */
+    bool
+    absorbs_later(const std::string &name) const;
 
   private:
     void

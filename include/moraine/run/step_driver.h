@@ -69,6 +69,14 @@ namespace moraine
     }
 
   private:
+    /** Go over to the next stage. */
+    void
+    begin_next_stage();
+
+    /** Give empty parts of cells @p fraction of the material's stiffness. */
+    void
+    add_support(const double fraction);
+
     /** One step that must be accepted, with as many cuts as it takes. */
     void
     advance();
@@ -129,6 +137,15 @@ namespace moraine
     void
     tell(const std::string &text) const;
 
+    /** Estimated error that the step to @p x makes, in cell sizes. Collective.
+     */
+    double
+    error_of_step(const LA::Vector &x) const;
+
+    /** How much longer the step after the one to @p x may be. Collective. */
+    double
+    allowed_growth(const LA::Vector &x) const;
+
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
@@ -153,7 +170,7 @@ namespace moraine
     std::string
     point_that_leaves(const LA::Vector &x);
 
-    const NewtonParameters                newton_parameters;
+    const Scene<dim>                     &scene;
     const MethodParameters<dim>          &method;
     Model<dim>                           &model;
     const std::vector<RunObserver<dim> *> observers;
@@ -169,6 +186,7 @@ namespace moraine
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
     bool                      first_step        = true;
+    unsigned int              stage             = 0;
   };
 } // namespace moraine
 

@@ -108,8 +108,8 @@ namespace moraine
    * - a share of FLIP, @f$V_p + \sum_a N_a (v_a^{n+1} - v_a^n)@f$, and the rest
    *   of PIC, @f$\sum_a N_a v_a^{n+1}@f$;
    * - APIC: as PIC, and the gradient @f$G_p = \sum_a v_a^{n+1} \otimes \nabla
-   *   N_a@f$, with which @f$V_p + G_p (x_a - x_p)@f$ goes to the nodes in place
-   *   of @f$V_p@f$. (With @f$G_p@f$ from the gradients of the functions, it is
+   *   N_a@f$, with which @f$V_p + G_p (x_a - \sum_b N_b x_b)@f$ goes to the nodes
+   *   in place of @f$V_p@f$. (With @f$G_p@f$ from the gradients of the functions, it is
    *   the Taylor variant, TPIC, and holds for hat functions as well.)
    * - FMPM of order k (Hammerquist and Nairn 2017; Nairn 2021): as PIC, with
    *   the nodes' @f$v_{(1)} = S^+ V@f$, @f$v_{(j)} = v_{(j-1)} + S^+ (V - S
@@ -133,7 +133,8 @@ namespace moraine
            const VelocityTransfer &transfer,
            const bool              lumped_mass);
 
-    /** Give nodes and points @p velocity of a body at a place. */
+    /** Give nodes and points @p velocity of a body at a place and no
+     * acceleration, and count works anew. */
     void
     start(
       const std::function<dealii::Tensor<1, dim>(const unsigned int        body,
@@ -213,6 +214,13 @@ namespace moraine
                rule.velocity_by_increment(step_size);
     }
 
+    /** Go on by another one. */
+    void
+    set_integrator(const TimeIntegrator &integrator)
+    {
+      rule = integrator;
+    }
+
     const TimeIntegrator &
     integrator() const
     {
@@ -229,6 +237,11 @@ namespace moraine
     /** Take accelerations at the start of the first step. Collective. */
     void
     set_accelerations(const LA::Vector &values);
+
+    /** Estimated error of the trial increment, in the mean over the mass; see
+     * TimeIntegrator::error_of_increment(). [length] Collective. */
+    double
+    error_of_increment() const;
 
     bool
     lumped_mass() const
@@ -327,7 +340,7 @@ namespace moraine
 
     const State<dim>                       &state;
     PointSet<dim>                          &points;
-    const TimeIntegrator                    rule;
+    TimeIntegrator                          rule;
     const VelocityTransfer                  transfer;
     const bool                              lumped;
     PointField<dim, dealii::Tensor<1, dim>> v_field, a_field;

@@ -7,6 +7,7 @@
 #include <moraine/core/simulation_state.h>
 #include <moraine/time/time_integrator.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,11 @@ namespace moraine
     /** Factor on the size after a rejected step. */
     double cut = 0.5;
 
+    /** Of the estimated error of a step in dynamics, over the cell size; 0:
+     * any.
+     */
+    double error_tolerance = 0.;
+
     /** A step with at most this many Newton iterations is easy. */
     unsigned int easy_iterations = 5;
 
@@ -61,7 +67,8 @@ namespace moraine
   /**
    * Where the run is in time, and how far the next step goes.
    *
-   * The interval is divided by stops: the ends of the user's steps and the
+   * A run is one interval or several, its stages, each with parameters of its
+   * own. An interval is divided by stops: the ends of the user's steps and the
    * times asked for. Between two stops, what remains is split into equal parts
    * no larger than the current size, so that stops are hit exactly and no
    * sliver of a step is left over.
@@ -86,16 +93,27 @@ namespace moraine
     explicit TimeControl(const TimeParameters      &parameters,
                          const std::vector<double> &stops = {});
 
+    /** The same for stages, each of which starts where the one before ends. */
+    explicit TimeControl(const std::vector<TimeParameters> &stages,
+                         const std::vector<double>         &stops = {});
+
+    /** To which the next step belongs; the last one at the end. */
+    unsigned int
+    stage() const;
+
     /** Choose the next trial time. */
     void
     next();
 
     /**
      * The trial time becomes the time. The size grows after an easy step, and
-     * after several in a row without a cut, however hard.
+     * after several in a row without a cut, however hard; but to no more than
+     * @p allowed_growth times that of the step. A stage begins with its own.
      */
     void
-    accept(const unsigned int iterations);
+    accept(
+      const unsigned int iterations,
+      const double allowed_growth = std::numeric_limits<double>::infinity());
 
     /** Data sets "time/...": where the run is, and the size of its steps. */
     void
@@ -157,26 +175,40 @@ namespace moraine
   private:
     struct Stop
     {
-      double time;
-      bool   ends_step;
+      double       time;
+      bool         ends_step;
+      unsigned int stage;
     };
 
-    const TimeParameters parameters;
-    const double         one_step;
-    std::vector<Stop>    stops;
-    unsigned int         next_stop = 0;
-    double               current;
-    double               trial;
-    double               size;
-    double               accepted_size; ///< after the last accepted step
-    bool                 trial_is_stop   = false;
-    bool                 on_step_end     = false;
-    unsigned int         completed_steps = 0;
-    unsigned int         accepted        = 0;
-    unsigned int         rejected        = 0;
-    unsigned int         rejected_before = 0; ///< the last accepted step
-    unsigned int         in_a_row        = 0; ///< accepted at one size
-    std::string          text;
+    /** Of the stage of the next step. */
+    const TimeParameters &
+    parameters() const
+    {
+      return stages[stage()];
+    }
+
+    /** The user's, in that stage. */
+    double
+    one_step() const;
+
+    void
+    add_stops(const unsigned int stage, const std::vector<double> &asked);
+
+    const std::vector<TimeParameters> stages;
+    std::vector<Stop>                 stops;
+    unsigned int                      next_stop = 0;
+    double                            current;
+    double                            trial;
+    double                            size;
+    double       accepted_size; ///< after the last accepted step
+    bool         trial_is_stop   = false;
+    bool         on_step_end     = false;
+    unsigned int completed_steps = 0;
+    unsigned int accepted        = 0;
+    unsigned int rejected        = 0;
+    unsigned int rejected_before = 0; ///< the last accepted step
+    unsigned int in_a_row        = 0; ///< accepted at one size
+    std::string  text;
   };
 
 

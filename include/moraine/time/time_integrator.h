@@ -4,6 +4,7 @@
 #ifndef moraine_time_time_integrator_h
 #define moraine_time_time_integrator_h
 
+#include <cmath>
 #include <string>
 
 namespace dealii
@@ -125,6 +126,18 @@ namespace moraine
              const Value &a_end) const
     {
       return v + step_size * ((1 - gamma) * a + gamma * a_end);
+    }
+
+    /**
+     * Estimated error of @f$\Delta u@f$ of a step whose accelerations at both
+     * ends are known, @f$|\beta - \tfrac16| \Delta t^2 (a_{n+1} - a_n)@f$
+     * (Zienkiewicz and Xie 1991): the factor of the difference.
+     */
+    double
+    error_of_increment(const double step_size) const
+    {
+      const double coefficient = in_the_middle ? 0.25 : beta;
+      return std::abs(coefficient - 1. / 6) * step_size * step_size;
     }
 
     /** The factor of @f$M a_{n+1}@f$: @f$(1-\alpha_m)/(1-\alpha_f)@f$. */

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_stage_parameters_h
+#define moraine_run_stage_parameters_h
+
+#include <moraine/core/input_file.h>
+#include <moraine/time/time_control.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace moraine
+{
+  /** Section `Stages/<name>`: what is active from its start on. */
+  struct StageParameters
+  {
+    TimeParameters time;
+    /** Names; as read, none: those of the stage before, and the word "none":
+     * none at all. */
+    std::vector<std::string> boundaries, grid_conditions, loads;
+    /** Boundaries and grid conditions that absorb from this stage on. */
+    std::vector<std::string> absorbing;
+    bool                     reset_displacements = false;
+
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** In their order. */
+  using NamedStages = std::vector<std::pair<std::string, StageParameters>>;
+
+  /** All names of a scene that stages may list. */
+  struct StageNames
+  {
+    std::vector<std::string> boundaries, grid_conditions, loads;
+  };
+
+  /**
+   * Give every stage what it left to the one before: its start and its names. A
+   * scene without stages gets one without a name, with @p time.
+   * @throws InputError for names that are not there, times that go back, and a
+   * section 'Time' beside stages.
+   */
+  void
+  complete_stages(const InputFile      &input,
+                  const TimeParameters &time,
+                  const StageNames     &names,
+                  NamedStages          &stages);
+
+  /** The section with the keys of a stage's time. */
+  std::string
+  time_section(const std::string &stage);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// What dynamics and stages ask of the equations: forces at the start of a step
+// and by kind, the work of a step, what constraints hold.
+
+#include <moraine/assembly/mechanics_system.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The sum of scalar products. */
+    template <int dim>
+    double
+    product(const std::vector<Tensor<1, dim>> &forces,
+            const std::vector<Tensor<1, dim>> &increments)
+    {
+      double sum = 0;
+      for (unsigned int node = 0; node < forces.size(); ++node)
+        sum += forces[node] * increments[node];
+      return sum;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  LA::Vector
+  MechanicsSystem<dim>::constraint_forces(const std::string &name)
+  {
+    LA::Vector result = state.grid().vector();
+    set_target(context.t_start);
+    assemble(result, false);
+    sums.begin(false);
+    for (const auto &term : terms)
+      term->add_constraint_forces(context, name, unbalanced, sums);
+    sums.end(result);
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::hold(const std::string &name, const LA::Vector &held)
+  {
+    for (const auto &term : terms)
+      if (const auto missed = term->hold(context, name, held))
+        return *missed;
+    return 1.;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::find_dead_forces()
+  {
+    TimerOutput::Scope scope(timer, "external forces");
+    const auto         find = [this](const double t) {
+      context.t_end = t;
+      sums.begin(false);
+      add_terms([](const auto &term) { return term.is_dead(); }, false);
+      sums.end(forces.dead);
+    };
+    const double t_end = context.t_end;
+    LA::Vector   at_start;
+    if (forces_in_the_middle())
+      {
+        find(context.t_start);
+        at_start = forces.dead;
+      }
+    find(t_end);
+    if (forces_in_the_middle())
+      forces.dead.sadd(0.5, 0.5, at_start);
+    scale.dead_squares.resize(body_names.size());
+    Utilities::MPI::sum(sums.squares_of_bodies(),
+                        state.grid().communicator(),
+                        scale.dead_squares);
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::set_target_of_motion()
+  {
+    const double t_end = context.t_end;
+    context.motion->set_target(
+      context.step_size(),
+      !constraints.any_lines() ?
+        typename Motion<dim>::Constrain() :
+        [this, t_end](const Prescribed prescribed, LA::Vector &x) {
+          if (prescribed == Prescribed::none)
+            return constraints.distribute_correction(x);
+          context.t_end = prescribed == Prescribed::in_the_middle ?
+                            (context.t_start + t_end) / 2 :
+                            t_end;
+          constraints.set_values(lines_of_terms());
+          constraints.distribute(x);
+        });
+    context.t_end = t_end;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::count_work(const Term<dim> &term, const double work)
+  {
+    if (term.work_kind() != WorkKind::none)
+      forces.works[unsigned(term.work_kind())] += work;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::find_forces_at_start()
+  {
+    TimerOutput::Scope scope(timer, "forces at start");
+    context.t_end = context.t_start;
+    state.set_step_time({context.t_start, context.t_end});
+    state.reject();
+    start_over();
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        sums.begin(false);
+        add_terms(
+          [k](const auto &term) { return term.work_kind() == WorkKind(k); },
+          false);
+        forces.by_kind[k] = sums.forces_of_this_rank();
+      }
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  MechanicsSystem<dim>::sum_of_kinds() const
+  {
+    NodeValues sum(state.grid().n_nodes());
+    for (const NodeValues &of_kind : forces.by_kind)
+      for (unsigned int node = 0; node < sum.size(); ++node)
+        sum[node] += of_kind[node];
+    LA::Vector result = state.grid().vector();
+    state.grid().sum_node_values(sum, result);
+    return result;
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  MechanicsSystem<dim>::forces_and_mass()
+  {
+    if (forces_in_the_middle())
+      find_forces_at_start();
+    LA::Vector at_start = sum_of_kinds();
+    constraints.condense(at_start);
+    context.motion->set_target(0., {});
+    sums.begin(true);
+    add_terms([](const auto &term) { return term.is_inertia(); }, true);
+    LA::Vector none = state.grid().vector();
+    sums.end(none);
+    return at_start;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::count_work(const LA::Vector &x)
+  {
+    TimerOutput::Scope scope(timer, "energy");
+    assemble_forces_at(x);
+    const NodeValues &increments = state.nodal_increments();
+    const NodeValues &prescribed = context.motion->prescribed_increments();
+    typename Motion<dim>::StepWorks works;
+    const double                    of_dead = forces.dead * x;
+    for (unsigned int k = 0; k < Works::n_kinds; ++k)
+      {
+        works.at_end[k] = forces.works[k];
+        if (forces_in_the_middle())
+          continue;
+        works.at_start[k] = product(forces.by_kind[k], increments);
+        if (!prescribed.empty())
+          works.on_prescribed_at_start +=
+            product(forces.by_kind[k], prescribed);
+      }
+    if (!prescribed.empty())
+      works.on_prescribed_at_end = work_on_prescribed();
+    works.sum_over_ranks(state.grid().communicator());
+    works.at_end[unsigned(WorkKind::external)] += of_dead;
+    context.motion->count(works);
+  }
+
+
+
+  template <int dim>
+  double
+  MechanicsSystem<dim>::work_on_prescribed()
+  {
+    const auto work = [this](const Which &which) {
+      sums.begin(false);
+      add_terms(
+        [&which](const auto &term) {
+          return term.work_kind() != WorkKind::none && which(term);
+        },
+        false);
+      return product(sums.forces_of_this_rank(),
+                     context.motion->prescribed_increments());
+    };
+    if (!forces_in_the_middle())
+      return work([](const auto &) { return true; });
+    const auto   is_dead = [](const auto &term) { return term.is_dead(); };
+    const double t_end   = context.t_end;
+    double       sum = work([](const auto &term) { return !term.is_dead(); });
+    sum += 0.5 * work(is_dead);
+    context.t_end = context.t_start;
+    sum += 0.5 * work(is_dead);
+    context.t_end = t_end;
+    return sum;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::assemble_forces_at(const LA::Vector &x)
+  {
+    // They are known, unless x is not where Newton ended.
+    LA::Vector difference(x);
+    difference -= assembled_at;
+    if (!assembled || predicting || difference.linfty_norm() > 0)
+      assemble(x, false);
+  }
+
+
+
+  template LA::Vector
+  MechanicsSystem<2>::constraint_forces(const std::string &name);
+  template LA::Vector
+  MechanicsSystem<3>::constraint_forces(const std::string &name);
+  template double
+  MechanicsSystem<2>::hold(const std::string &name, const LA::Vector &held);
+  template double
+  MechanicsSystem<3>::hold(const std::string &name, const LA::Vector &held);
+  template void
+  MechanicsSystem<2>::find_dead_forces();
+  template void
+  MechanicsSystem<3>::find_dead_forces();
+  template void
+  MechanicsSystem<2>::set_target_of_motion();
+  template void
+  MechanicsSystem<3>::set_target_of_motion();
+  template void
+  MechanicsSystem<2>::count_work(const Term<2> &term, const double work);
+  template void
+  MechanicsSystem<3>::count_work(const Term<3> &term, const double work);
+  template void
+  MechanicsSystem<2>::find_forces_at_start();
+  template void
+  MechanicsSystem<3>::find_forces_at_start();
+  template LA::Vector
+  MechanicsSystem<2>::sum_of_kinds() const;
+  template LA::Vector
+  MechanicsSystem<3>::sum_of_kinds() const;
+  template LA::Vector
+  MechanicsSystem<2>::forces_and_mass();
+  template LA::Vector
+  MechanicsSystem<3>::forces_and_mass();
+  template void
+  MechanicsSystem<2>::count_work(const LA::Vector &x);
+  template void
+  MechanicsSystem<3>::count_work(const LA::Vector &x);
+  template double
+  MechanicsSystem<2>::work_on_prescribed();
+  template double
+  MechanicsSystem<3>::work_on_prescribed();
+  template void
+  MechanicsSystem<2>::assemble_forces_at(const LA::Vector &x);
+  template void
+  MechanicsSystem<3>::assemble_forces_at(const LA::Vector &x);
+} // namespace moraine

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/stage_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/nearest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  StageParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Time");
+    time.add_parameters(prm);
+    prm.leave_subsection();
+    const std::string text =
+      " that act from this stage on, separated by commas; none: no one. If "
+      "left out, those of the stage before; all in the first.";
+    prm.add_parameter("Boundaries",
+                      boundaries,
+                      "Names of the boundaries" + text);
+    prm.add_parameter("Grid conditions",
+                      grid_conditions,
+                      "Names of the grid conditions" + text);
+    prm.add_parameter("Loads", loads, "Names of the loads" + text);
+    prm.add_parameter(
+      "Absorbing",
+      absorbing,
+      "Names of boundaries and of grid conditions on sides, active so far, that "
+      "absorb waves from this stage on in place of what they did, and hold the "
+      "tractions that they had by then.");
+    prm.add_parameter("Reset displacements",
+                      reset_displacements,
+                      "Let displacements count from the start of this stage.");
+  }
+
+
+
+  std::string
+  time_section(const std::string &stage)
+  {
+    return stage.empty() ? "Time" : "Stages/" + stage + "/Time";
+  }
+
+
+
+  namespace
+  {
+    /** The names that are active, by what key @p key of a stage says. */
+    void
+    complete_names(const std::string              &section,
+                   const std::string              &key,
+                   const std::vector<std::string> &all,
+                   const std::vector<std::string> &before,
+                   std::vector<std::string>       &names)
+    {
+      if (names.empty())
+        names = before;
+      else if (names == std::vector<std::string>{"none"})
+        names.clear();
+      for (const std::string &name : names)
+        if (std::find(all.begin(), all.end(), name) == all.end())
+          reject(section,
+                 key,
+                 name,
+                 "names of section '" + key + "', or none" +
+                   suggest(name, all));
+    }
+
+
+
+    void
+    complete_start(const InputFile      &input,
+                   const std::string    &section,
+                   const TimeParameters &before,
+                   TimeParameters       &time)
+    {
+      if (input.has(section, "Start time") &&
+          time.start_time != before.end_time)
+        {
+          std::ostringstream end;
+          end << before.end_time;
+          reject(section,
+                 "Start time",
+                 input.get(section, "Start time", ""),
+                 "nothing, or " + end.str() +
+                   ", the end of the stage before; stages follow each other");
+        }
+      time.start_time = before.end_time;
+    }
+  } // namespace
+
+
+
+  void
+  complete_stages(const InputFile      &input,
+                  const TimeParameters &time,
+                  const StageNames     &all,
+                  NamedStages          &stages)
+  {
+    if (stages.empty())
+      {
+        stages.emplace_back("", StageParameters());
+        stages.front().second = {
+          time, all.boundaries, all.grid_conditions, all.loads, {}, false};
+      }
+    else
+      for (const auto &entry : input.entries())
+        if (entry.section == "Time")
+          reject("Time",
+                 entry.key,
+                 entry.value,
+                 "nothing beside section 'Stages'; each stage has a section "
+                 "'Time' of its own");
+    for (unsigned int k = 0; k < stages.size(); ++k)
+      {
+        auto &[name, stage]       = stages[k];
+        const std::string section = "Stages/" + name;
+        const auto       *before  = k > 0 ? &stages[k - 1].second : nullptr;
+        if (before)
+          complete_start(input, time_section(name), before->time, stage.time);
+        stage.time.check(time_section(name));
+        complete_names(section,
+                       "Boundaries",
+                       all.boundaries,
+                       before ? before->boundaries : all.boundaries,
+                       stage.boundaries);
+        complete_names(section,
+                       "Grid conditions",
+                       all.grid_conditions,
+                       before ? before->grid_conditions : all.grid_conditions,
+                       stage.grid_conditions);
+        complete_names(section,
+                       "Loads",
+                       all.loads,
+                       before ? before->loads : all.loads,
+                       stage.loads);
+        std::vector<std::string> active = stage.boundaries;
+        active.insert(active.end(),
+                      stage.grid_conditions.begin(),
+                      stage.grid_conditions.end());
+        for (const std::string &boundary : stage.absorbing)
+          if (std::find(active.begin(), active.end(), boundary) == active.end())
+            reject(section,
+                   "Absorbing",
+                   boundary,
+                   "names of boundaries and grid conditions that are active" +
+                     suggest(boundary, active));
+        if (before)
+          stage.absorbing.insert(stage.absorbing.begin(),
+                                 before->absorbing.begin(),
+                                 before->absorbing.end());
+      }
+  }
+} // namespace moraine

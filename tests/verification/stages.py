@@ -1,0 +1,79 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Gravity in a quasi-static stage, then a pulse; the base, fixed at first,
+absorbs and holds the weight."""
+
+IMPULSE, RHO_C = 75., 189.7367
+SCENE = "prm/dynamics/gravity-then-wave.prm"
+
+
+def compare(name, settings, scene=SCENE, length=20., balance=1e-10,
+            rest=1e-7):
+    result = run(scene, settings)
+    weight = 15 * length
+    rows = result.history()
+    static = rows[0]
+    bound(f"{name}: reaction of the first stage over the weight - 1",
+          static["reaction_y of base"] / weight - 1, 1e-8)
+    exact = -15 * (length ** 2 - 10 ** 2) / 2 / 24e3
+    bound(f"{name}: settlement of the middle over the exact one - 1",
+          static["u_y at middle"] / exact - 1, 0.01)
+    # Long before the pulse arrives, at t = 1.16, nothing moves.
+    quiet = [row for row in rows if 1 < row["t"] < 1.02]
+    bound(f"{name}: reaction before the wave over the weight - 1",
+          max(abs(row["reaction_y of base"] / weight - 1) for row in quiet), rest)
+    bound(f"{name}: displacement at the end over impulse / (rho c) - 1",
+          rows[-1]["u_y at middle"] / (-IMPULSE / RHO_C) - 1, 2e-3)
+    bound(f"{name}: energy out of balance",
+          result.summary["energy"]["balance_error"], balance)
+    return rows
+
+
+compare("finite element", {})
+compare("generalised-alpha", {"Stages/pulse/Time/Integrator": "generalised-alpha"},
+        balance=1e-6)  # it dissipates
+compare("GIMP", {"Method/Method": "GIMP"})
+
+# An implicit boundary that cuts cells.
+text_of_scene = (root / SCENE).read_text()
+on_side = """  subsection base
+    set Side = bottom
+  end
+end
+"""
+assert on_side in text_of_scene
+cut = folder / "cut.prm"
+cut.write_text(text_of_scene.replace(on_side, """end
+
+subsection Boundaries
+  subsection base
+    set Points = 0 0.4; 1 0.4
+  end
+end
+""").replace("set Lower corner = 0, 0\n    set Upper corner = 1, 20",
+             "set Lower corner = 0, 0.4\n    set Upper corner = 1, 20"))
+# The weighted enforcement puts forces on nodes that are no traction.
+compare("cut cells, finite element", {}, cut, 19.6, rest=3e-3)
+lagrangian = {"Boundaries/base/Enforcement": "augmented Lagrangian"}
+compare("cut cells, augmented Lagrangian", lagrangian, cut, 19.6)
+compare("cut cells, GIMP, augmented Lagrangian",
+        {"Method/Method": "GIMP", **lagrangian}, cut, 19.6)
+
+# Without the reset displacements go on.
+rows = compare("finite element", {})
+kept = run(SCENE, {"Stages/pulse/Reset displacements": "false"}).history()
+bound("displacement with reset and without, less the settlement",
+      kept[-1]["u_y at middle"] - rows[-1]["u_y at middle"]
+      - rows[0]["u_y at middle"], 1e-12)
+
+# The estimate of the error makes steps as small as it takes.
+for tolerance in (1e-4, 1e-5):
+    result = run(SCENE, {"Stages/pulse/Time/Error tolerance": tolerance,
+                         "Stages/pulse/Time/Steps": 20,
+                         "Stages/pulse/Time/Smallest step": 1e-3})
+    number(f"Error tolerance {tolerance}: steps", result.summary["steps"], 2)
+    end = result.history()[-1]
+    bound(f"Error tolerance {tolerance}: end over impulse / (rho c) - 1",
+          end["u_y at middle"] / (-IMPULSE / RHO_C) - 1, 1e-3)
+    bound(f"Error tolerance {tolerance}: time at the end", end["t"] - 2, 0.)
