@@ -40,6 +40,10 @@ namespace moraine
     constexpr double told_share_of_motion = 0.02;
     constexpr double told_share_of_cell   = 1e-3;
 
+    /** Energy that the integrator made is told of from this part of the largest
+     * on. */
+    constexpr double told_share_of_energy = 0.01;
+
     std::vector<TimeParameters>
     times_of(const NamedStages &stages)
     {
@@ -277,6 +281,7 @@ namespace moraine
       largest = std::max(largest, u.norm());
     largest = Utilities::MPI::max(largest, communicator);
     check_boundaries(largest);
+    check_energy();
     std::optional<double> distance;
     if (was_pseudo_transient)
       {
@@ -498,6 +503,29 @@ namespace moraine
           sums.warnings.push_back(text.str());
           tell(text.str());
         }
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::check_energy()
+  {
+    if (!model.motion || told_of_energy)
+      return;
+    const Works &works = model.motion->works();
+    const double made  = -works.out_of_balance();
+    if (!(made > told_share_of_energy * works.largest()))
+      return;
+    told_of_energy = true;
+    std::ostringstream text;
+    text << "energy grows without work: by t = " << time_control.time()
+         << " the integrator has made " << std::setprecision(2)
+         << 100 * made / works.largest()
+         << " % of the largest part of it; shorter steps, or 'Integrator = "
+            "energy-momentum' or 'generalised-alpha', do not";
+    sums.warnings.push_back(text.str());
+    tell(text.str());
   }
 
 

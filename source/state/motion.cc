@@ -167,24 +167,33 @@ namespace moraine
     done = Works();
     if (!points_carry())
       {
-        // A node of several bodies has the velocity of one of them.
-        v.assign(state.grid().n_nodes(), Tensor<1, dim>());
-        a.assign(state.grid().n_nodes(), Tensor<1, dim>());
-        const Basis<dim>          &basis = state.point_basis();
-        std::vector<unsigned char> known(v.size(), 0);
-        StencilBlock<dim>          block;
+        // A node of several bodies or ranks has the mean of theirs.
+        const GridSpace<dim> &space = state.grid();
+        const Basis<dim>     &basis = state.point_basis();
+        NodeValues            n_known(space.n_nodes());
+        StencilBlock<dim>     block;
+        v.assign(space.n_nodes(), Tensor<1, dim>());
+        a.assign(space.n_nodes(), Tensor<1, dim>());
         for (unsigned int g = 0; g < basis.n_batches(); ++g)
           {
             basis.evaluate(g, block);
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 const unsigned int node = block.nodes[k];
-                if (!known[node])
-                  v[node] = velocity(points.body(block.points[0]),
-                                     state.grid().node_position(node));
-                known[node] = 1;
+                v[node] += velocity(points.body(block.points[0]),
+                                    space.node_position(node));
+                n_known[node][0] += 1;
               }
           }
+        LA::Vector all = space.vector();
+        for (NodeValues *values : {&v, &n_known})
+          {
+            space.sum_node_values(*values, all);
+            space.node_values(all, *values);
+          }
+        for (unsigned int k = 0; k < v.size(); ++k)
+          if (n_known[k][0] > 0)
+            v[k] /= n_known[k][0];
         return;
       }
     // A velocity that is linear in space has an exact difference.
@@ -483,50 +492,6 @@ namespace moraine
     if (points_carry() && rule.start_forces() == 0.)
       done.lost_in_transfer -= missing;
     done.kinetic = 0.5 * v_v_end;
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::write(Archive &archive) const
-  {
-    archive.write("motion/works",
-                  std::vector<double>(std::begin(done.of_forces),
-                                      std::end(done.of_forces)));
-    archive.write("motion/lost_in_transfer", done.lost_in_transfer);
-    archive.write("motion/kinetic_at_start", done.kinetic_at_start);
-    archive.write("motion/kinetic", done.kinetic);
-    archive.write("motion/stored_at_start", done.stored_at_start);
-    archive.write("motion/stored", done.stored);
-    archive.write("motion/dissipated", done.dissipated);
-    archive.write("motion/begun", done.begun ? 1u : 0u);
-    if (points_carry())
-      return;
-    state.grid().write_node_values(v, "motion/velocity", archive);
-    state.grid().write_node_values(a, "motion/acceleration", archive);
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::read(const Archive &archive)
-  {
-    const auto &works = archive.numbers("motion/works");
-    AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
-    std::copy(works.begin(), works.end(), done.of_forces);
-    done.lost_in_transfer = archive.number("motion/lost_in_transfer");
-    done.kinetic_at_start = archive.number("motion/kinetic_at_start");
-    done.kinetic          = archive.number("motion/kinetic");
-    done.stored_at_start  = archive.number("motion/stored_at_start");
-    done.stored           = archive.number("motion/stored");
-    done.dissipated       = archive.number("motion/dissipated");
-    done.begun            = archive.integer("motion/begun") != 0;
-    if (points_carry())
-      return;
-    state.grid().read_node_values(archive, "motion/velocity", v);
-    state.grid().read_node_values(archive, "motion/acceleration", a);
   }
 
 

@@ -32,7 +32,7 @@ def viscous_end(z, t):
     return impulse(t - z / C) / (RHO * C)
 
 
-def compare(name, result, exact):
+def compare(name, result, exact, balance=1e-10):
     rows = result.history()
     for depth in (5, 10, 15):
         u = [-row[f"u_y at z{depth}"] for row in rows]
@@ -43,8 +43,8 @@ def compare(name, result, exact):
                error, 2)
         bound(f"{name}: at {depth} m", error, 2e-3)
     bound(f"{name}: energy out of balance",
-          result.summary["energy"]["balance_error"], 1e-10)
-    for row in rows:
+          result.summary["energy"]["balance_error"], balance)
+    for row in rows if balance == 1e-10 else []:
         # The sum is written down, too.
         bound_all = row["strain energy"] + row["kinetic energy of nodes"] \
             + row["absorbed energy"] - row["external work"]
@@ -58,6 +58,12 @@ viscous = run("prm/phuong-2023/column-viscous-fe.prm")
 compare("viscous", viscous, viscous_end)
 bound("viscous: final displacement at 10 m over impulse / (rho c) - 1",
       viscous.history()[-1]["u_y at z10"] / -viscous_end(10, 9) - 1, 1e-4)
+# Points that stay, their strains by composite functions: internal forces are
+# not those of the stored energy.
+compare("fixed, DM-GC", run("prm/phuong-2023/column-fixed-fe.prm",
+                            {"Method/Method": "DM-GC"}), fixed_end, 1e-3)
+compare("viscous, DM-GC", run("prm/phuong-2023/column-viscous-fe.prm",
+                              {"Method/Method": "DM-GC"}), viscous_end, 1e-4)
 for integrator, settings in (
         ("generalised-alpha, 0.8", {"Time/Integrator": "generalised-alpha"}),
         ("lumped mass", {"Time/Mass": "lumped"})):

@@ -77,3 +77,9 @@ for tolerance in (1e-4, 1e-5):
     bound(f"Error tolerance {tolerance}: end over impulse / (rho c) - 1",
           end["u_y at middle"] / (-IMPULSE / RHO_C) - 1, 1e-3)
     bound(f"Error tolerance {tolerance}: time at the end", end["t"] - 2, 0.)
+
+# No step is small enough for this.
+result = run(SCENE, {"Stages/pulse/Time/Error tolerance": 1e-13,
+                     "Stages/pulse/Time/Steps": 20,
+                     "Stages/pulse/Time/Smallest step": 0.1}, expect=1)
+text("a tolerance that no step meets", result.summary["message"])

@@ -133,6 +133,10 @@ namespace moraine
     void
     check_boundaries(const double largest_motion);
 
+    /** Say once that energy grows without work, at the step where it starts. */
+    void
+    check_energy();
+
     /** A note for the observers. */
     void
     tell(const std::string &text) const;
@@ -187,6 +191,7 @@ namespace moraine
     double                    accepted_fraction = 0; ///< of the last step
     bool                      first_step        = true;
     unsigned int              stage             = 0;
+    bool                      told_of_energy    = false;
   };
 } // namespace moraine
 

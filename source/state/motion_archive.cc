@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// Velocities of nodes and works in archives.
+
+#include <moraine/state/motion.h>
+
+#include <algorithm>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  Motion<dim>::write(Archive &archive) const
+  {
+    archive.write("motion/works",
+                  std::vector<double>(std::begin(done.of_forces),
+                                      std::end(done.of_forces)));
+    archive.write("motion/lost_in_transfer", done.lost_in_transfer);
+    archive.write("motion/kinetic_at_start", done.kinetic_at_start);
+    archive.write("motion/kinetic", done.kinetic);
+    archive.write("motion/stored_at_start", done.stored_at_start);
+    archive.write("motion/stored", done.stored);
+    archive.write("motion/dissipated", done.dissipated);
+    archive.write("motion/begun", done.begun ? 1u : 0u);
+    if (points_carry())
+      return;
+    state.grid().write_node_values(v, "motion/velocity", archive);
+    state.grid().write_node_values(a, "motion/acceleration", archive);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::read(const Archive &archive)
+  {
+    const auto &works = archive.numbers("motion/works");
+    AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
+    std::copy(works.begin(), works.end(), done.of_forces);
+    done.lost_in_transfer = archive.number("motion/lost_in_transfer");
+    done.kinetic_at_start = archive.number("motion/kinetic_at_start");
+    done.kinetic          = archive.number("motion/kinetic");
+    done.stored_at_start  = archive.number("motion/stored_at_start");
+    done.stored           = archive.number("motion/stored");
+    done.dissipated       = archive.number("motion/dissipated");
+    done.begun            = archive.integer("motion/begun") != 0;
+    if (points_carry())
+      return;
+    state.grid().read_node_values(archive, "motion/velocity", v);
+    state.grid().read_node_values(archive, "motion/acceleration", a);
+  }
+
+
+
+  template void
+  Motion<2>::write(Archive &) const;
+  template void
+  Motion<3>::write(Archive &) const;
+  template void
+  Motion<2>::read(const Archive &);
+  template void
+  Motion<3>::read(const Archive &);
+} // namespace moraine
