@@ -355,7 +355,7 @@ namespace moraine
     locate_files(input);
     if (method.strain_measure() == StrainMeasure::finite)
       choose_enforcement(input);
-    complete_stages(input,
+    complete_stages(given,
                     time,
                     {names_of(boundaries),
                      names_of(grid_conditions),

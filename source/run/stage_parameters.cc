@@ -77,23 +77,23 @@ namespace moraine
 
 
 
+    /** @p given: entries that are no defaults. */
     void
-    complete_start(const InputFile      &input,
-                   const std::string    &section,
-                   const TimeParameters &before,
-                   TimeParameters       &time)
+    complete_start(const std::vector<InputFile::Entry> &given,
+                   const std::string                   &section,
+                   const TimeParameters                &before,
+                   TimeParameters                      &time)
     {
-      if (input.has(section, "Start time") &&
-          time.start_time != before.end_time)
-        {
-          std::ostringstream end;
-          end << before.end_time;
+      std::ostringstream end;
+      end << before.end_time;
+      for (const auto &entry : given)
+        if (entry.section == section && entry.key == "Start time" &&
+            time.start_time != before.end_time)
           reject(section,
-                 "Start time",
-                 input.get(section, "Start time", ""),
+                 entry.key,
+                 entry.value,
                  "nothing, or " + end.str() +
                    ", the end of the stage before; stages follow each other");
-        }
       time.start_time = before.end_time;
     }
   } // namespace
@@ -101,10 +101,10 @@ namespace moraine
 
 
   void
-  complete_stages(const InputFile      &input,
-                  const TimeParameters &time,
-                  const StageNames     &all,
-                  NamedStages          &stages)
+  complete_stages(const std::vector<InputFile::Entry> &given,
+                  const TimeParameters                &time,
+                  const StageNames                    &all,
+                  NamedStages                         &stages)
   {
     if (stages.empty())
       {
@@ -113,7 +113,7 @@ namespace moraine
           time, all.boundaries, all.grid_conditions, all.loads, {}, false};
       }
     else
-      for (const auto &entry : input.entries())
+      for (const auto &entry : given)
         if (entry.section == "Time")
           reject("Time",
                  entry.key,
@@ -126,7 +126,7 @@ namespace moraine
         const std::string section = "Stages/" + name;
         const auto       *before  = k > 0 ? &stages[k - 1].second : nullptr;
         if (before)
-          complete_start(input, time_section(name), before->time, stage.time);
+          complete_start(given, time_section(name), before->time, stage.time);
         stage.time.check(time_section(name));
         complete_names(section,
                        "Boundaries",

@@ -44,15 +44,16 @@ namespace moraine
 
   /**
    * Give every stage what it left to the one before: its start and its names. A
-   * scene without stages gets one without a name, with @p time.
+   * scene without stages gets one without a name, with @p time. @p given: what
+   * the scene says that is no default.
    * @throws InputError for names that are not there, times that go back, and a
    * section 'Time' beside stages.
    */
   void
-  complete_stages(const InputFile      &input,
-                  const TimeParameters &time,
-                  const StageNames     &names,
-                  NamedStages          &stages);
+  complete_stages(const std::vector<InputFile::Entry> &given,
+                  const TimeParameters                &time,
+                  const StageNames                    &names,
+                  NamedStages                         &stages);
 
   /** The section with the keys of a stage's time. */
   std::string
