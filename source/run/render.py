@@ -95,6 +95,16 @@ def is_flat(data):
     return bounds[5] - bounds[4] == 0.0
 
 
+def magnified(data, factor):
+    """Points at this many times their displacement."""
+    data.GetPointData().SetActiveVectors("displacement")
+    warp = vtk.vtkWarpVector()
+    warp.SetInputData(data)
+    warp.SetScaleFactor(factor - 1)
+    warp.Update()
+    return warp.GetOutput()
+
+
 def as_glyphs(data, scale):
     """A disc (3D: ball) of its volume for every point."""
     fields = data.GetPointData()
@@ -313,6 +323,9 @@ def add_arguments(parser):
                         help="instead of --mesh: squares of size H")
     parser.add_argument("--point-scale", type=float, default=1.0,
                         help="size of points over that of their volume")
+    parser.add_argument("--magnify", type=float, default=1.0, metavar="FACTOR",
+                        help="draw points at this many times their "
+                        "displacement")
     parser.add_argument("--wall", nargs="+", type=float, action="append",
                         default=[], metavar="X Y",
                         help="a line through these points, in 2D")
@@ -344,6 +357,8 @@ class Panel:
         self.flat = is_flat(self.data)
         # The domains of points have their fields too.
         self.is_points = self.data.GetCellType(0) == vtk.VTK_VERTEX
+        if self.is_points and args.magnify != 1:
+            self.data = magnified(self.data, args.magnify)
         self.shapes = as_glyphs(self.data, args.point_scale) \
             if self.is_points else self.data
         self.walls = args.wall + [wall[1:] for wall in args.wall_of
