@@ -132,7 +132,9 @@ namespace moraine
           share((force.times_density ? state.material(body).density() *
                                          state.initial_volume(point) :
                                        points.volume(point)) *
-                  force.value(points.position(point), context.t_end),
+                  force.value(force.at_start ? state.original_position(point) :
+                                               points.position(point),
+                              context.t_end),
                 block.N(p),
                 local);
       }

@@ -227,6 +227,12 @@ namespace moraine
                       bodies,
                       "Of body force and gravity: names of the bodies; all if "
                       "left out.");
+    prm.add_parameter("Coordinates",
+                      coordinates,
+                      "Of body force and gravity: whether x, y, z of 'Value' "
+                      "are where the material is (current) or where it was at "
+                      "the start (original).",
+                      patterns::selection({"current", "original"}));
     prm.add_parameter("Side", side, "Of side traction: a side of the mesh.");
     prm.add_parameter("Location",
                       location,

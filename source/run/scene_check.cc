@@ -29,12 +29,17 @@ namespace moraine
     bool
     load_uses(const std::string &type, const std::string &key)
     {
-      const bool is_of_surface =
-        !is_one_of(key,
-                   {"Type", "Value", "Curve", "Bodies", "Side", "Location"});
+      const bool is_of_surface = !is_one_of(key,
+                                            {"Type",
+                                             "Value",
+                                             "Curve",
+                                             "Bodies",
+                                             "Coordinates",
+                                             "Side",
+                                             "Location"});
       return is_one_of(key, {"Type", "Value", "Curve"}) ||
-             (type == "body force" && key == "Bodies") ||
-             (type == "gravity" && key == "Bodies") ||
+             (is_one_of(type, {"body force", "gravity"}) &&
+              is_one_of(key, {"Bodies", "Coordinates"})) ||
              (type == "side traction" && key == "Side") ||
              (type == "point force" && key == "Location") ||
              (type == "force on points" && key == "Location") ||

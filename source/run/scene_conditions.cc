@@ -292,6 +292,7 @@ namespace moraine
             {name,
              value,
              parameters.type == "gravity",
+             parameters.coordinates == "original",
              body_flags(parameters.bodies, body_names, section)});
         else if (parameters.type == "side traction")
           loads.side_tractions.push_back(

@@ -24,7 +24,8 @@ namespace moraine
 
   /**
    * A force per volume in some of the bodies: b(x, t), or gravity
-   * @f$\rho\, g(x, t)@f$.
+   * @f$\rho\, g(x, t)@f$, with x where the material is, or where it was at the
+   * start.
    */
   template <int dim>
   struct BodyForce
@@ -32,7 +33,8 @@ namespace moraine
     std::string         name;
     VectorFunction<dim> value;
     bool                times_density = false;
-    std::vector<bool>   acts_on; ///< one entry per body
+    bool                at_start = false; ///< x of value is that of the start
+    std::vector<bool>   acts_on;          ///< one entry per body
   };
 
   /** A force per area (2D: per length) on a side of the mesh. */

@@ -121,6 +121,7 @@ namespace moraine
     std::string              value;
     std::string              curve;
     std::vector<std::string> bodies;
+    std::string              coordinates = "current";
     std::string              side;
     std::vector<double>      location;
     ShapeParameters<dim>     surface{ShapeUse::surface};

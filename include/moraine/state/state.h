@@ -181,6 +181,16 @@ namespace moraine
                points.volume(p);
     }
 
+    /** Where a point was when its displacement was zero. */
+    dealii::Point<dim>
+    original_position(const unsigned int p) const
+    {
+      const dealii::Point<dim> &x = points.position(p);
+      return after_step == MeshAfterStep::keep ?
+               x :
+               x - points.displacement_field()(points.values(p));
+    }
+
     /** The volume over which the stress of a point is integrated: its own, or
      * what weights fitted to the cell make of it. */
     double
