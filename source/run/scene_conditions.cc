@@ -292,8 +292,8 @@ namespace moraine
             {name,
              value,
              parameters.type == "gravity",
-             parameters.coordinates == "original",
-             body_flags(parameters.bodies, body_names, section)});
+             body_flags(parameters.bodies, body_names, section),
+             parameters.coordinates == "original"});
         else if (parameters.type == "side traction")
           loads.side_tractions.push_back(
             {name,

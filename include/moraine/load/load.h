@@ -33,8 +33,8 @@ namespace moraine
     std::string         name;
     VectorFunction<dim> value;
     bool                times_density = false;
-    bool                at_start = false; ///< x of value is that of the start
     std::vector<bool>   acts_on;          ///< one entry per body
+    bool                at_start = false; ///< x of value is that of the start
   };
 
   /** A force per area (2D: per length) on a side of the mesh. */
