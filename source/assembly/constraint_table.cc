@@ -44,6 +44,17 @@ namespace moraine
 
 
   bool
+  ConstraintTable::any_values(const MPI_Comm &communicator) const
+  {
+    bool any = false;
+    for (const auto &line : lines_with_values.get_lines())
+      any = any || line.inhomogeneity != 0.;
+    return Utilities::MPI::logical_or(any, communicator);
+  }
+
+
+
+  bool
   ConstraintTable::prescribes(const types::global_dof_index dof) const
   {
     return lines.is_constrained(dof) &&

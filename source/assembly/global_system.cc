@@ -122,7 +122,8 @@ namespace moraine
     if (first_failure.empty())
       first_failure = local.failure;
     const unsigned int n_nodes = local.nodal_increments.size();
-    work_sum += local.work();
+    if (counts_work)
+      work_sum += local.work();
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int c = 0; c < dim; ++c)
         {

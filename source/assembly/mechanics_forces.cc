@@ -91,20 +91,25 @@ namespace moraine
   MechanicsSystem<dim>::set_target_of_motion()
   {
     const double t_end = context.t_end;
+    const auto   set   = [this](const double t) {
+      context.t_end = t;
+      constraints.set_values(lines_of_terms());
+    };
     context.motion->set_target(
       context.step_size(),
       !constraints.any_lines() ?
         typename Motion<dim>::Constrain() :
-        [this, t_end](const Prescribed prescribed, LA::Vector &x) {
+        [&](const Prescribed prescribed, LA::Vector &x) {
           if (prescribed == Prescribed::none)
             return constraints.distribute_correction(x);
-          context.t_end = prescribed == Prescribed::in_the_middle ?
-                            (context.t_start + t_end) / 2 :
-                            t_end;
-          constraints.set_values(lines_of_terms());
+          if (prescribed == Prescribed::at_the_end)
+            return constraints.distribute(x);
+          set((context.t_start + t_end) / 2);
           constraints.distribute(x);
-        });
-    context.t_end = t_end;
+          set(t_end);
+        },
+      constraints.any_lines() &&
+        constraints.any_values(state.grid().communicator()));
   }
 
 

@@ -267,10 +267,10 @@ namespace moraine
     context.t_end = t_end;
     state.set_step_time({context.t_start, context.t_end});
     start_over();
-    if (context.motion)
-      set_target_of_motion();
     if (constraints.any_lines())
       constraints.set_values(lines_of_terms());
+    if (context.motion)
+      set_target_of_motion();
     find_dead_forces();
   }
 
@@ -340,6 +340,8 @@ namespace moraine
         for (const auto *term : point_terms)
           {
             term->add(context, block, tangent, local);
+            if (!context.motion)
+              continue;
             const double work = local.work();
             count_work(*term, work - before);
             before = work;

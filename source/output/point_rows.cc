@@ -87,10 +87,16 @@ namespace moraine
           for (const unsigned int c : tensor_components<dim>())
             rows.push_back(c < field.n_components ? field_values[c] : 0.);
         else if (field.kind == FieldKind::tensor)
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              rows.push_back(i < dim && j < dim ? field_values[i * dim + j] :
-                                                  (i == j ? 1. : 0.));
+          {
+            const double out_of_plane =
+              field.name == FieldNames<dim>::deformation_gradient.name ? 1. :
+                                                                         0.;
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                rows.push_back(i < dim && j < dim ?
+                                 field_values[i * dim + j] :
+                                 (i == j ? out_of_plane : 0.));
+          }
         else
           rows.insert(rows.end(),
                       field_values,

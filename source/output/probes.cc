@@ -38,9 +38,14 @@ namespace moraine
     prm.add_parameter("Quantities",
                       quantities,
                       "What becomes columns of history.csv: displacement and "
-                      "position [length], stress [stress] (of a point only).",
-                      Patterns::List(patterns::selection(
-                                       {"displacement", "position", "stress"}),
+                      "position [length], stress [stress] (of a point only); "
+                      "in dynamics velocity [length/time] and acceleration "
+                      "[length/time^2].",
+                      Patterns::List(patterns::selection({"displacement",
+                                                          "position",
+                                                          "stress",
+                                                          "velocity",
+                                                          "acceleration"}),
                                      1));
   }
 
@@ -48,9 +53,12 @@ namespace moraine
 
   template <int dim>
   void
-  ProbeParameters<dim>::check() const
+  ProbeParameters<dim>::check(const bool is_dynamic) const
   {
     const std::string section = "Probes/" + name;
+    const auto        wants   = [&](const std::string &quantity) {
+      return std::count(quantities.begin(), quantities.end(), quantity) > 0;
+    };
     if (location.size() != dim)
       throw InputError(place(section, "Location") + ": found " +
                        std::to_string(location.size()) +
@@ -58,14 +66,20 @@ namespace moraine
                        std::to_string(dim));
     if (quantities.empty())
       throw InputError(place(section, "Quantities") +
-                       ": found nothing; allowed are displacement, position "
-                       "and stress");
-    if (kind == "interpolated" &&
-        std::count(quantities.begin(), quantities.end(), "stress") > 0)
+                       ": found nothing; allowed are displacement, position, "
+                       "stress, velocity and acceleration");
+    if (kind == "interpolated" && wants("stress"))
       throw InputError(place(section, "Quantities") +
                        ": found 'stress', but stress is known at points only; "
-                       "allowed with 'Kind = interpolated' are displacement "
-                       "and position");
+                       "allowed with 'Kind = interpolated' are displacement, "
+                       "position, velocity and acceleration");
+    for (const char *quantity : {"velocity", "acceleration"})
+      if (!is_dynamic && wants(quantity))
+        throw InputError(
+          place(section, "Quantities") + ": found '" + quantity +
+          "' in a scene without inertia; allowed are "
+          "displacement, position and stress, or an 'Integrator' "
+          "of section 'Time' that is not quasi-static");
   }
 
 
@@ -85,10 +99,11 @@ namespace moraine
                       const bool moves_through_mesh)
     : cell_size(points.mesh().cell_size())
     , moves_through_mesh(moves_through_mesh)
+    , v_field(points.fields().find(FieldNames<dim>::velocity))
+    , a_field(points.fields().find(FieldNames<dim>::acceleration))
   {
     for (const auto &one : parameters)
       {
-        one.check();
         Probe probe;
         probe.parameters = one;
         std::copy(one.location.begin(),
@@ -174,7 +189,9 @@ namespace moraine
   template <int dim>
   void
   Probes<dim>::try_step(const PlaceFunction<dim> &step_increment,
-                        const PointSet<dim>      &points)
+                        const PointSet<dim>      &points,
+                        const PlaceFunction<dim> &velocity,
+                        const PlaceFunction<dim> &acceleration)
   {
     for (Probe &probe : probes)
       if (!probe.follows_point())
@@ -183,7 +200,14 @@ namespace moraine
             moves_through_mesh ? probe.start + probe.displacement : probe.start;
           probe.leaves_cells = !step_increment(where, probe.increment);
           if (!probe.leaves_cells)
-            continue;
+            {
+              probe.v = probe.a = Tensor<1, dim>();
+              if (velocity)
+                velocity(where, probe.v);
+              if (acceleration)
+                acceleration(where, probe.a);
+              continue;
+            }
           choose_point(where, points, probe);
           probe.ahead =
             probe.displacement - displacement_of(probe.point_id, points);
@@ -219,7 +243,7 @@ namespace moraine
   Probes<dim>::gather_points(const PointSet<dim> &points) const
   {
     constexpr unsigned int n_stress = n_stress_components<dim>;
-    constexpr unsigned int n        = 2 * dim + n_stress;
+    constexpr unsigned int n        = 4 * dim + n_stress;
 
     // The last number of each counts how often the point was found.
     std::vector<double> all(probes.size() * (n + 1), 0.);
@@ -229,9 +253,15 @@ namespace moraine
           {
             double       *out    = &all[i * (n + 1)];
             const double *values = points.values(p);
-            out  = std::copy_n(points.position(p).begin_raw(), dim, out);
-            out  = std::copy_n(values + points.displacement_offset(), dim, out);
-            out  = std::copy_n(values + points.stress_offset(), n_stress, out);
+            out = std::copy_n(points.position(p).begin_raw(), dim, out);
+            out = std::copy_n(values + points.displacement_offset(), dim, out);
+            out = std::copy_n(values + points.stress_offset(), n_stress, out);
+            for (const auto *field : {&v_field, &a_field})
+              out = std::copy_n((field->exists() ? (*field)(values) :
+                                                   Tensor<1, dim>())
+                                  .begin_raw(),
+                                dim,
+                                out);
             *out = 1.;
           }
     Utilities::MPI::sum(all,
@@ -261,7 +291,8 @@ namespace moraine
     if (probes.empty())
       return columns;
 
-    const auto of_points = gather_points(points);
+    constexpr unsigned int first_velocity = 2 * dim + n_stress_components<dim>;
+    const auto             of_points      = gather_points(points);
     for (unsigned int i = 0; i < probes.size(); ++i)
       {
         const Probe        &probe = probes[i];
@@ -275,6 +306,10 @@ namespace moraine
                                   probe.displacement[c];
               values[c]       = probe.start[c] + u;
               values[dim + c] = u - probe.before_reset[c];
+              if (probe.has_left)
+                continue;
+              values[first_velocity + c]       = probe.v[c];
+              values[first_velocity + dim + c] = probe.a[c];
             }
         for (const std::string &quantity : probe.parameters.quantities)
           if (quantity == "position")
@@ -284,6 +319,16 @@ namespace moraine
             for (unsigned int c = 0; c < dim; ++c)
               columns.push_back(
                 {"u_" + direction_name(c) + at, "length", values[dim + c]});
+          else if (quantity == "velocity")
+            for (unsigned int c = 0; c < dim; ++c)
+              columns.push_back({"v_" + direction_name(c) + at,
+                                 "length/time",
+                                 values[first_velocity + c]});
+          else if (quantity == "acceleration")
+            for (unsigned int c = 0; c < dim; ++c)
+              columns.push_back({"a_" + direction_name(c) + at,
+                                 "length/time^2",
+                                 values[first_velocity + dim + c]});
           else
             for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
               columns.push_back({"sigma_" + stress_component_name(c) + at,

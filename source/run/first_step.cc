@@ -357,7 +357,11 @@ namespace moraine
     if (dynamic && !before.time.integrator.dynamic())
       start_motion(scene, stage, model);
     else if (!dynamic)
-      check_that_it_is_held(t, model);
+      {
+        if (before.time.integrator.dynamic())
+          model.motion->rest();
+        check_that_it_is_held(t, model);
+      }
     return notes;
   }
 

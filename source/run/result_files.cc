@@ -224,11 +224,23 @@ namespace moraine
       {
         const std::string name =
           OutputDirectory::vtu_name("mesh", n_vtu_written);
-        write_mesh_vtu<dim>(*model.space,
-                            {{"step_displacement", "length", increments}},
-                            directory.file(name),
-                            t,
-                            n_vtu_written);
+        std::vector<NodeField<dim>> fields = {
+          {"step_displacement", "length", increments}};
+        // Before the first step with inertia all nodes are at rest.
+        const Increments none(increments.size());
+        const auto       add = [&](const std::string &field,
+                             const std::string &unit,
+                             const Increments  &values) {
+          fields.push_back(
+            {field, unit, values.size() == none.size() ? values : none});
+        };
+        if (model.motion)
+          {
+            add("velocity", "length/time", model.motion->velocities());
+            add("acceleration", "length/time^2", model.motion->accelerations());
+          }
+        write_mesh_vtu<dim>(
+          *model.space, fields, directory.file(name), t, n_vtu_written);
         mesh_pvd.add(t, name);
       }
     ++n_vtu_written;

@@ -254,7 +254,7 @@ namespace moraine
       }
     check_conditions(given);
     for (const auto &probe : probes)
-      probe.check();
+      probe.check(is_dynamic());
   }
 
 

@@ -263,8 +263,17 @@ namespace moraine
       throw ComputationError(leaves);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
-    model.probes->try_step(grid_evaluation<dim>(*model.space, increments),
-                           *model.points);
+    typename Motion<dim>::Nodal motion;
+    const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
+    if (dynamic)
+      motion = model.motion->at_end();
+    const auto at = [&](const std::vector<Tensor<1, dim>> &values) {
+      return grid_evaluation<dim>(*model.space, values);
+    };
+    model.probes->try_step(at(increments),
+                           *model.points,
+                           dynamic ? at(motion.v) : PlaceFunction<dim>(),
+                           dynamic ? at(motion.a) : PlaceFunction<dim>());
     const double t_start = time_control.time();
     const double growth  = allowed_growth(x);
     lasting.keep([&]() {
@@ -350,10 +359,11 @@ namespace moraine
     if (!report.converged())
       return report.message.empty() ? to_string(report.status) : report.message;
     const double tolerance = scene.stages[stage].second.time.error_tolerance;
-    if (tolerance > 0 && error_of_step(x) > tolerance)
+    const double error     = tolerance > 0 ? error_of_step(x) : 0.;
+    if (error > tolerance)
       {
         std::ostringstream text;
-        text << "its estimated error is " << error_of_step(x)
+        text << "its estimated error is " << error
              << " of a cell, more than Error tolerance = " << tolerance;
         return text.str();
       }

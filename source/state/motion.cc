@@ -58,8 +58,6 @@ namespace moraine
   Motion<dim>::request_fields(const VelocityTransfer &transfer,
                               PointFields            &fields)
   {
-    if (transfer.scheme == VelocityTransfer::Scheme::none)
-      return;
     fields.request(FieldNames<dim>::velocity);
     fields.request(FieldNames<dim>::acceleration);
     if (transfer.scheme == VelocityTransfer::Scheme::apic)
@@ -105,9 +103,16 @@ namespace moraine
     NodeValues            masses(n);
     Nodal                 sums{NodeValues(n), NodeValues(n)};
     StencilBlock<dim>     block;
+    NodeValues            places; ///< of the nodes of a block
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
+        if (gradient_field.exists())
+          {
+            places.resize(block.n_nodes);
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              places[k] = space.node_position(block.nodes[k]);
+          }
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
             const unsigned int point  = block.points[p];
@@ -122,11 +127,9 @@ namespace moraine
                 }
             // The mean place of what nodes see of the point: with it the
             // gradient gives no momentum.
-            Point<dim> centre;
-            if (gradient_field.exists())
-              for (unsigned int k = 0; k < block.n_nodes; ++k)
-                centre += block.N(p)[k] *
-                          Tensor<1, dim>(space.node_position(block.nodes[k]));
+            Tensor<1, dim> centre;
+            for (unsigned int k = 0; k < places.size(); ++k)
+              centre += block.N(p)[k] * places[k];
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 const unsigned int node  = block.nodes[k];
@@ -136,8 +139,7 @@ namespace moraine
                 sums.a[node] += share * A;
                 if (gradient_field.exists())
                   sums.v[node] +=
-                    share * (gradient_field(values) *
-                             (space.node_position(node) - centre));
+                    share * (gradient_field(values) * (places[k] - centre));
               }
           }
       }
@@ -160,11 +162,30 @@ namespace moraine
 
   template <int dim>
   void
+  Motion<dim>::rest()
+  {
+    v.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    a.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        double *values = points.values(p);
+        v_field.store(Tensor<1, dim>(), values);
+        a_field.store(Tensor<1, dim>(), values);
+        if (gradient_field.exists())
+          gradient_field.store(Tensor<2, dim>(), values);
+      }
+  }
+
+
+
+  template <int dim>
+  void
   Motion<dim>::start(
     const std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)>
       &velocity)
   {
     done = Works();
+    rest();
     if (!points_carry())
       {
         // A node of several bodies or ranks has the mean of theirs.
@@ -172,8 +193,6 @@ namespace moraine
         const Basis<dim>     &basis = state.point_basis();
         NodeValues            n_known(space.n_nodes());
         StencilBlock<dim>     block;
-        v.assign(space.n_nodes(), Tensor<1, dim>());
-        a.assign(space.n_nodes(), Tensor<1, dim>());
         for (unsigned int g = 0; g < basis.n_batches(); ++g)
           {
             basis.evaluate(g, block);
@@ -194,6 +213,7 @@ namespace moraine
         for (unsigned int k = 0; k < v.size(); ++k)
           if (n_known[k][0] > 0)
             v[k] /= n_known[k][0];
+        interpolate(v, v_field);
         return;
       }
     // A velocity that is linear in space has an exact difference.
@@ -206,7 +226,6 @@ namespace moraine
         const Point<dim> x      = points.position(p);
         double          *values = points.values(p);
         v_field.store(at(x), values);
-        a_field.store(Tensor<1, dim>(), values);
         if (!gradient_field.exists())
           continue;
         Tensor<2, dim> gradient;
@@ -255,7 +274,9 @@ namespace moraine
 
   template <int dim>
   void
-  Motion<dim>::set_target(const double size, const Constrain &constrain)
+  Motion<dim>::set_target(const double     size,
+                          const Constrain &constrain,
+                          const bool       moves)
   {
     step_size = size;
     prescribed.clear();
@@ -277,20 +298,16 @@ namespace moraine
     };
     v = constrained(v, Prescribed::none);
     a = constrained(a, Prescribed::none);
-    if (!(size > 0))
+    if (!(size > 0) || !moves)
       return;
     const NodeValues none(space.n_nodes());
-    const NodeValues half  = constrained(none, Prescribed::in_the_middle),
-                     whole = constrained(none, Prescribed::at_the_end);
-    double largest         = 0;
+    prescribed            = constrained(none, Prescribed::at_the_end);
+    const NodeValues half = constrained(none, Prescribed::in_the_middle);
     for (unsigned int k = 0; k < v.size(); ++k)
       {
-        v[k] += (4. * half[k] - whole[k]) / size;
-        a[k] += 4. * (whole[k] - 2. * half[k]) / (size * size);
-        largest = std::max(largest, whole[k].norm());
+        v[k] += (4. * half[k] - prescribed[k]) / size;
+        a[k] += 4. * (prescribed[k] - 2. * half[k]) / (size * size);
       }
-    if (Utilities::MPI::max(largest, space.communicator()) > 0)
-      prescribed = whole;
   }
 
 
@@ -300,8 +317,16 @@ namespace moraine
   Motion<dim>::set_accelerations(const LA::Vector &values)
   {
     state.grid().node_values(values, a);
-    if (!points_carry())
-      return;
+    interpolate(a, a_field);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::interpolate(const NodeValues &values,
+                           const PointField<dim, dealii::Tensor<1, dim>> &field)
+  {
     const Basis<dim> &basis = state.point_basis();
     StencilBlock<dim> block;
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
@@ -311,8 +336,8 @@ namespace moraine
           {
             Tensor<1, dim> value;
             for (unsigned int k = 0; k < block.n_nodes; ++k)
-              value += block.N(p)[k] * a[block.nodes[k]];
-            a_field.store(value, points.values(block.points[p]));
+              value += block.N(p)[k] * values[block.nodes[k]];
+            field.store(value, points.values(block.points[p]));
           }
       }
   }
@@ -339,7 +364,7 @@ namespace moraine
   void
   Motion<dim>::map_to_points(const Nodal &end)
   {
-    const double      share = transfer.flip_share;
+    const double      share = points_carry() ? transfer.flip_share : 0.;
     const Basis<dim> &basis = state.point_basis();
     StencilBlock<dim> block;
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
@@ -375,8 +400,7 @@ namespace moraine
   Motion<dim>::accept()
   {
     Nodal end = at_end();
-    if (points_carry())
-      map_to_points(end);
+    map_to_points(end);
     v = std::move(end.v);
     a = std::move(end.a);
   }
@@ -518,37 +542,19 @@ namespace moraine
   MotionSums<dim>
   Motion<dim>::sums() const
   {
-    MotionSums<dim>   result;
-    const Basis<dim> &basis = state.point_basis();
-    const auto        add = [&](const unsigned int p, const Tensor<1, dim> &v) {
-      const double     m = mass(p);
-      const Point<dim> x = points.position(p);
-      result.mass += m;
-      result.momentum += m * v;
-      result.kinetic_energy += 0.5 * m * v.norm_square();
-      if constexpr (dim == 2)
-        result.angular_momentum[0] += m * (x[0] * v[1] - x[1] * v[0]);
-      else
-        result.angular_momentum += m * cross_product_3d(x, v);
-    };
-    if (points_carry())
-      for (unsigned int p = 0; p < points.n_local(); ++p)
-        add(p, v_field(points.values(p)));
-    else
+    MotionSums<dim> result;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        StencilBlock<dim> block;
-        for (unsigned int g = 0; g < basis.n_batches(); ++g)
-          {
-            basis.evaluate(g, block);
-            for (unsigned int p = 0; p < block.n_points; ++p)
-              {
-                Tensor<1, dim> of_point;
-                // Before the first stage with inertia all is at rest.
-                for (unsigned int k = 0; k < block.n_nodes && !v.empty(); ++k)
-                  of_point += block.N(p)[k] * v[block.nodes[k]];
-                add(block.points[p], of_point);
-              }
-          }
+        const double         m = mass(p);
+        const Point<dim>     x = points.position(p);
+        const Tensor<1, dim> v = v_field(points.values(p));
+        result.mass += m;
+        result.momentum += m * v;
+        result.kinetic_energy += 0.5 * m * v.norm_square();
+        if constexpr (dim == 2)
+          result.angular_momentum[0] += m * (x[0] * v[1] - x[1] * v[0]);
+        else
+          result.angular_momentum += m * cross_product_3d(x, v);
       }
     const MPI_Comm communicator = state.grid().communicator();
     result.mass     = Utilities::MPI::sum(result.mass, communicator);

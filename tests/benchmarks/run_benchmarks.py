@@ -224,6 +224,65 @@ class Bench:
         self.record("plastic3d", "an iteration, 1 rank / 2 ranks",
                     iteration[1] / iteration[2], "-", 1.5, at_least=True)
 
+    # A step with inertia against a static one of the same scene, which is one
+    # Newton iteration: what ten further steps of a run take.
+    def case_dynamics(self):
+        n = 20 if self.smoke else 400
+        block = {"Mesh/Upper corner": f"1, {1 + 1 / n}",
+                 "Mesh/Cells": f"{n}, {n + 1}", "Solver/Direct limit 2D": 1000}
+        seconds = {"quasi-static": [], "Newmark": []}
+        iterations = {}
+        for _ in range(min(3, self.repeats)):
+            for integrator, of in seconds.items():
+                taken, linear = {}, {}
+                for steps in (2, 12):
+                    _, summary = self.run_scene(
+                        "prm/large-deformation/block-100.prm",
+                        {**block, "Time/Integrator": integrator,
+                         "Time/Steps": steps, "Time/End time": 0.001 * steps})
+                    taken[steps] = (summary["wall_seconds"]
+                                    - summary["timings"]["set up"])
+                    linear[steps] = summary["linear_iterations"]
+                    if summary["newton_iterations"] != steps:
+                        sys.exit("a step took more than one iteration")
+                of.append((taken[12] - taken[2]) / 10)
+                iterations[integrator] = (linear[12] - linear[2]) / 10
+        for integrator, of in seconds.items():
+            self.record("dynamics", f"{integrator}, a step", min(of), "s")
+            self.record("dynamics", f"{integrator}, CG iterations of a step",
+                        iterations[integrator], "-")
+        self.record("dynamics", "dynamic over static step",
+                    min(seconds["Newmark"]) / min(seconds["quasi-static"]), "-",
+                    1.15)
+        self.record("dynamics", "CG iterations, dynamic over static step",
+                    iterations["Newmark"] / iterations["quasi-static"], "-", 1)
+
+    # A million points of GIMP in 3D at finite strain, ten steps with inertia.
+    def case_dynamics3d(self):
+        n = 8 if self.smoke else 50
+        seconds = {}
+        for ranks in (1, 2):
+            _, summary = self.run_scene(
+                "prm/large-deformation/slump-3d.prm",
+                {"Mesh/Lower corner": f"{-1 / n}, {-1 / n}, 0",
+                 "Mesh/Upper corner": f"{1 + 1 / n}, {1 + 1 / n}, 1",
+                 "Mesh/Cells": f"{n + 2}, {n + 2}, {n}",
+                 "Method/Method": "GIMP", "Time/Integrator": "Newmark",
+                 "Time/Steps": 10, "Time/End time": 0.05,
+                 "Solver/Direct limit 3D": 1000}, ranks)
+            prefix = f"{ranks} rank{'s' * (ranks - 1)}, "
+            for name in ("points", "unknowns", "newton_iterations",
+                         "linear_iterations"):
+                self.record("dynamics3d", prefix + name, summary[name], "-")
+            for name, part in sorted(summary["timings"].items()):
+                self.record("dynamics3d", prefix + name, part, "s")
+            seconds[ranks] = summary["wall_seconds"]
+            self.record("dynamics3d", f"{prefix}ten steps", seconds[ranks], "s")
+            self.record("dynamics3d", f"{prefix}peak memory",
+                        summary["peak_memory_mib"] / 1024, "GiB", 4)
+        self.record("dynamics3d", "1 rank / 2 ranks", seconds[1] / seconds[2],
+                    "-", 1.7, at_least=True)
+
     # Against the seconds that other programs took on a machine of the same kind:
     # whole runs of AMPLE 1.1 under Octave 7.3, start of our program included, and
     # a step of geomechanics/mpm (sparse LDL^T), all that follows the set-up.
@@ -283,7 +342,7 @@ class Bench:
 
 
 CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
-         "plastic3d", "peers"]
+         "plastic3d", "dynamics", "dynamics3d", "peers"]
 
 
 def main():

@@ -35,7 +35,7 @@ namespace moraine
     {
       try
         {
-          parameters.check();
+          parameters.check(false);
         }
       catch (const InputError &error)
         {
@@ -231,10 +231,15 @@ namespace moraine
       message_of(probe("A", {1., 2.}, "interpolated", {"stress"})),
       "section 'Probes/A', key 'Quantities': found 'stress', but stress "
       "is known at points only; allowed with 'Kind = interpolated' are "
-      "displacement and position");
+      "displacement, position, velocity and acceleration");
     EXPECT_EQ(
       message_of(probe("A", {1., 2.}, "interpolated", {})),
       "section 'Probes/A', key 'Quantities': found nothing; allowed are "
-      "displacement, position and stress");
+      "displacement, position, stress, velocity and acceleration");
+    EXPECT_EQ(
+      message_of(probe("A", {1., 2.}, "nearest point", {"velocity"})),
+      "section 'Probes/A', key 'Quantities': found 'velocity' in a scene "
+      "without inertia; allowed are displacement, position and stress, or an "
+      "'Integrator' of section 'Time' that is not quasi-static");
   }
 } // namespace moraine

@@ -62,6 +62,34 @@ for integrator, name in (("Newmark", "average acceleration"),
         number(f"{name}, T/{steps}: longer period, %",
                100 * abs(2 * math.pi / steps / angle) - 100, 4)
 
+# What probes and files show: average acceleration, step by step.
+probe = {"Probes/tip/Quantities": "displacement, velocity, acceleration",
+         "Time/Steps": 40, "Time/End time": period}
+for method, kind in (("finite element", "interpolated"),
+                     ("finite element", "nearest point"),
+                     ("GIMP", "interpolated"), ("GIMP", "nearest point")):
+    result = run(bar, {**probe, "Method/Method": method,
+                       "Probes/tip/Kind": kind})
+    rows = result.history()
+    name = f"{method}, {kind}"
+    # Points take the motion of the nodes as that crosses the mesh; exact then
+    # is nothing but what nodes keep.
+    for rate, of in (("v", "u"), ("a", "v")):
+        if method == "finite element":
+            bound(f"{name}: {of}_x against the mean of {rate}_x of a step",
+                  max(abs(new[f"{of}_x at tip"] - old[f"{of}_x at tip"]
+                          - period / 80 * (old[f"{rate}_x at tip"]
+                                           + new[f"{rate}_x at tip"]))
+                      for old, new in zip(rows, rows[1:])), 1e-14)
+        number(f"{name}: largest {rate}_x",
+               max(row[f"{rate}_x at tip"] for row in rows), 2)
+    for kind_of_file in ("mesh", "points"):
+        last = sorted((result.folder / kind_of_file).glob("*.vtu"))[-1]
+        content = last.read_bytes()
+        text(f"{name}: {kind_of_file} file has",
+             ", ".join(field for field in ("velocity", "acceleration")
+                       if f'Name="{field}"'.encode() in content))
+
 # Damping: ratios at the two given frequencies, and at the next mode.
 damped = "prm/dynamics/damped-bar.prm"
 beta = 2 * 0.05 / (omega(1) + omega(2))

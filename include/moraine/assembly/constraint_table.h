@@ -43,6 +43,10 @@ namespace moraine
       return has_lines;
     }
 
+    /** Whether a @f$g@f$ of any rank is not zero. Collective. */
+    bool
+    any_values(const MPI_Comm &communicator) const;
+
     /** The lines without @f$g@f$: those of corrections and of the matrix. */
     const dealii::AffineConstraints<double> &
     homogeneous() const

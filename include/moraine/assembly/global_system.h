@@ -85,7 +85,14 @@ namespace moraine
       return std::accumulate(squares.begin(), squares.end(), 0.);
     }
 
-    /** @f$\sum f \cdot \Delta u@f$ of what this rank added. */
+    /** Let add() count work, which costs a little; at first it does not. */
+    void
+    count_work(const bool counts)
+    {
+      counts_work = counts;
+    }
+
+    /** @f$\sum f \cdot \Delta u@f$ of what this rank added, if it counts. */
     double
     work() const
     {
@@ -142,6 +149,7 @@ namespace moraine
     std::vector<double>                 squares;
     double                              work_sum = 0;
     std::string                         first_failure;
+    bool                                counts_work  = false;
     bool                                with_tangent = false;
   };
 } // namespace moraine

@@ -52,6 +52,7 @@ namespace moraine
     set_motion(Motion<dim> *motion)
     {
       context.motion = motion;
+      sums.count_work(motion != nullptr);
     }
 
     /** From the next begin_step() on, other terms. */

@@ -32,10 +32,11 @@ namespace moraine
 
     /**
      * @throws InputError if the location is missing, or if a quantity is asked
-     * for that this kind of probe does not have.
+     * for that this kind of probe, or a scene that is not dynamic, does not
+     * have.
      */
     void
-    check() const;
+    check(const bool is_dynamic) const;
   };
 
   /**
@@ -78,10 +79,14 @@ namespace moraine
      * @param step_increment displacement of this step at a place of the mesh as
      * it stood before the step; see grid_evaluation().
      * @param points as they stood before the step
+     * @param velocity,acceleration at the end of the step, at the same places;
+     * empty if there are none
      */
     void
     try_step(const PlaceFunction<dim> &step_increment,
-             const PointSet<dim>      &points);
+             const PointSet<dim>      &points,
+             const PlaceFunction<dim> &velocity     = {},
+             const PlaceFunction<dim> &acceleration = {});
 
     /** The step of the last try_step() is accepted. */
     void
@@ -126,6 +131,7 @@ namespace moraine
       double                 distance = 0; ///< of the point that is followed
       dealii::Tensor<1, dim> displacement;
       dealii::Tensor<1, dim> increment;            ///< of the trial step
+      dealii::Tensor<1, dim> v, a;                 ///< at its end
       bool                   leaves_cells = false; ///< in the trial step
       bool                   has_left     = false;
       /** Of a probe that has left the cells: over that of its point. */
@@ -147,14 +153,16 @@ namespace moraine
     dealii::Tensor<1, dim>
     displacement_of(const unsigned int id, const PointSet<dim> &points) const;
 
-    /** Position, displacement and stress of the points that are followed. */
+    /** Position, displacement, stress, velocity and acceleration of the points
+     * that are followed. */
     std::vector<std::vector<double>>
     gather_points(const PointSet<dim> &points) const;
 
-    std::vector<Probe>       probes;
-    std::vector<std::string> sentences;
-    double                   cell_size;
-    bool                     moves_through_mesh;
+    std::vector<Probe>                      probes;
+    std::vector<std::string>                sentences;
+    double                                  cell_size;
+    bool                                    moves_through_mesh;
+    PointField<dim, dealii::Tensor<1, dim>> v_field, a_field;
   };
 } // namespace moraine
 

@@ -108,9 +108,10 @@ namespace moraine
    * - a share of FLIP, @f$V_p + \sum_a N_a (v_a^{n+1} - v_a^n)@f$, and the rest
    *   of PIC, @f$\sum_a N_a v_a^{n+1}@f$;
    * - APIC: as PIC, and the gradient @f$G_p = \sum_a v_a^{n+1} \otimes \nabla
-   *   N_a@f$, with which @f$V_p + G_p (x_a - \sum_b N_b x_b)@f$ goes to the nodes
-   *   in place of @f$V_p@f$. (With @f$G_p@f$ from the gradients of the functions, it is
-   *   the Taylor variant, TPIC, and holds for hat functions as well.)
+   *   N_a@f$, with which @f$V_p + G_p (x_a - \sum_b N_b x_b)@f$ goes to the
+   * nodes in place of @f$V_p@f$. (With @f$G_p@f$ from the gradients of the
+   * functions, it is the Taylor variant, TPIC, and holds for hat functions as
+   * well.)
    * - FMPM of order k (Hammerquist and Nairn 2017; Nairn 2021): as PIC, with
    *   the nodes' @f$v_{(1)} = S^+ V@f$, @f$v_{(j)} = v_{(j-1)} + S^+ (V - S
    *   v_{(j-1)})@f$, and accelerations alike.
@@ -121,7 +122,8 @@ namespace moraine
   public:
     using NodeValues = std::vector<dealii::Tensor<1, dim>>;
 
-    /** Ask for what points carry with @p transfer. */
+    /** Ask for what points carry with @p transfer; velocity and acceleration
+     * to be seen even if nodes keep theirs. */
     static void
     request_fields(const VelocityTransfer &transfer, PointFields &fields);
 
@@ -132,6 +134,10 @@ namespace moraine
            const TimeIntegrator   &integrator,
            const VelocityTransfer &transfer,
            const bool              lumped_mass);
+
+    /** Stop nodes and points. */
+    void
+    rest();
 
     /** Give nodes and points @p velocity of a body at a place and no
      * acceleration, and count works anew. */
@@ -160,10 +166,13 @@ namespace moraine
      * Aim at the end of a step of @p size. Nodes that conditions move do so at
      * an acceleration that is the same all the step, by where they are in its
      * middle and at its end; those that are tied follow. @p constrain is empty
-     * if there are no conditions. Collective.
+     * if there are no conditions; @p moves: some prescribe a motion that is not
+     * none in the step. Collective.
      */
     void
-    set_target(const double size, const Constrain &constrain);
+    set_target(const double     size,
+               const Constrain &constrain,
+               const bool       moves = false);
 
     /** @f$(1-\alpha_m) a_{n+1} + \alpha_m a_n@f$ over @f$1-\alpha_f@f$; none in
      * a step of size 0. */
@@ -227,12 +236,27 @@ namespace moraine
       return rule;
     }
 
-    /** At the start of the step. */
+    /** At the start of the step, or of an accepted one at its end. */
     const NodeValues &
     velocities() const
     {
       return v;
     }
+
+    const NodeValues &
+    accelerations() const
+    {
+      return a;
+    }
+
+    struct Nodal
+    {
+      NodeValues v, a;
+    };
+
+    /** Of the trial state at the end of the step. */
+    Nodal
+    at_end() const;
 
     /** Take accelerations at the start of the first step. Collective. */
     void
@@ -305,11 +329,6 @@ namespace moraine
     accept();
 
   private:
-    struct Nodal
-    {
-      NodeValues v, a;
-    };
-
     bool
     points_carry() const
     {
@@ -320,13 +339,14 @@ namespace moraine
     Nodal
     map_to_nodes(const Nodal *known = nullptr) const;
 
-    /** By the trial increments. */
-    Nodal
-    at_end() const;
-
     /** Give points what they carry. */
     void
     map_to_points(const Nodal &end);
+
+    /** Give points the @p field that nodes have. */
+    void
+    interpolate(const NodeValues                              &values,
+                const PointField<dim, dealii::Tensor<1, dim>> &field);
 
     using Pair = std::pair<const NodeValues *, const NodeValues *>;
 
