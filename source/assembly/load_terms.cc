@@ -232,8 +232,9 @@ namespace moraine
 
 
   template <int dim>
-  CarriedLoadTerm<dim>::CarriedLoadTerm(CarriedLoad<dim> &load)
+  CarriedLoadTerm<dim>::CarriedLoadTerm(CarriedLoad<dim> &load, const bool acts)
     : load(load)
+    , acts(acts)
   {}
 
 
@@ -242,6 +243,8 @@ namespace moraine
   std::vector<Effect>
   CarriedLoadTerm<dim>::effects(const StepContext<dim> &) const
   {
+    if (!acts)
+      return {};
     return effect_of(load.is_single() ? "point force" : "surface traction",
                      load.name());
   }
@@ -267,6 +270,8 @@ namespace moraine
                             const bool,
                             GlobalSystem<dim> &system) const
   {
+    if (!acts)
+      return;
     const GridSpace<dim>       &space = context.state.grid();
     LocalSystem<dim>            local;
     std::vector<double>         N(space.nodes_per_cell());

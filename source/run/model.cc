@@ -4,6 +4,7 @@
 #include <moraine/run/model.h>
 
 #include <moraine/assembly/absorbing_term.h>
+#include <moraine/assembly/load_terms.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
@@ -178,6 +179,16 @@ namespace moraine
                  TimeIntegrator(integrator).forces_in_the_middle(),
                  scene.method.chosen().make_internal_force(*space, *points),
                  active);
+    // What pushes in a later stage goes with the material from now on.
+    for (auto &load : loads.carried)
+      if (!has(stage.loads, load.name()) &&
+          std::any_of(
+            scene.stages.begin(), scene.stages.end(), [&](const auto &other) {
+              return other.second.time.start_time > stage.time.start_time &&
+                     has(other.second.loads, load.name());
+            }))
+        terms.push_back(
+          std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
     const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
     if (integrator.dynamic() &&
         std::any_of(damping.begin(), damping.end(), [](const auto &factors) {

@@ -67,6 +67,22 @@ bound("displacement with reset and without, less the settlement",
       kept[-1]["u_y at middle"] - rows[-1]["u_y at middle"]
       - rows[0]["u_y at middle"], 1e-12)
 
+# The material carries a surface that is loaded in the second stage alone, in the
+# first by more than a cell.
+carried = folder / "carried.prm"
+side_traction = "    set Type  = side traction\n    set Side  = top\n"
+assert side_traction in text_of_scene
+carried.write_text(text_of_scene.replace(
+    side_traction,
+    "    set Type   = surface traction\n    set Points = 1 20; 0 20\n"))
+heavy = {"Method/Method": "GIMP", "Method/Mesh after step": "reset",
+         "Loads/weight/Value": "0; -100", "Stages/gravity/Time/Steps": 4,
+         "Stages/pulse/Time/Steps": 50, "Stages/pulse/Absorbing": ""}
+late = run(carried, heavy).history()
+early = run(carried, {**heavy, "Stages/gravity/Loads": "weight, pulse"}).history()
+bound("end with a load of the second stage over one that was nothing before - 1",
+      late[-1]["u_y at middle"] / early[-1]["u_y at middle"] - 1, 1e-10)
+
 # The estimate of the error makes steps as small as it takes.
 for tolerance in (1e-4, 1e-5):
     result = run(SCENE, {"Stages/pulse/Time/Error tolerance": tolerance,

@@ -98,7 +98,9 @@ namespace moraine
   class CarriedLoadTerm : public Term<dim>
   {
   public:
-    explicit CarriedLoadTerm(CarriedLoad<dim> &load);
+    /** If it does not act yet, the material carries its places all the same.
+     */
+    explicit CarriedLoadTerm(CarriedLoad<dim> &load, const bool acts = true);
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
@@ -126,6 +128,7 @@ namespace moraine
 
   private:
     CarriedLoad<dim> &load;
+    const bool        acts;
   };
 } // namespace moraine
 
