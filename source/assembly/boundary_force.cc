@@ -52,6 +52,16 @@ namespace moraine
 
 
 
+    /** A traction along the normal of a roller, turned to where it pushes. */
+    template <int dim>
+    Tensor<1, dim>
+    pushed(const Tensor<1, dim> &traction, const ConstraintState<dim> &state)
+    {
+      return traction + (traction * state.normal) * (state.push - state.normal);
+    }
+
+
+
     /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$. */
     template <int dim>
     SymmetricTensor<2, dim>
@@ -89,7 +99,7 @@ namespace moraine
       symmetrize(A * to_middle(A, measure));
     traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
     traction -= penalty(how, point.h, n, M, C) * constraint.violation;
-    return traction;
+    return pushed(traction, constraint);
   }
 
 
@@ -137,16 +147,22 @@ namespace moraine
       return;
 
     // f lies in the range of M, so M e_j acts as e_j on it.
-    const SymmetricTensor<2, dim> beta = penalty(how, point.h, n, M, C);
+    const SymmetricTensor<2, dim> symmetric_beta =
+      penalty(how, point.h, n, M, C);
+    Tensor<2, dim> beta; // its columns
+    for (unsigned int j = 0; j < dim; ++j)
+      beta[j] = pushed(Tensor<2, dim>(symmetric_beta)[j], constraint);
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int b = 0; b < n_nodes; ++b)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             local.matrix(dim * a + i, dim * b + j) +=
-              point.JxW * (N[a] * N[b] * beta[i][j] -
+              point.JxW * (N[a] * N[b] * beta[j][i] -
                            how.adjoint_sign * f[dim * a + i][j] * N[b]);
     if (measure == StrainMeasure::finite)
       evaluate(to_middle(W * grad_du, measure));
+    for (Tensor<1, dim> &flux_of_node : f)
+      flux_of_node = pushed(flux_of_node, constraint);
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int b = 0; b < n_nodes; ++b)
         for (unsigned int i = 0; i < dim; ++i)

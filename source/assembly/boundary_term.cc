@@ -4,6 +4,7 @@
 #include <moraine/assembly/boundary_term.h>
 
 #include <moraine/assembly/boundary_force.h>
+#include <moraine/state/motion.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,6 +34,13 @@ namespace moraine
           grad_du += outer_product(u, grad_N[a]);
         }
       return {du, grad_du};
+    }
+    template <int dim>
+    bool
+    forces_in_the_middle(const StepContext<dim> &context)
+    {
+      return context.motion &&
+             context.motion->integrator().forces_in_the_middle();
     }
   } // namespace
 
@@ -115,9 +123,10 @@ namespace moraine
   {
     LocalSystem<dim>            local;
     std::vector<Tensor<1, dim>> fluxes;
-    const GridSpace<dim>       &space  = context.state.grid();
-    const unsigned int          n      = space.nodes_per_cell();
-    const auto                 &points = boundary.points();
+    const bool                  in_the_middle = forces_in_the_middle(context);
+    const GridSpace<dim>       &space         = context.state.grid();
+    const unsigned int          n             = space.nodes_per_cell();
+    const auto                 &points        = boundary.points();
     for (unsigned int begin = 0, end = 0; begin < points.size(); begin = end)
       {
         const unsigned int cell = points[begin].cell;
@@ -130,7 +139,9 @@ namespace moraine
                                                          boundary.N(end),
                                                          boundary.grad_N(end));
             add_boundary_point(points[end],
-                               boundary.constraint_state(points[end], du),
+                               boundary.constraint_state(points[end],
+                                                         du,
+                                                         in_the_middle),
                                boundary.enforcement(),
                                context.cell_materials.elastic_stiffness(cell),
                                context.state.strain_measure(),
@@ -153,8 +164,9 @@ namespace moraine
                               std::vector<Tensor<1, dim>> &tractions,
                               std::vector<Tensor<1, dim>> &violations) const
   {
-    const GridSpace<dim> &space  = context.state.grid();
-    const auto           &points = boundary.points();
+    const bool            in_the_middle = forces_in_the_middle(context);
+    const GridSpace<dim> &space         = context.state.grid();
+    const auto           &points        = boundary.points();
     tractions.resize(points.size());
     violations.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -165,8 +177,9 @@ namespace moraine
                             space.nodes_per_cell(),
                             boundary.N(q),
                             boundary.grad_N(q));
-        const auto constraint = boundary.constraint_state(points[q], du);
-        violations[q]         = constraint.violation;
+        const auto constraint =
+          boundary.constraint_state(points[q], du, in_the_middle);
+        violations[q] = constraint.violation;
         tractions[q] =
           boundary_traction(points[q],
                             constraint,
@@ -211,6 +224,7 @@ namespace moraine
         const auto          &point = boundary.points()[q];
         ConstraintState<dim> constraint;
         constraint.normal    = point.normal;
+        constraint.push      = point.normal;
         constraint.violation = violations[q];
         constraint.M         = boundary.projection(point.normal);
         multipliers[q] =

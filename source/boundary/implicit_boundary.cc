@@ -10,6 +10,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
@@ -350,7 +351,8 @@ namespace moraine
   template <int dim>
   ConstraintState<dim>
   ImplicitBoundary<dim>::constraint_state(const BoundaryPoint<dim> &point,
-                                          const Tensor<1, dim>     &du) const
+                                          const Tensor<1, dim>     &du,
+                                          const bool in_the_middle) const
   {
     ConstraintState<dim> state;
     if (projects)
@@ -369,6 +371,12 @@ namespace moraine
         state.normal    = point.normal;
         state.M         = constraint.projection(point.normal);
         state.violation = state.M * (du - point.prescribed);
+      }
+    state.push = state.normal;
+    if (projects && in_the_middle)
+      {
+        state.push += point.normal;
+        state.push /= state.push.norm();
       }
     return state;
   }
@@ -402,12 +410,18 @@ namespace moraine
     prepared.resize(boundary_points.size());
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        const auto &point = boundary_points[q];
-        prepared[q]       = {Tensor<1, dim>(pose.inverse(point.x)),
-                             into_frame * tractions[q],
-                             into_frame *
-                               (point.accumulated_violation + violations[q]),
-                             {{point.cell, point.number}}};
+        const auto    &point      = boundary_points[q];
+        Tensor<1, dim> multiplier = tractions[q];
+        // In the next step a roller pushes other material at the same place.
+        if (projects)
+          multiplier =
+            std::copysign(multiplier.norm(), multiplier * point.normal) *
+            point.normal;
+        prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
+                       into_frame * multiplier,
+                       into_frame *
+                         (point.accumulated_violation + violations[q]),
+                       {{point.cell, point.number}}};
       }
   }
 

@@ -68,6 +68,9 @@ namespace moraine
     dealii::Tensor<1, dim>          normal;
     dealii::SymmetricTensor<2, dim> M;
     dealii::Tensor<1, dim>          violation; ///< @f$M(\Delta u - \Delta g)@f$
+    /** Where a roller pushes: along the normal, or along the mean of both ends
+     * of the step, in which a curved wall does no work and has no moment. */
+    dealii::Tensor<1, dim> push;
   };
 
   /** What a place of a surface carries from step to step. */
@@ -146,10 +149,12 @@ namespace moraine
     void
     set_target(const double t_end);
 
-    /** The constraint at a point for the trial increment @p du there. */
+    /** The constraint at a point for the trial increment @p du there; @p
+     * in_the_middle says where a roller pushes. */
     ConstraintState<dim>
     constraint_state(const BoundaryPoint<dim>     &point,
-                     const dealii::Tensor<1, dim> &du) const;
+                     const dealii::Tensor<1, dim> &du,
+                     const bool                    in_the_middle) const;
 
     /** @f$M@f$ for a normal. */
     dealii::SymmetricTensor<2, dim>
