@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace moraine
 {
   using namespace dealii;
@@ -161,6 +163,25 @@ namespace moraine
 
 
   template <int dim>
+  double
+  MechanicsSystem<dim>::unbalanced_share()
+  {
+    find_forces_at_start();
+    LA::Vector of_kind = state.grid().vector();
+    double     largest = 0;
+    for (const NodeValues &forces_of_kind : forces.by_kind)
+      {
+        state.grid().sum_node_values(forces_of_kind, of_kind);
+        largest = std::max(largest, of_kind.l2_norm());
+      }
+    LA::Vector unbalanced_forces = sum_of_kinds();
+    constraints.condense(unbalanced_forces);
+    return largest > 0 ? unbalanced_forces.l2_norm() / largest : 0.;
+  }
+
+
+
+  template <int dim>
   LA::Vector
   MechanicsSystem<dim>::forces_and_mass()
   {
@@ -276,6 +297,10 @@ namespace moraine
   MechanicsSystem<2>::sum_of_kinds() const;
   template LA::Vector
   MechanicsSystem<3>::sum_of_kinds() const;
+  template double
+  MechanicsSystem<2>::unbalanced_share();
+  template double
+  MechanicsSystem<3>::unbalanced_share();
   template LA::Vector
   MechanicsSystem<2>::forces_and_mass();
   template LA::Vector

@@ -162,7 +162,8 @@ namespace moraine
 
   template <int dim>
   void
-  Probes<dim>::check_places(const PlaceFunction<dim> &on_material) const
+  Probes<dim>::check_places(const PlaceFunction<dim> &on_material,
+                            const bool                bodies_are_away) const
   {
     for (const Probe &probe : probes)
       {
@@ -177,7 +178,8 @@ namespace moraine
                      "body, less than two cells away";
             throw InputError(found.str());
           }
-        if (!probe.follows_point() && !on_material(probe.start, unused))
+        if (!probe.follows_point() && !on_material(probe.start, unused) &&
+            !bodies_are_away)
           throw InputError(found.str() +
                            "where there is no material, allowed with 'Kind = "
                            "interpolated': a place on a body");
@@ -206,6 +208,12 @@ namespace moraine
                 velocity(where, probe.v);
               if (acceleration)
                 acceleration(where, probe.a);
+              continue;
+            }
+          if (points.exchanged()) // it waits for a body
+            {
+              probe.leaves_cells = false;
+              probe.increment = probe.v = probe.a = Tensor<1, dim>();
               continue;
             }
           choose_point(where, points, probe);
@@ -272,7 +280,7 @@ namespace moraine
     for (unsigned int i = 0; i < probes.size(); ++i)
       {
         const auto first = all.begin() + i * (n + 1);
-        if (probes[i].follows_point() && first[n] != 1.)
+        if (probes[i].follows_point() && first[n] != 1. && !points.exchanged())
           throw ComputationError(
             "probe '" + probes[i].parameters.name + "': point " +
             std::to_string(probes[i].point_id) + ", which it follows, is gone");

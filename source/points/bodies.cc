@@ -56,12 +56,18 @@ namespace moraine
 
 
 
+    /** Whether two bodies are there at the same time. */
+    using Meet = std::function<bool(const unsigned, const unsigned)>;
+
+
+
     /** The points of one cell. @return where two bodies overlap, or "". */
     template <int dim>
     std::string
     seed_cell(const typename PointSet<dim>::CellIterator &cell,
               const std::vector<Body<dim>>               &bodies,
               const CellSeeder<dim>                      &seeder,
+              const Meet                                 &meet,
               PointSet<dim>                              &points)
     {
       const auto                    vertices = vertices_of<dim>(cell);
@@ -77,10 +83,11 @@ namespace moraine
           if (seeded.empty())
             continue;
           for (const unsigned int other : earlier)
-            if (overlap.empty() && overlap_in_cell<dim>(bodies[other].shape,
-                                                        bodies[b].shape,
-                                                        vertices,
-                                                        cell->measure()))
+            if (overlap.empty() && (!meet || meet(other, b)) &&
+                overlap_in_cell<dim>(bodies[other].shape,
+                                     bodies[b].shape,
+                                     vertices,
+                                     cell->measure()))
               {
                 std::ostringstream message;
                 message << "'" << bodies[other].name << "' and '"
@@ -111,6 +118,7 @@ namespace moraine
     void
     seed_cells(const std::vector<Body<dim>> &bodies,
                const CellSeeder<dim>        &seeder,
+               const Meet                   &meet,
                PointSet<dim>                &points)
     {
       const Triangulation<dim> &triangulation = points.mesh().triangulation();
@@ -118,7 +126,8 @@ namespace moraine
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           {
-            const std::string found = seed_cell(cell, bodies, seeder, points);
+            const std::string found =
+              seed_cell(cell, bodies, seeder, meet, points);
             if (overlap.empty())
               overlap = found;
           }
@@ -296,11 +305,12 @@ namespace moraine
   std::vector<double>
   seed_bodies(const std::vector<Body<dim>> &bodies,
               const CellSeeder<dim>        &seeder,
-              PointSet<dim>                &points)
+              PointSet<dim>                &points,
+              const Meet                   &meet)
   {
     const Triangulation<dim> &triangulation = points.mesh().triangulation();
     check_number_of_points(bodies, seeder, triangulation);
-    seed_cells(bodies, seeder, points);
+    seed_cells(bodies, seeder, meet, points);
     const unsigned int first_of_lists =
       triangulation.n_active_cells() * bodies.size() * seeder.max_points();
     const auto for_each_list = [&](const auto &action) {
@@ -343,9 +353,11 @@ namespace moraine
   template std::vector<double>
   seed_bodies(const std::vector<Body<2>> &,
               const CellSeeder<2> &,
-              PointSet<2> &);
+              PointSet<2> &,
+              const Meet &);
   template std::vector<double>
   seed_bodies(const std::vector<Body<3>> &,
               const CellSeeder<3> &,
-              PointSet<3> &);
+              PointSet<3> &,
+              const Meet &);
 } // namespace moraine

@@ -121,6 +121,78 @@ namespace moraine
   {
     handler.update_cached_numbers();
     find_cells();
+    first_new_id = next_id();
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  PointSet<dim>::next_id() const
+  {
+    unsigned int next = 0;
+    for (unsigned int p = 0; p < n_local(); ++p)
+      next = std::max(next, id(p) + 1);
+    return Utilities::MPI::max(next,
+                               background.triangulation().get_communicator());
+  }
+
+
+
+  template <int dim>
+  typename PointSet<dim>::Record
+  PointSet<dim>::record(const CellIterator &cell, const unsigned int p) const
+  {
+    return {cell,
+            position(p),
+            reference_position(p),
+            id(p),
+            std::vector<double>(values(p), values(p) + layout.n_values())};
+  }
+
+
+
+  template <int dim>
+  std::vector<typename PointSet<dim>::Record>
+  PointSet<dim>::records_of(const unsigned int wanted) const
+  {
+    std::vector<Record> records;
+    for (const CellPoints &in_cell : cell_points)
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        if (body(p) == wanted)
+          records.push_back(record(in_cell.cell, p));
+    return records;
+  }
+
+
+
+  template <int dim>
+  void
+  PointSet<dim>::exchange_bodies(const std::vector<bool>   &stay,
+                                 const std::vector<Record> &others)
+  {
+    const unsigned int  next  = next_id();
+    const unsigned int  shift = next > first_new_id ? next : 0;
+    std::vector<Record> all;
+    for (const CellPoints &in_cell : cell_points)
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        if (stay[body(p)])
+          all.push_back(record(in_cell.cell, p));
+    for (const Record &other : others)
+      {
+        all.push_back(other);
+        all.back().id += shift;
+      }
+    handler.clear_particles();
+    for (const Record &point : all)
+      handler.insert_particle(point.position,
+                              point.reference_position,
+                              point.id,
+                              point.cell,
+                              point.values);
+    handler.update_cached_numbers();
+    number_points();
+    was_exchanged = true;
   }
 
 

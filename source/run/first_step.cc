@@ -7,6 +7,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
 #include <moraine/run/scene_conditions.h>
 
@@ -23,6 +24,12 @@ namespace moraine
 
   namespace
   {
+    /** Forces out of balance at the start that are more than this are said to
+     * move something. */
+    constexpr double told_share_of_forces = 0.01;
+
+
+
     bool
     has(const std::vector<std::string> &names, const std::string &name)
     {
@@ -62,7 +69,7 @@ namespace moraine
      */
     template <int dim>
     void
-    check_loads(const Model<dim> &model)
+    check_loads(const StageParameters &stage, const Model<dim> &model)
     {
       for (const auto &force : model.loads.body_forces)
         for (unsigned int b = 0; b < model.bodies.size(); ++b)
@@ -75,6 +82,8 @@ namespace moraine
                              "bodies with a density > 0");
       for (const auto &traction : model.loads.side_tractions)
         {
+          if (!has(stage.loads, traction.name))
+            continue;
           unsigned int n_faces = 0;
           for (const auto &cell :
                model.mesh->triangulation().active_cell_iterators())
@@ -103,11 +112,10 @@ namespace moraine
                               std::vector<std::string> &notes)
     {
       const auto in_a_body = [&model](const Point<dim> &x) {
-        return std::any_of(model.bodies.begin(),
-                           model.bodies.end(),
-                           [&x](const auto &body) {
-                             return body.shape->contains(x);
-                           });
+        for (unsigned int b = 0; b < model.bodies.size(); ++b)
+          if (model.present[b] && model.bodies[b].shape->contains(x))
+            return true;
+        return false;
       };
       if (std::any_of(model.bodies.begin(),
                       model.bodies.end(),
@@ -261,6 +269,28 @@ namespace moraine
 
 
 
+    /** How far an initial stress is from equilibrium, in a step that has begun.
+     */
+    template <int dim>
+    std::string
+    describe_balance(const StageParameters &stage, Model<dim> &model)
+    {
+      const double       share = model.system->unbalanced_share();
+      std::ostringstream text;
+      text << "initial stress: ";
+      if (share < 1e-12)
+        return text.str() + "in equilibrium to round-off";
+      text << std::setprecision(2) << 100 * share
+           << " % of the forces are out of balance";
+      if (share > told_share_of_forces)
+        text << (stage.time.integrator.dynamic() ?
+                   "; they set the bodies in motion at once" :
+                   "; the first step brings them to equilibrium");
+      return text.str();
+    }
+
+
+
     /** That boundaries which act are on material. */
     template <int dim>
     void
@@ -299,14 +329,17 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
     check_prescribed_motion(stage, model);
-    check_loads(model);
+    check_loads(stage, model);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(model, notes);
     model.probes->check_places(
-      grid_evaluation<dim>(*model.space, model.state->nodal_increments()));
+      grid_evaluation<dim>(*model.space, model.state->nodal_increments()),
+      model.points->exchanged());
     const ExactSolution<dim> exact = scene.exact.solution();
     if (exact.displacement || exact.stress)
       error_norms(*model.points, exact, scene.end_time(), false);
+    if (begins_with_stress(scene, 0))
+      notes.push_back(describe_balance(stage, model));
     if (stage.time.integrator.dynamic())
       start_motion(scene, stage, model);
     else
@@ -353,6 +386,9 @@ namespace moraine
       }
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, model);
+    check_loads(stage, model);
+    if (begins_with_stress(scene, k))
+      notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic && !before.time.integrator.dynamic())
       start_motion(scene, stage, model);
@@ -362,6 +398,8 @@ namespace moraine
           model.motion->rest();
         check_that_it_is_held(t, model);
       }
+    else if (stage.bodies != before.bodies)
+      find_accelerations(model);
     return notes;
   }
 

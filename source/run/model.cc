@@ -5,7 +5,9 @@
 
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/load_terms.h>
+#include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/run/initial_stress.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
 
@@ -124,6 +126,7 @@ namespace moraine
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);
     absorbing_boundaries = make_absorbing_boundaries(scene, *mesh);
+    set_initial_stress(scene, *this);
     if (scene.is_dynamic())
       {
         const auto &integrator = scene.first_dynamic_stage().time.integrator;
@@ -137,6 +140,9 @@ namespace moraine
                                                     Terms<dim>(),
                                                     body_names,
                                                     &timer);
+    probes = std::make_unique<Probes<dim>>(
+      scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
+    keep_for_later(scene);
     set_stage(scene, 0);
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
@@ -146,8 +152,6 @@ namespace moraine
         system->move_mesh_by(mesh_motion, *mesh);
       }
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
-    probes        = std::make_unique<Probes<dim>>(
-      scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
   }
 
 
@@ -184,8 +188,15 @@ namespace moraine
       if (!has(stage.loads, load.name()) &&
           std::any_of(
             scene.stages.begin(), scene.stages.end(), [&](const auto &other) {
+              const auto &bodies_then = other.second.bodies;
               return other.second.time.start_time > stage.time.start_time &&
-                     has(other.second.loads, load.name());
+                     has(other.second.loads, load.name()) &&
+                     // Its surface may be that of a body still to come.
+                     std::all_of(bodies_then.begin(),
+                                 bodies_then.end(),
+                                 [&](const std::string &body) {
+                                   return has(stage.bodies, body);
+                                 });
             }))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
@@ -211,9 +222,71 @@ namespace moraine
 
   template <int dim>
   void
+  Model<dim>::keep_for_later(const Scene<dim> &scene)
+  {
+    present.assign(body_names.size(), true);
+    later.resize(body_names.size());
+    for (unsigned int b = 0; b < body_names.size(); ++b)
+      if (scene.comes_later(body_names[b]))
+        later[b] = points->records_of(b);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::set_bodies(const std::vector<std::string> &names)
+  {
+    const unsigned int n = body_names.size();
+    std::vector<bool>  stay(n), come(n), wanted(n);
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        wanted[b] =
+          std::find(names.begin(), names.end(), body_names[b]) != names.end();
+        stay[b] = wanted[b] && present[b];
+        come[b] = wanted[b] && !present[b];
+      }
+    if (wanted == present)
+      return;
+    exchange_points(stay, come);
+    present = wanted;
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::exchange_points(const std::vector<bool> &stay,
+                              const std::vector<bool> &come)
+  {
+    std::vector<typename PointSet<dim>::Record> others;
+    for (unsigned int b = 0; b < come.size(); ++b)
+      if (come[b])
+        others.insert(others.end(), later[b].begin(), later[b].end());
+    // Nodes get other numbers.
+    Archive of_nodes;
+    space->write(of_nodes);
+    if (motion)
+      motion->write(of_nodes);
+    points->exchange_bodies(stay, others);
+    if (mesh_motion.moves())
+      points->find_cells();
+    state->points_changed();
+    state->begin_step();
+    space->read(of_nodes);
+    if (motion)
+      motion->read(of_nodes);
+    state->place_by_nodes(come);
+  }
+
+
+
+  template <int dim>
+  void
   Model<dim>::set_stage(const Scene<dim> &scene, const unsigned int k)
   {
     const StageParameters &stage = scene.stages[k].second;
+    set_bodies(stage.bodies);
     system->set_terms(terms_of(scene, stage));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic)
@@ -240,8 +313,14 @@ namespace moraine
     if (scene.is_dynamic())
       Motion<dim>::request_fields(velocity_transfer(scene), fields);
     request_columns(bodies, fields);
-    points       = std::make_unique<PointSet<dim>>(*mesh, fields);
-    body_volumes = seed_bodies(bodies, method.make_seeder(parameters), *points);
+    points = std::make_unique<PointSet<dim>>(*mesh, fields);
+    body_volumes =
+      seed_bodies(bodies,
+                  method.make_seeder(parameters),
+                  *points,
+                  [&](const unsigned int a, const unsigned int b) {
+                    return scene.are_together(body_names[a], body_names[b]);
+                  });
     points->set_return_tolerance(parameters.return_tolerance *
                                  mesh->cell_size());
     basis = method.make_basis({parameters, *space, *points, bodies});

@@ -9,6 +9,8 @@
 #include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <filesystem>
 
 namespace moraine
@@ -53,6 +55,20 @@ namespace moraine
            sums.angular_momentum[d]});
       values.push_back({"kinetic energy", "force length", sums.kinetic_energy});
       return values;
+    }
+
+
+
+    /** Of all bodies that are there. Collective. */
+    template <int dim>
+    double
+    mass_of(const Model<dim> &model)
+    {
+      double mass = 0;
+      for (unsigned int p = 0; p < model.points->n_local(); ++p)
+        mass += model.materials[model.points->body(p)]->density() *
+                model.state->initial_volume(p);
+      return Utilities::MPI::sum(mass, model.space->communicator());
     }
   } // namespace
 
@@ -186,6 +202,8 @@ namespace moraine
     for (const auto &boundary : model.absorbing_boundaries)
       if (!scene.absorbs_later(boundary.name()))
         add(boundary.name());
+    if (scene.changes_bodies())
+      row.push_back({"mass", "mass", mass_of(model)});
     for (const auto &report : reports)
       for (unsigned int d = 0; d < dim; ++d)
         row.push_back(

@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/run/renamed_keys.h>
+#include <moraine/run/scene_bodies.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/patterns.h>
 
@@ -35,6 +36,7 @@ namespace moraine
                       "In dynamics: of its points at the start, an expression "
                       "of x for each component, separated by semicolons. If "
                       "left out, the body is at rest.");
+    initial_stress.add_parameters(prm, dim);
     damping.add_parameters(prm);
     shape.add_parameters(prm);
   }
@@ -365,7 +367,8 @@ namespace moraine
                     time,
                     {names_of(boundaries),
                      names_of(grid_conditions),
-                     names_of(loads)},
+                     names_of(loads),
+                     simulated_bodies(*this)},
                     stages);
     check(input, given);
   }

@@ -40,6 +40,20 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<std::string>
+  simulated_bodies(const Scene<dim> &scene)
+  {
+    const std::set<std::string> operands = operands_of(scene);
+    std::vector<std::string>    names;
+    for (const auto &[name, body] : scene.bodies)
+      if (operands.count(name) == 0)
+        names.push_back(name);
+    return names;
+  }
+
+
+
+  template <int dim>
   std::vector<Body<dim>>
   make_bodies(const Scene<dim> &scene)
   {
@@ -106,14 +120,77 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                \
-  template NamedShapes<dim>       body_shapes(const Scene<dim> &);      \
-  template std::set<std::string>  operands_of(const Scene<dim> &);      \
-  template std::vector<Body<dim>> make_bodies(const Scene<dim> &);      \
-  template std::vector<std::shared_ptr<const Material>> make_materials( \
-    const Scene<dim> &, const std::vector<Body<dim>> &);                \
-  template std::vector<RayleighFactors> make_damping(                   \
-    const Scene<dim> &, const std::vector<Body<dim>> &);
+  template <int dim>
+  bool
+  Scene<dim>::changes_bodies() const
+  {
+    const unsigned int n = simulated_bodies(*this).size();
+    return std::any_of(stages.begin(), stages.end(), [n](const auto &stage) {
+      return stage.second.bodies.size() != n;
+    });
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::comes_later(const std::string &name) const
+  {
+    bool before = true;
+    for (const auto &[stage_name, stage] : stages)
+      {
+        const bool now =
+          std::count(stage.bodies.begin(), stage.bodies.end(), name) > 0;
+        if (now && !before)
+          return true;
+        before = now;
+      }
+    return false;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::are_together(const std::string &a, const std::string &b) const
+  {
+    return std::any_of(stages.begin(), stages.end(), [&](const auto &stage) {
+      const auto &names = stage.second.bodies;
+      return std::count(names.begin(), names.end(), a) > 0 &&
+             std::count(names.begin(), names.end(), b) > 0;
+    });
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::first_stage_with(const std::string &name) const
+  {
+    unsigned int k = 0;
+    while (k + 1 < stages.size() && std::count(stages[k].second.bodies.begin(),
+                                               stages[k].second.bodies.end(),
+                                               name) == 0)
+      ++k;
+    return k;
+  }
+
+
+
+#define INSTANTIATE(dim)                                                     \
+  template NamedShapes<dim>         body_shapes(const Scene<dim> &);         \
+  template std::set<std::string>    operands_of(const Scene<dim> &);         \
+  template std::vector<std::string> simulated_bodies(const Scene<dim> &);    \
+  template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);         \
+  template std::vector<std::shared_ptr<const Material>> make_materials(      \
+    const Scene<dim> &, const std::vector<Body<dim>> &);                     \
+  template std::vector<RayleighFactors> make_damping(                        \
+    const Scene<dim> &, const std::vector<Body<dim>> &);                     \
+  template bool         Scene<dim>::changes_bodies() const;                  \
+  template bool         Scene<dim>::comes_later(const std::string &) const;  \
+  template bool         Scene<dim>::are_together(const std::string &,        \
+                                         const std::string &) const; \
+  template unsigned int Scene<dim>::first_stage_with(const std::string &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -333,6 +333,14 @@ namespace moraine
       {
         const std::string section = "Bodies/" + name;
         body.damping.factors(section, !is_dynamic());
+        body.initial_stress.check(section);
+        if (!body.initial_velocity.empty() && operands.count(name) == 0 &&
+            !is_one_of(name, first_dynamic_stage().bodies))
+          reject(section,
+                 "Initial velocity",
+                 body.initial_velocity,
+                 "nothing; the body is not there in the first stage with "
+                 "inertia, and comes at rest later");
         if (!body.point_grid.empty() &&
             (body.shape.kind() != "box" || body.point_grid.size() != dim))
           reject(section,

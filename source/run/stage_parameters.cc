@@ -32,6 +32,14 @@ namespace moraine
                       "Names of the grid conditions" + text);
     prm.add_parameter("Loads", loads, "Names of the loads" + text);
     prm.add_parameter(
+      "Bodies",
+      bodies,
+      "Names of the bodies that are there from this stage on. What comes is as "
+      "drawn, with its initial stress if it has one; where nodes move with the "
+      "material it fills the cells as they are by then. What goes takes its "
+      "stress and weight with it. If left out, those of the stage before; all "
+      "in the first.");
+    prm.add_parameter(
       "Absorbing",
       absorbing,
       "Names of boundaries and of grid conditions on sides, active so far, that "
@@ -77,6 +85,27 @@ namespace moraine
 
 
 
+    void
+    complete_bodies(const std::string              &section,
+                    const std::vector<std::string> &all,
+                    const std::vector<std::string> &before,
+                    std::vector<std::string>       &names)
+    {
+      if (names.empty())
+        names = before;
+      for (const std::string &name : names)
+        if (std::find(all.begin(), all.end(), name) == all.end())
+          reject(section,
+                 "Bodies",
+                 name,
+                 name == "none" ? "at least one body" :
+                                  "names of bodies that no other is combined "
+                                  "from" +
+                                    suggest(name, all));
+    }
+
+
+
     /** @p given: entries that are no defaults. */
     void
     complete_start(const std::vector<InputFile::Entry> &given,
@@ -109,8 +138,13 @@ namespace moraine
     if (stages.empty())
       {
         stages.emplace_back("", StageParameters());
-        stages.front().second = {
-          time, all.boundaries, all.grid_conditions, all.loads, {}, false};
+        stages.front().second = {time,
+                                 all.boundaries,
+                                 all.grid_conditions,
+                                 all.loads,
+                                 all.bodies,
+                                 {},
+                                 false};
       }
     else
       for (const auto &entry : given)
@@ -143,6 +177,10 @@ namespace moraine
                        all.loads,
                        before ? before->loads : all.loads,
                        stage.loads);
+        complete_bodies(section,
+                        all.bodies,
+                        before ? before->bodies : all.bodies,
+                        stage.bodies);
         std::vector<std::string> active = stage.boundaries;
         active.insert(active.end(),
                       stage.grid_conditions.begin(),

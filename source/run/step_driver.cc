@@ -152,11 +152,22 @@ namespace moraine
   {
     ++stage;
     const auto &[name, parameters] = scene.stages[stage];
+    const auto        &before      = scene.stages[stage - 1].second;
     std::ostringstream text;
     text << "stage " << name << ", " << parameters.time.integrator.integrator
          << ", from t = " << parameters.time.start_time << " to "
          << parameters.time.end_time;
+    for (const std::string &body : parameters.bodies)
+      if (std::count(before.bodies.begin(), before.bodies.end(), body) == 0)
+        text << ", with " << body;
+    for (const std::string &body : before.bodies)
+      if (std::count(parameters.bodies.begin(),
+                     parameters.bodies.end(),
+                     body) == 0)
+        text << ", without " << body;
     tell(text.str());
+    if (parameters.bodies != before.bodies)
+      n_parts.clear();
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction);
@@ -464,13 +475,13 @@ namespace moraine
   void
   StepDriver<dim>::check_separation()
   {
-    if (!first_step && !model.system->coupling_changed())
+    if (!n_parts.empty() && !model.system->coupling_changed())
       return;
     const auto parts = parts_of_bodies(*model.space,
                                        *model.points,
                                        *model.basis,
                                        model.body_names.size());
-    if (first_step)
+    if (n_parts.empty())
       {
         for (const auto &of_body : parts)
           n_parts.push_back(of_body.size());

@@ -3,7 +3,10 @@
 
 #include <moraine/state/state.h>
 
+#include <moraine/material/elastic_state.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
@@ -59,6 +62,68 @@ namespace moraine
         state_fields.F.store(unit_symmetric_tensor<dim>(), values);
         state_fields.b.store(unit_symmetric_tensor<3>(), values);
         state_fields.v_0.store(points.volume(p), values);
+      }
+  }
+
+
+
+  template <int dim>
+  SymmetricTensor<2, 3>
+  State<dim>::set_initial_stress(const unsigned int           p,
+                                 const SymmetricTensor<2, 3> &stress)
+  {
+    const Material     &material = *materials[points.body(p)];
+    double             *values   = points.values(p);
+    std::vector<double> internal;
+    for (const InternalVariable &variable : material.internal_variables())
+      internal.push_back(variable.initial);
+    points.stress_field().store(stress, values);
+    if (!material.is_isotropic())
+      return stress_unstrained(material, measure, stress, internal);
+    const Spectrum     principal = spectrum<dim>(stress);
+    const ElasticState found =
+      elastic_state(material, principal.values, internal);
+    if (measure == StrainMeasure::finite)
+      {
+        Tensor<1, 3> b;
+        for (unsigned int A = 0; A < 3; ++A)
+          b[A] = std::exp(2 * found.strain[A]);
+        state_fields.b.store(principal.tensor(b), values);
+      }
+    return principal.tensor(found.stress);
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::place_by_nodes(const std::vector<bool> &new_bodies)
+  {
+    if (after_step != MeshAfterStep::follow_material)
+      return;
+    StencilBlock<dim> block;
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int i = 0; i < block.n_points; ++i)
+          {
+            const unsigned int p = block.points[i];
+            if (!new_bodies[points.body(p)])
+              continue;
+            Point<dim>     x;
+            Tensor<2, dim> back = unit_symmetric_tensor<dim>(); // dX/dx
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              {
+                const unsigned int node = block.nodes[a];
+                x += block.N(i)[a] * space.node_position(node);
+                back -=
+                  outer_product(space.node_move(node), block.grad_N(i)[a]);
+              }
+            points.set_position(p, x);
+            points.set_volume(p, points.volume(p) / determinant(back));
+            if (measure == StrainMeasure::finite)
+              state_fields.v_0.store(points.volume(p), points.values(p));
+          }
       }
   }
 

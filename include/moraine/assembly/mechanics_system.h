@@ -70,6 +70,15 @@ namespace moraine
     hold(const std::string &name, const LA::Vector &forces);
 
     /**
+     * The forces that nothing balances at the start of the step that has
+     * begun, over the largest of those of stresses, of loads and of boundaries:
+     * norms of all nodal forces. Strong conditions take what they hold.
+     * Collective.
+     */
+    double
+    unbalanced_share();
+
+    /**
      * The forces of all but inertia at the start of the step that has begun,
      * and the mass alone as tangent(), for the acceleration at the start.
      * @return the forces, condensed. Collective.

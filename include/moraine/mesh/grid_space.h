@@ -119,6 +119,13 @@ namespace moraine
       return moves.empty() ? x : x + moves[node];
     }
 
+    /** How far the node is from where it was in the mesh as it was built. */
+    dealii::Tensor<1, dim>
+    node_move(const unsigned int node) const
+    {
+      return moves.empty() ? dealii::Tensor<1, dim>() : moves[node];
+    }
+
     /** Nodal values (node major) of an owned-only vector. Collective. */
     void
     node_values(const LA::Vector                    &vector,
@@ -156,8 +163,8 @@ namespace moraine
                       const std::string                         &group,
                       Archive                                   &archive) const;
 
-    /** What write_node_values() wrote when the same cells were active.
-     * Collective. */
+    /** What write_node_values() wrote. Nodes of cells that were not active by
+     * then alone get zero. Collective. */
     void
     read_node_values(const Archive                       &archive,
                      const std::string                   &group,
@@ -167,7 +174,8 @@ namespace moraine
     void
     write(Archive &archive) const override;
 
-    /** The active cells must be those of the time of writing. */
+    /** Nodes of cells that were not active when it was written have not moved.
+     */
     void
     read(const Archive &archive) override;
 

@@ -66,12 +66,15 @@ namespace moraine
            const bool                               moves_through_mesh);
 
     /**
-     * @p on_material finds a place on the mesh that bodies cover. Collective.
+     * @p on_material finds a place on the mesh that bodies cover. An
+     * interpolated probe beside it waits for a body if @p bodies_are_away.
+     * Collective.
      * @throws InputError for an interpolated probe beside it, and for a point
      * more than two cells away from the location.
      */
     void
-    check_places(const PlaceFunction<dim> &on_material) const;
+    check_places(const PlaceFunction<dim> &on_material,
+                 const bool                bodies_are_away = false) const;
 
     /**
      * Follow the trial step with the interpolated probes. Collective.

@@ -9,6 +9,7 @@
 #include <moraine/points/seeding.h>
 #include <moraine/geometry/shape.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,9 @@ namespace moraine
    * index in @p bodies. Its id counts the points that cells may have, then the
    * listed ones, so it does not depend on the number of ranks. Collective.
    *
+   * Bodies may share volume if @p meet says of their numbers that they are
+   * never there at the same time.
+   *
    * @return the volumes of the bodies, over all ranks. That of a straight-sided
    * body is exact but for round-off.
    * @throws InputError if shapes overlap, a listed point lies outside the mesh,
@@ -61,9 +65,11 @@ namespace moraine
    */
   template <int dim>
   std::vector<double>
-  seed_bodies(const std::vector<Body<dim>> &bodies,
-              const CellSeeder<dim>        &seeder,
-              PointSet<dim>                &points);
+  seed_bodies(
+    const std::vector<Body<dim>>                              &bodies,
+    const CellSeeder<dim>                                     &seeder,
+    PointSet<dim>                                             &points,
+    const std::function<bool(const unsigned, const unsigned)> &meet = {});
 } // namespace moraine
 
 #endif

@@ -84,6 +84,35 @@ namespace moraine
     void
     insert_copies(const std::vector<Copy> &copies);
 
+    /** A point of this rank, to be put where it was later. */
+    struct Record
+    {
+      CellIterator        cell;
+      dealii::Point<dim>  position;
+      dealii::Point<dim>  reference_position;
+      unsigned int        id;
+      std::vector<double> values;
+    };
+
+    /** The points of @p body. */
+    std::vector<Record>
+    records_of(const unsigned int body) const;
+
+    /**
+     * Let only the points of the bodies flagged in @p stay remain, and add
+     * @p others, with other ids if theirs may be taken by now. Collective.
+     */
+    void
+    exchange_bodies(const std::vector<bool>   &stay,
+                    const std::vector<Record> &others);
+
+    /** Whether exchange_bodies() was called. */
+    bool
+    exchanged() const
+    {
+      return was_exchanged;
+    }
+
     /**
      * Find the cell of every point after positions changed and hand points
      * over to the rank that owns it. Collective.
@@ -276,6 +305,13 @@ namespace moraine
     void
     number_points();
 
+    /** Above all ids of all ranks. Collective. */
+    unsigned int
+    next_id() const;
+
+    Record
+    record(const CellIterator &cell, const unsigned int p) const;
+
     /** Put points that jumped past the neighbouring ranks where they belong. */
     void
     reinsert_lost_points();
@@ -294,6 +330,8 @@ namespace moraine
     std::vector<LostPoint>                         lost_points;
     double                                         return_tolerance = 0;
     unsigned int                                   returned_points  = 0;
+    unsigned int first_new_id  = 0; ///< above all ids of the start
+    bool         was_exchanged = false;
   };
 } // namespace moraine
 

@@ -35,14 +35,16 @@ namespace moraine
 
     Model(const Model &) = delete;
 
-    /** Let act what acts in stage @p k of @p scene, by its integrator, from the
-     * next MechanicsSystem::begin_step() on. */
+    /** Let act what acts in stage @p k of @p scene, by its integrator, on the
+     * bodies that it has, from the next MechanicsSystem::begin_step() on.
+     * Collective. */
     void
     set_stage(const Scene<dim> &scene, const unsigned int k);
 
     std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
     std::vector<double>                          body_volumes;
+    std::vector<bool>                            present; ///< bodies, by now
     std::vector<std::shared_ptr<const Material>> materials;
     std::unique_ptr<BackgroundMesh<dim>>         mesh;
     std::unique_ptr<GridSpace<dim>>              space;
@@ -63,8 +65,24 @@ namespace moraine
     void
     make_points(const Scene<dim> &scene);
 
+    /** Keep the points of bodies that come in a later stage. */
+    void
+    keep_for_later(const Scene<dim> &scene);
+
+    /** Let the bodies with these names be there, and no others. */
+    void
+    set_bodies(const std::vector<std::string> &names);
+
+    /** The same for those that are flagged, with what nodes carry. */
+    void
+    exchange_points(const std::vector<bool> &stay,
+                    const std::vector<bool> &come);
+
     Terms<dim>
     terms_of(const Scene<dim> &scene, const StageParameters &stage);
+
+    /** Of each body, as drawn; empty of those that do not come later. */
+    std::vector<std::vector<typename PointSet<dim>::Record>> later;
   };
 
   /**

@@ -14,6 +14,7 @@
 #include <moraine/output/probes.h>
 #include <moraine/run/absorbing_parameters.h>
 #include <moraine/run/damping_parameters.h>
+#include <moraine/run/initial_stress_parameters.h>
 #include <moraine/run/method.h>
 #include <moraine/run/stage_parameters.h>
 #include <moraine/run/study.h>
@@ -43,6 +44,7 @@ namespace moraine
     ShapeParameters<dim>      shape;
     std::vector<unsigned int> point_grid;
     std::string               initial_velocity;
+    InitialStressParameters   initial_stress;
     DampingParameters         damping;
 
     /** Whether the cells of the mesh give the body its points. */
@@ -220,6 +222,23 @@ namespace moraine
     {
       return stages.back().second.time.end_time;
     }
+
+    /** Whether there are stages without some of the bodies. */
+    bool
+    changes_bodies() const;
+
+    /** Whether the body @p name is in a stage but not in the one before, or not
+     * in the first. */
+    bool
+    comes_later(const std::string &name) const;
+
+    /** Whether a stage has both bodies. */
+    bool
+    are_together(const std::string &a, const std::string &b) const;
+
+    /** The first stage that has the body @p name; the last if none has. */
+    unsigned int
+    first_stage_with(const std::string &name) const;
 
     /** Whether the boundary or grid condition @p name becomes absorbing in a
      * stage. */

@@ -28,6 +28,11 @@ namespace moraine
   std::set<std::string>
   operands_of(const Scene<dim> &scene);
 
+  /** The names of the others, in their order. */
+  template <int dim>
+  std::vector<std::string>
+  simulated_bodies(const Scene<dim> &scene);
+
   /**
    * The bodies of a scene in its order, but for those that others are made
    * from: a body that is an operand is a tool without material of its own.

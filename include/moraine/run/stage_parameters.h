@@ -24,7 +24,7 @@ namespace moraine
     TimeParameters time;
     /** Names; as read, none: those of the stage before, and the word "none":
      * none at all. */
-    std::vector<std::string> boundaries, grid_conditions, loads;
+    std::vector<std::string> boundaries, grid_conditions, loads, bodies;
     /** Boundaries and grid conditions that absorb from this stage on. */
     std::vector<std::string> absorbing;
     bool                     reset_displacements = false;
@@ -40,14 +40,16 @@ namespace moraine
   struct StageNames
   {
     std::vector<std::string> boundaries, grid_conditions, loads;
+    /** Without those that others are combined from. */
+    std::vector<std::string> bodies;
   };
 
   /**
    * Give every stage what it left to the one before: its start and its names. A
    * scene without stages gets one without a name, with @p time. @p given: what
    * the scene says that is no default.
-   * @throws InputError for names that are not there, times that go back, and a
-   * section 'Time' beside stages.
+   * @throws InputError for names that are not there, stages without bodies,
+   * times that go back, and a section 'Time' beside stages.
    */
   void
   complete_stages(const std::vector<InputFile::Entry> &given,

@@ -68,6 +68,33 @@ namespace moraine
     bool
     begin_step();
 
+    /**
+     * Before the first step: give point @p p the @p stress and the elastic
+     * strain that has it, at displacements of zero. Internal variables are
+     * those of a body at rest.
+     * @return the stress that the material has at this strain: another one if
+     * it would yield before.
+     */
+    dealii::SymmetricTensor<2, 3>
+    set_initial_stress(const unsigned int                   p,
+                       const dealii::SymmetricTensor<2, 3> &stress);
+
+    /** Points have come or gone: the next begin_step() finds cells and batches
+     * anew. */
+    void
+    points_changed()
+    {
+      first_step = true;
+    }
+
+    /**
+     * Where nodes move with the material, put the points of the bodies flagged
+     * in @p new_bodies where their nodes have moved by now; they fill the
+     * cells as these are, undeformed.
+     */
+    void
+    place_by_nodes(const std::vector<bool> &new_bodies);
+
     /** From when to when the step goes, for materials that depend on it. */
     void
     set_step_time(const StepTime &time)

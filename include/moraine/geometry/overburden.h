@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_geometry_overburden_h
+#define moraine_geometry_overburden_h
+
+#include <moraine/geometry/shape.h>
+
+#include <array>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What lies above a place: the bodies that a straight line from it against
+   * gravity goes through until it comes to the surface, the first gap between
+   * them.
+   */
+  template <int dim>
+  class Overburden
+  {
+  public:
+    /** A piece of a surface: a segment or a triangle. */
+    using Facet = std::array<dealii::Point<dim>, dim>;
+
+    /**
+     * Of bodies that share no volume.
+     *
+     * @param bodies their shapes; null for those that are not there
+     * @param mesh_box bodies without limits end at its sides
+     * @param cell_size bodies thinner than a 32nd of it may be missed, and if
+     * they are expressions, than itself; gaps below its millionth are round-off
+     * @param mesh_surface where bodies end, too, if the mesh is no box
+     */
+    Overburden(const std::vector<ShapePointer<dim>> &bodies,
+               const dealii::BoundingBox<dim>       &mesh_box,
+               const double                          cell_size,
+               const std::vector<Facet>             &mesh_surface = {});
+
+    /** What lies above a place. */
+    struct Column
+    {
+      double             pressure; ///< vertical [stress]
+      unsigned int       top;      ///< the body at the surface
+      dealii::Point<dim> surface;  ///< the place where the line leaves it
+    };
+
+    /**
+     * Of @p x in body @p body, with the direction @p up of unit length.
+     * @p weights are those of the bodies per volume,
+     * @f$\rho\,|g|@f$ [force/length^dim].
+     */
+    Column
+    above(const dealii::Point<dim>     &x,
+          const unsigned int            body,
+          const dealii::Tensor<1, dim> &up,
+          const std::vector<double>    &weights) const;
+
+  private:
+    /** A part of the line in one body. */
+    struct Part
+    {
+      double       begin, end;
+      unsigned int body;
+    };
+
+    /** Those of body @p b up to @p length. */
+    void
+    add_parts(const unsigned int            b,
+              const dealii::Point<dim>     &x,
+              const dealii::Tensor<1, dim> &up,
+              const double                  length,
+              std::vector<Part>            &parts) const;
+
+    /** How far it is from @p x to the end of the mesh. */
+    double
+    length_in_mesh(const dealii::Point<dim>     &x,
+                   const dealii::Tensor<1, dim> &up) const;
+
+    const std::vector<ShapePointer<dim>> bodies;
+    const dealii::BoundingBox<dim>       box;
+    const double                         cell_size;
+    const std::vector<Facet>             mesh_surface;
+  };
+} // namespace moraine
+
+#endif

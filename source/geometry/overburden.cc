@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/geometry/overburden.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Where the line x + s up meets the facet, if it does beyond x. */
+    template <int dim>
+    std::optional<double>
+    meeting(const Point<dim>                      &x,
+            const Tensor<1, dim>                  &up,
+            const typename Overburden<dim>::Facet &facet)
+    {
+      // x + s up = p_0 + sum_k t_k (p_k - p_0)
+      Tensor<2, dim> columns;
+      double         size = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        columns[d][0] = up[d];
+      for (unsigned int k = 1; k < dim; ++k)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            columns[d][k] = facet[0][d] - facet[k][d];
+          size *= facet[k].distance(facet[0]);
+        }
+      if (!(std::abs(determinant(columns)) > 1e-10 * size))
+        return {};
+      const Tensor<1, dim> found     = invert(columns) * (facet[0] - x);
+      constexpr double     round_off = 1e-9;
+      double               last      = 1; // barycentric coordinate of p_0
+      for (unsigned int k = 1; k < dim; ++k)
+        {
+          last -= found[k];
+          if (found[k] < -round_off)
+            return {};
+        }
+      if (last < -round_off || !(found[0] > 0))
+        return {};
+      return found[0];
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Overburden<dim>::Overburden(const std::vector<ShapePointer<dim>> &bodies,
+                              const BoundingBox<dim>               &mesh_box,
+                              const double                          cell_size,
+                              const std::vector<Facet> &mesh_surface)
+    : bodies(bodies)
+    , box(mesh_box)
+    , cell_size(cell_size)
+    , mesh_surface(mesh_surface)
+  {}
+
+
+
+  template <int dim>
+  double
+  Overburden<dim>::length_in_mesh(const Point<dim>     &x,
+                                  const Tensor<1, dim> &up) const
+  {
+    double length = std::numeric_limits<double>::max();
+    for (unsigned int d = 0; d < dim; ++d)
+      if (up[d] != 0)
+        length =
+          std::min(length,
+                   ((up[d] > 0 ? box.upper_bound(d) : box.lower_bound(d)) -
+                    x[d]) /
+                     up[d]);
+    for (const Facet &facet : mesh_surface)
+      if (const auto s = meeting<dim>(x, up, facet))
+        length = std::min(length, *s);
+    return std::max(length, 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  Overburden<dim>::add_parts(const unsigned int    b,
+                             const Point<dim>     &x,
+                             const Tensor<1, dim> &up,
+                             const double          length,
+                             std::vector<Part>    &parts) const
+  {
+    const auto level = [&](const double s) {
+      return bodies[b]->level(x + s * up);
+    };
+    double s = 0, value = level(0.), begin = 0;
+    while (s < length)
+      {
+        const double next =
+          std::min(length,
+                   s + std::clamp(std::abs(value), cell_size / 32, cell_size));
+        const bool was_inside = value > 0;
+        value                 = level(next);
+        if ((value > 0) != was_inside)
+          {
+            double lower = s, upper = next;
+            for (unsigned int halving = 0; halving < 60; ++halving)
+              {
+                const double middle = 0.5 * (lower + upper);
+                ((level(middle) > 0) == was_inside ? lower : upper) = middle;
+              }
+            if (was_inside)
+              parts.push_back({begin, upper, b});
+            begin = upper;
+          }
+        s = next;
+      }
+    if (value > 0)
+      parts.push_back({begin, length, b});
+  }
+
+
+
+  template <int dim>
+  typename Overburden<dim>::Column
+  Overburden<dim>::above(const Point<dim>          &x,
+                         const unsigned int         body,
+                         const Tensor<1, dim>      &up,
+                         const std::vector<double> &weights) const
+  {
+    const double      length = length_in_mesh(x, up);
+    std::vector<Part> parts;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b])
+        add_parts(b, x, up, length, parts);
+    std::sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
+      return a.begin < b.begin;
+    });
+    Column column{0., body, x};
+    double reached = 0;
+    for (const Part &part : parts)
+      {
+        if (part.begin > reached + 1e-6 * cell_size)
+          break;
+        column.pressure += weights[part.body] * (part.end - part.begin);
+        column.top = part.body;
+        reached    = std::max(reached, part.end);
+      }
+    column.surface = x + reached * up;
+    return column;
+  }
+
+
+
+  template class Overburden<2>;
+  template class Overburden<3>;
+} // namespace moraine
