@@ -11,6 +11,7 @@
 #include <moraine/points/bodies.h>
 #include <moraine/points/seeding.h>
 #include <moraine/geometry/shapes.h>
+#include <moraine/state/motion.h>
 #include <moraine/state/trial_points.h>
 
 #include <memory>
@@ -47,6 +48,7 @@ namespace moraine
       if (gimp)
         GimpBasis<dim>::request_fields(layout);
       StateFields<dim>(layout, measure, materials);
+      Motion<dim>::request_fields(VelocityTransfer(), layout);
       return layout;
     }
 

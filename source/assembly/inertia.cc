@@ -23,39 +23,28 @@ namespace moraine
                     const bool               tangent,
                     LocalSystem<dim>        &local) const
   {
-    const State<dim>    &state   = context.state;
-    const PointSet<dim> &points  = state.material_points();
-    const Motion<dim>   &motion  = *context.motion;
-    const unsigned int   n_nodes = block.n_nodes;
+    const Motion<dim> &motion  = *context.motion;
+    const unsigned int n_nodes = block.n_nodes;
     accelerations.resize(n_nodes);
     for (unsigned int a = 0; a < n_nodes; ++a)
       accelerations[a] =
         motion.inertial_acceleration(block.nodes[a], local.nodal_increments[a]);
     if (tangent)
       masses.assign(n_nodes * n_nodes, 0.);
+    mass.find_lumped(
+      block,
+      [&motion](const unsigned int p) { return motion.mass(p); },
+      motion.lumped_mass());
     for (unsigned int p = 0; p < block.n_points; ++p)
       {
-        const unsigned int point = block.points[p];
-        const double      *N     = block.N(p);
-        const double       m = state.material(points.body(point)).density() *
-                         state.initial_volume(point);
-        Tensor<1, dim> of_point;
+        const double *N = block.N(p);
+        const double  m = motion.mass(block.points[p]);
+        mass.multiply(N, accelerations, of_rows);
         for (unsigned int a = 0; a < n_nodes; ++a)
-          of_point += N[a] * accelerations[a];
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          {
-            const Tensor<1, dim> &acceleration =
-              motion.lumped_mass() ? accelerations[a] : of_point;
-            for (unsigned int d = 0; d < dim; ++d)
-              local.force[dim * a + d] -= m * N[a] * acceleration[d];
-            if (!tangent)
-              continue;
-            if (motion.lumped_mass())
-              masses[a * n_nodes + a] += m * N[a];
-            else
-              for (unsigned int b = 0; b < n_nodes; ++b)
-                masses[a * n_nodes + b] += m * N[a] * N[b];
-          }
+          for (unsigned int d = 0; d < dim; ++d)
+            local.force[dim * a + d] -= m * N[a] * of_rows[a][d];
+        if (tangent)
+          mass.add_matrix(N, m, masses);
       }
     if (!tangent)
       return;

@@ -41,22 +41,32 @@ namespace moraine
     for (unsigned int a = 0; a < block.n_nodes; ++a)
       scratch.velocities[a] =
         motion.velocity(block.nodes[a], local.nodal_increments[a]);
+    scratch.mass.find_lumped(
+      block,
+      [&motion](const unsigned int p) { return motion.mass(p); },
+      motion.lumped_mass());
+    if (tangent)
+      scratch.masses.assign(block.n_nodes * block.n_nodes, 0.);
     for (unsigned int p = 0; p < block.n_points; ++p)
       {
         const unsigned int    point  = block.points[p];
         const unsigned int    body   = points.body(point);
         const RayleighFactors factor = factors[body];
         if (factor.mass > 0)
-          add_of_mass(factor.mass * state.material(body).density() *
-                        state.initial_volume(point),
-                      motion,
-                      block,
-                      p,
-                      tangent,
-                      local);
+          add_of_mass(
+            factor.mass * motion.mass(point), block, p, tangent, local);
         if (factor.stiffness > 0)
           add_of_stiffness(context, block, p, tangent, local);
       }
+    if (!tangent)
+      return;
+    const double       c = motion.velocity_by_increment();
+    const unsigned int n = block.n_nodes;
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int d = 0; d < dim; ++d)
+          local.matrix(dim * a + d, dim * b + d) +=
+            c * scratch.masses[a * n + b];
   }
 
 
@@ -64,32 +74,18 @@ namespace moraine
   template <int dim>
   void
   RayleighDamping<dim>::add_of_mass(const double             c,
-                                    const Motion<dim>       &motion,
                                     const StencilBlock<dim> &block,
                                     const unsigned int       p,
                                     const bool               tangent,
                                     LocalSystem<dim>        &local) const
   {
-    const double  *N = block.N(p);
-    Tensor<1, dim> v;
-    for (unsigned int a = 0; a < block.n_nodes; ++a)
-      v += N[a] * scratch.velocities[a];
-    const double c_by_increment = c * motion.velocity_by_increment();
-    const bool   lumped         = motion.lumped_mass();
+    const double *N = block.N(p);
+    scratch.mass.multiply(N, scratch.velocities, scratch.of_rows);
     for (unsigned int a = 0; a < block.n_nodes; ++a)
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          local.force[dim * a + d] -=
-            c * N[a] * (lumped ? scratch.velocities[a] : v)[d];
-          if (!tangent)
-            continue;
-          if (lumped)
-            local.matrix(dim * a + d, dim * a + d) += c_by_increment * N[a];
-          else
-            for (unsigned int b = 0; b < block.n_nodes; ++b)
-              local.matrix(dim * a + d, dim * b + d) +=
-                c_by_increment * N[a] * N[b];
-        }
+        local.force[dim * a + d] -= c * N[a] * scratch.of_rows[a][d];
+    if (tangent)
+      scratch.mass.add_matrix(N, c, scratch.masses);
   }
 
 

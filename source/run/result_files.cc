@@ -252,7 +252,7 @@ namespace moraine
           fields.push_back(
             {field, unit, values.size() == none.size() ? values : none});
         };
-        if (model.motion)
+        if (model.motion && !model.motion->points_carry())
           {
             add("velocity", "length/time", model.motion->velocities());
             add("acceleration", "length/time^2", model.motion->accelerations());

@@ -3,6 +3,8 @@
 
 #include <moraine/state/motion.h>
 
+#include <moraine/state/block_mass.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -80,7 +82,10 @@ namespace moraine
     , v_field(points.fields().find(FieldNames<dim>::velocity))
     , a_field(points.fields().find(FieldNames<dim>::acceleration))
     , gradient_field(points.fields().find(FieldNames<dim>::velocity_gradient))
-  {}
+  {
+    AssertThrow(v_field.exists() && a_field.exists(),
+                ExcMessage("Points without the fields of request_fields()"));
+  }
 
 
 
@@ -412,32 +417,34 @@ namespace moraine
   std::array<double, n>
   Motion<dim>::mass_products(const std::array<Pair, n> &pairs) const
   {
-    const Basis<dim> &basis = state.point_basis();
-    StencilBlock<dim> block;
-    // By the values of a point, or of all its nodes.
+    const Basis<dim>     &basis = state.point_basis();
+    StencilBlock<dim>     block;
+    BlockMass<dim>        matrix;
+    NodeValues            u, w, w_rows;
     std::array<double, n> products{};
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
-        for (unsigned int p = 0; p < block.n_points; ++p)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              const auto &[u, w] = pairs[i];
-              Tensor<1, dim> u_p, w_p;
-              double         of_nodes = 0;
-              for (unsigned int k = 0; k < block.n_nodes; ++k)
-                {
-                  const double          N   = block.N(p)[k];
-                  const Tensor<1, dim> &u_k = (*u)[block.nodes[k]],
-                                       &w_k = (*w)[block.nodes[k]];
-                  if (lumped)
-                    of_nodes += N * (u_k * w_k);
-                  u_p += N * u_k;
-                  w_p += N * w_k;
-                }
-              products[i] +=
-                mass(block.points[p]) * (lumped ? of_nodes : u_p * w_p);
-            }
+        matrix.find_lumped(
+          block, [this](const unsigned int p) { return mass(p); }, lumped);
+        u.resize(block.n_nodes);
+        w.resize(block.n_nodes);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              {
+                u[k] = (*pairs[i].first)[block.nodes[k]];
+                w[k] = (*pairs[i].second)[block.nodes[k]];
+              }
+            for (unsigned int p = 0; p < block.n_points; ++p)
+              {
+                matrix.multiply(block.N(p), w, w_rows);
+                double product = 0;
+                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                  product += block.N(p)[k] * (u[k] * w_rows[k]);
+                products[i] += mass(block.points[p]) * product;
+              }
+          }
       }
     for (double &product : products)
       product = Utilities::MPI::sum(product, state.grid().communicator());

@@ -69,6 +69,7 @@ namespace
       if (method == Method::cpdi2)
         Cpdi2Basis<dim>::request_fields(layout);
       StateFields<dim>(layout, measure, {material});
+      Motion<dim>::request_fields(VelocityTransfer(), layout);
       return layout;
     }
 

@@ -88,7 +88,7 @@ namespace composite_functions_test
     for (unsigned int g = 0; g < composite.n_batches(); ++g)
       {
         composite.evaluate(g, block);
-        n_interior += block.n_nodes == Utilities::pow(4, dim);
+        n_interior += block.n_nodes == Utilities::pow(4u, dim);
         for (unsigned int p = 0; p < block.n_points; ++p, ++n_points)
           {
             const Point<dim> &x     = scene.points.position(block.points[p]);

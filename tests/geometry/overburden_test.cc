@@ -84,9 +84,9 @@ namespace
     const Overburden<2> in_mesh({make_space<2>()},
                                 mesh_box,
                                 1.,
-                                {{Point<2>(0, 5), Point<2>(10, 10)},
-                                 {Point<2>(10, 10), Point<2>(20, 15)},
-                                 {Point<2>(0, 0), Point<2>(20, 0)}});
+                                {{{Point<2>(0, 5), Point<2>(10, 10)}},
+                                 {{Point<2>(10, 10), Point<2>(20, 15)}},
+                                 {{Point<2>(0, 0), Point<2>(20, 0)}}});
     for (const double x : {7., 10., 13.})
       EXPECT_NEAR(in_mesh.above(Point<2>(x, 2), 0, up, {10}).pressure,
                   10 * (5 + x / 2 - 2),
@@ -110,8 +110,8 @@ namespace
       {make_space<3>()},
       box_3d,
       0.5,
-      {{Point<3>(0, 0, 2), Point<3>(4, 0, 2), Point<3>(0, 4, 2)},
-       {Point<3>(4, 4, 2), Point<3>(4, 0, 2), Point<3>(0, 4, 2)}});
+      {{{Point<3>(0, 0, 2), Point<3>(4, 0, 2), Point<3>(0, 4, 2)}},
+       {{Point<3>(4, 4, 2), Point<3>(4, 0, 2), Point<3>(0, 4, 2)}}});
     EXPECT_NEAR(in_mesh.above(Point<3>(1, 3, 0.2), 0, z, {10}).pressure,
                 18,
                 1e-11);

@@ -11,7 +11,7 @@ import subprocess
 def begun(scene):
     """What a run says of a scene, and its parameters.prm; the run is ended when
     that has been written."""
-    target = folder / "begun" / scene.stem
+    target = folder / "begun" / f"{scene.parent.name}-{scene.stem}"
     words = [str(program), "run", str(scene), "--output", str(target)]
     process = subprocess.Popen(words, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True, cwd=folder)

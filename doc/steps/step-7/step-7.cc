@@ -236,8 +236,10 @@ run(const Base base)
   const BackgroundMesh<dim> mesh(box, MPI_COMM_WORLD);
   GridSpace<dim>            space(mesh, /* degree = */ 1);
 
-  const auto    column = make_box<dim>(box.lower_corner, box.upper_corner);
-  PointSet<dim> points(mesh, PointFields());
+  const auto  column = make_box<dim>(box.lower_corner, box.upper_corner);
+  PointFields fields;
+  Motion<dim>::request_fields(VelocityTransfer(), fields);
+  PointSet<dim> points(mesh, fields);
   seed_bodies({{"column", column}},
               CellSeeder<dim>(2, PointLayout::gauss),
               points);
@@ -251,8 +253,9 @@ run(const Base base)
 
   // What makes it dynamic. The time integrator is a handful of coefficients;
   // ours is the average acceleration. The motion is the velocities and
-  // accelerations. Our nodes stay with the material and keep theirs. Where
-  // points move through the mesh they carry them, and the transfer says how.
+  // accelerations. Our nodes stay with the material and keep theirs; points
+  // have fields to show them. Where points move through the mesh they carry
+  // them, and the transfer says how.
   Motion<dim> motion(state,
                      points,
                      TimeIntegrator::newmark(/* beta = */ 0.25,

@@ -5,14 +5,14 @@
 #define moraine_assembly_inertia_h
 
 #include <moraine/assembly/term.h>
+#include <moraine/state/block_mass.h>
 
 namespace moraine
 {
   /**
-   * The forces of inertia @f$-M a@f$ with the consistent mass
-   * @f$M_{ab} = \sum_p m_p N_a N_b@f$, or the lumped one
-   * @f$M_{aa} = \sum_p m_p N_a@f$, as Motion says; so it says where in the step
-   * the acceleration is taken.
+   * The forces of inertia @f$-M a@f$ with the consistent mass, that of nodes of
+   * tiny mass lumped, or the lumped one, as Motion says (see BlockMass); so it
+   * says where in the step the acceleration is taken.
    */
   template <int dim>
   class Inertia : public PointTerm<dim>
@@ -42,8 +42,10 @@ namespace moraine
         LocalSystem<dim>        &local) const override;
 
   private:
-    mutable std::vector<dealii::Tensor<1, dim>> accelerations; ///< scratch
-    mutable std::vector<double>                 masses;        ///< scratch
+    // Scratch.
+    mutable BlockMass<dim>                      mass;
+    mutable std::vector<dealii::Tensor<1, dim>> accelerations, of_rows;
+    mutable std::vector<double>                 masses;
   };
 } // namespace moraine
 

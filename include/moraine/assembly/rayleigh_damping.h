@@ -5,6 +5,7 @@
 #define moraine_assembly_rayleigh_damping_h
 
 #include <moraine/assembly/term.h>
+#include <moraine/state/block_mass.h>
 
 namespace moraine
 {
@@ -82,12 +83,14 @@ namespace moraine
     {
       std::vector<dealii::Tensor<1, dim>> velocities;
       std::vector<dealii::Tensor<1, dim>> gradients;
+      std::vector<dealii::Tensor<1, dim>> of_rows;
+      std::vector<double>                 masses; ///< alpha M of a batch
+      BlockMass<dim>                      mass;
     };
 
     /** @p c is alpha times the mass of a point. */
     void
     add_of_mass(const double             c,
-                const Motion<dim>       &motion,
                 const StencilBlock<dim> &block,
                 const unsigned int       p,
                 const bool               tangent,

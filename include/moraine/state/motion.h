@@ -267,11 +267,22 @@ namespace moraine
     double
     error_of_increment() const;
 
+    /** Whether points carry the motion from step to step, not nodes. */
+    bool
+    points_carry() const
+    {
+      return transfer.scheme != VelocityTransfer::Scheme::none;
+    }
+
     bool
     lumped_mass() const
     {
       return lumped;
     }
+
+    /** Of point @p p. */
+    double
+    mass(const unsigned int p) const;
 
     /** The group "motion": works, and what nodes keep. */
     void
@@ -329,12 +340,6 @@ namespace moraine
     accept();
 
   private:
-    bool
-    points_carry() const
-    {
-      return transfer.scheme != VelocityTransfer::Scheme::none;
-    }
-
     /** @f$S^+@f$ of what points carry, less what they get from @p known. */
     Nodal
     map_to_nodes(const Nodal *known = nullptr) const;
@@ -354,9 +359,6 @@ namespace moraine
     template <std::size_t n>
     std::array<double, n>
     mass_products(const std::array<Pair, n> &pairs) const;
-
-    double
-    mass(const unsigned int p) const;
 
     const State<dim>                       &state;
     PointSet<dim>                          &points;
