@@ -229,7 +229,7 @@ class Bench:
     def case_dynamics(self):
         n = 20 if self.smoke else 400
         block = {"Mesh/Upper corner": f"1, {1 + 1 / n}",
-                 "Mesh/Cells": f"{n}, {n + 1}", "Solver/Direct limit 2D": 1000}
+                 "Mesh/Cells": f"{n}, {n + 1}", "Solver/Direct limit 2D": 100}
         seconds = {"quasi-static": [], "Newmark": []}
         iterations = {}
         for _ in range(min(3, self.repeats)):
