@@ -35,6 +35,9 @@ namespace moraine
         }
       return {du, grad_du};
     }
+
+
+
     template <int dim>
     bool
     forces_in_the_middle(const StepContext<dim> &context)

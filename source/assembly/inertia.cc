@@ -46,13 +46,9 @@ namespace moraine
         if (tangent)
           mass.add_matrix(N, m, masses);
       }
-    if (!tangent)
-      return;
-    const double c = motion.inertial_acceleration_by_increment();
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int b = 0; b < n_nodes; ++b)
-        for (unsigned int d = 0; d < dim; ++d)
-          local.matrix(dim * a + d, dim * b + d) += c * masses[a * n_nodes + b];
+    if (tangent)
+      local.add_in_all_directions(motion.inertial_acceleration_by_increment(),
+                                  masses);
   }
 
 

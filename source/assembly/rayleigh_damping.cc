@@ -13,6 +13,9 @@ namespace moraine
   RayleighDamping<dim>::RayleighDamping(
     const std::vector<RayleighFactors> &factors)
     : factors(factors)
+    , damps_mass(std::any_of(factors.begin(), factors.end(), [](const auto &f) {
+      return f.mass > 0;
+    }))
   {}
 
 
@@ -33,14 +36,30 @@ namespace moraine
                             const bool               tangent,
                             LocalSystem<dim>        &local) const
   {
-    const State<dim>    &state  = context.state;
-    const PointSet<dim> &points = state.material_points();
+    const PointSet<dim> &points = context.state.material_points();
     const Motion<dim>   &motion = *context.motion;
     scratch.velocities.resize(block.n_nodes);
     scratch.gradients.resize(block.n_nodes);
     for (unsigned int a = 0; a < block.n_nodes; ++a)
       scratch.velocities[a] =
         motion.velocity(block.nodes[a], local.nodal_increments[a]);
+    if (damps_mass)
+      add_of_mass(points, motion, block, tangent, local);
+    for (unsigned int p = 0; p < block.n_points; ++p)
+      if (factors[points.body(block.points[p])].stiffness > 0)
+        add_of_stiffness(context, block, p, tangent, local);
+  }
+
+
+
+  template <int dim>
+  void
+  RayleighDamping<dim>::add_of_mass(const PointSet<dim>     &points,
+                                    const Motion<dim>       &motion,
+                                    const StencilBlock<dim> &block,
+                                    const bool               tangent,
+                                    LocalSystem<dim>        &local) const
+  {
     scratch.mass.find_lumped(
       block,
       [&motion](const unsigned int p) { return motion.mass(p); },
@@ -49,43 +68,19 @@ namespace moraine
       scratch.masses.assign(block.n_nodes * block.n_nodes, 0.);
     for (unsigned int p = 0; p < block.n_points; ++p)
       {
-        const unsigned int    point  = block.points[p];
-        const unsigned int    body   = points.body(point);
-        const RayleighFactors factor = factors[body];
-        if (factor.mass > 0)
-          add_of_mass(
-            factor.mass * motion.mass(point), block, p, tangent, local);
-        if (factor.stiffness > 0)
-          add_of_stiffness(context, block, p, tangent, local);
+        const unsigned int point = block.points[p];
+        const double  c = factors[points.body(point)].mass * motion.mass(point);
+        const double *N = block.N(p);
+        scratch.mass.multiply(N, scratch.velocities, scratch.of_rows);
+        for (unsigned int a = 0; a < block.n_nodes; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            local.force[dim * a + d] -= c * N[a] * scratch.of_rows[a][d];
+        if (tangent)
+          scratch.mass.add_matrix(N, c, scratch.masses);
       }
-    if (!tangent)
-      return;
-    const double       c = motion.velocity_by_increment();
-    const unsigned int n = block.n_nodes;
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
-        for (unsigned int d = 0; d < dim; ++d)
-          local.matrix(dim * a + d, dim * b + d) +=
-            c * scratch.masses[a * n + b];
-  }
-
-
-
-  template <int dim>
-  void
-  RayleighDamping<dim>::add_of_mass(const double             c,
-                                    const StencilBlock<dim> &block,
-                                    const unsigned int       p,
-                                    const bool               tangent,
-                                    LocalSystem<dim>        &local) const
-  {
-    const double *N = block.N(p);
-    scratch.mass.multiply(N, scratch.velocities, scratch.of_rows);
-    for (unsigned int a = 0; a < block.n_nodes; ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        local.force[dim * a + d] -= c * N[a] * scratch.of_rows[a][d];
     if (tangent)
-      scratch.mass.add_matrix(N, c, scratch.masses);
+      local.add_in_all_directions(motion.velocity_by_increment(),
+                                  scratch.masses);
   }
 
 

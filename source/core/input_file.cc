@@ -6,8 +6,8 @@
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/input_text.h>
-#include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>

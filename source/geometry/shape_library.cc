@@ -4,7 +4,7 @@
 #include <moraine/geometry/shape_library.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 #include <moraine/geometry/shapes.h>
 
 #include <algorithm>

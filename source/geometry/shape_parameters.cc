@@ -4,8 +4,8 @@
 #include <moraine/geometry/shape_library.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -203,14 +203,6 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
 
 
 
-    bool
-    has(const std::vector<std::string> &list, const std::string &word)
-    {
-      return std::find(list.begin(), list.end(), word) != list.end();
-    }
-
-
-
     /** Finite numbers separated by commas or blanks. */
     template <int n>
     Point<n>
@@ -322,14 +314,15 @@ b   23 | Translation | point | Moves the body after the rotation [length])";
       (use == ShapeUse::body ? "shape '" : "surface '") + name + "'";
     for (const Key &key : tables<dim>(use).keys)
       {
-        const bool is_given = given(key.name), is_needed = has(needs, key.name);
+        const bool is_given  = given(key.name),
+                   is_needed = contains(needs, key.name);
         if (!is_given && is_needed)
           throw InputError(place(section, key.name) + ": not set" +
                            (key.usual.empty() ? "" : ", or zero") + ". The " +
                            what + " needs: " + list_of(needs));
         const bool places =
           key.name == "Translation" || key.name.rfind("Rotation", 0) == 0;
-        if (is_given && !places && !is_needed && !has(may_have, key.name))
+        if (is_given && !places && !is_needed && !contains(may_have, key.name))
           throw InputError(
             place(section, key.name) + ": set, but the " + what +
             " does not use it. It uses: " + list_of(needs) +

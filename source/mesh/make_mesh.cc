@@ -5,7 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/memory.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 #include <moraine/mesh/cell_map.h>
 #include <moraine/mesh/joined_cells.h>
 #include <moraine/mesh/msh_file.h>

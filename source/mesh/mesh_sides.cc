@@ -4,7 +4,7 @@
 #include <moraine/mesh/mesh_sides.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -100,7 +101,7 @@ namespace moraine
                                         "Outer impedances",
                                         "Incident velocity",
                                         "Incident curve"};
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
+    return contains(keys, key);
   }
 
 

@@ -7,8 +7,8 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
 #include <moraine/core/memory.h>
-#include <moraine/core/nearest.h>
 #include <moraine/core/version.h>
+#include <moraine/core/words.h>
 #include <moraine/run/located.h>
 #include <moraine/run/parameter_reference.h>
 #include <moraine/run/scene.h>
@@ -17,7 +17,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -153,9 +152,7 @@ namespace moraine
       std::string text = "moraine " + command.name + ' ' + command.argument +
                          " [OPTIONS]\n" + command.text + '\n';
       for (const Option &option : options())
-        if (std::count(command.options.begin(),
-                       command.options.end(),
-                       option.name) > 0)
+        if (contains(command.options, option.name))
           text += "  " + padded(option.name + ' ' + option.value, 30) +
                   option.text + '\n';
       return text;
@@ -195,7 +192,7 @@ namespace moraine
     check_option(const std::string &option, const std::string &command)
     {
       const std::vector<std::string> &known = find_command(command).options;
-      if (std::count(known.begin(), known.end(), option) == 0)
+      if (!contains(known, option))
         throw InputError("unknown option '" + option + "' of 'moraine " +
                          command + "'" + suggest(option, known));
     }

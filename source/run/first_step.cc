@@ -5,6 +5,7 @@
 
 #include <moraine/boundary/condition_agreement.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/initial_stress.h>
@@ -30,14 +31,6 @@ namespace moraine
 
 
 
-    bool
-    has(const std::vector<std::string> &names, const std::string &name)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
-
-
-
     /**
      * A motion without a value at the end of a step is found here, before
      * anything is computed or written; so are conditions that contradict each
@@ -53,8 +46,8 @@ namespace moraine
         model.system->check_values(time.start_time + step * size);
       std::vector<GridCondition<dim>> active;
       for (const auto &condition : model.grid_conditions)
-        if (has(stage.grid_conditions, condition.name) &&
-            !has(stage.absorbing, condition.name))
+        if (contains(stage.grid_conditions, condition.name) &&
+            !contains(stage.absorbing, condition.name))
           active.push_back(condition);
       check_agreement(
         active, *model.space, time.start_time, time.end_time, time.n_steps);
@@ -82,7 +75,7 @@ namespace moraine
                              "bodies with a density > 0");
       for (const auto &traction : model.loads.side_tractions)
         {
-          if (!has(stage.loads, traction.name))
+          if (!contains(stage.loads, traction.name))
             continue;
           unsigned int n_faces = 0;
           for (const auto &cell :
@@ -299,8 +292,8 @@ namespace moraine
     {
       const MPI_Comm communicator = model.space->communicator();
       for (const auto &boundary : model.boundaries)
-        if (has(stage.boundaries, boundary.name()) &&
-            !has(stage.absorbing, boundary.name()) &&
+        if (contains(stage.boundaries, boundary.name()) &&
+            !contains(stage.absorbing, boundary.name()) &&
             boundary.n_points(communicator) == 0)
           throw InputError("section 'Boundaries/" + boundary.name() +
                            "': found a surface that touches no body, allowed: "
@@ -361,7 +354,7 @@ namespace moraine
     system.begin_step(t);
     std::vector<std::pair<std::string, LA::Vector>> held;
     for (const std::string &name : stage.absorbing)
-      if (!has(before.absorbing, name))
+      if (!contains(before.absorbing, name))
         held.emplace_back(name, system.constraint_forces(name));
 
     model.linear_solver->clear();

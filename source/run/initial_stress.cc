@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+#include <moraine/core/words.h>
 #include <moraine/geometry/overburden.h>
 #include <moraine/run/scene_bodies.h>
 
@@ -76,14 +77,6 @@ namespace moraine
 
   namespace
   {
-    bool
-    is_among(const std::vector<std::string> &names, const std::string &name)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
-
-
-
     template <int dim>
     const BodyParameters<dim> &
     parameters_of(const Scene<dim> &scene, const std::string &body)
@@ -142,7 +135,7 @@ namespace moraine
           {
             const std::string &name = model.body_names[b];
             ShapePointer<dim>  shape;
-            if (is_among(stage.bodies, name))
+            if (contains(stage.bodies, name))
               {
                 shape = shapes.at(name);
                 if (!shape)
@@ -169,7 +162,7 @@ namespace moraine
           section,
           "K0");
         for (const auto &force : model.loads.body_forces)
-          if (force.times_density && is_among(stage.loads, force.name))
+          if (force.times_density && contains(stage.loads, force.name))
             gravities.push_back(&force);
       }
 
@@ -403,8 +396,8 @@ namespace moraine
   begins_with_stress(const Scene<dim> &scene, const unsigned int k)
   {
     const auto is_new = [&](const std::string &name) {
-      return is_among(scene.stages[k].second.bodies, name) &&
-             (k == 0 || !is_among(scene.stages[k - 1].second.bodies, name));
+      return contains(scene.stages[k].second.bodies, name) &&
+             (k == 0 || !contains(scene.stages[k - 1].second.bodies, name));
     };
     return std::any_of(scene.bodies.begin(),
                        scene.bodies.end(),

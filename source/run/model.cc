@@ -7,6 +7,7 @@
 #include <moraine/assembly/load_terms.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
@@ -160,18 +161,14 @@ namespace moraine
   Terms<dim>
   Model<dim>::terms_of(const Scene<dim> &scene, const StageParameters &stage)
   {
-    const auto has = [](const std::vector<std::string> &names,
-                        const std::string              &name) {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    };
     const auto active = [&](const std::string &section,
                             const std::string &name) {
       if (section == "Loads")
-        return has(stage.loads, name);
-      return !has(stage.absorbing, name) &&
-             has(section == "Boundaries" ? stage.boundaries :
-                                           stage.grid_conditions,
-                 name);
+        return contains(stage.loads, name);
+      return !contains(stage.absorbing, name) &&
+             contains(section == "Boundaries" ? stage.boundaries :
+                                                stage.grid_conditions,
+                      name);
     };
     const IntegratorParameters &integrator = stage.time.integrator;
     Terms<dim>                  terms =
@@ -185,17 +182,17 @@ namespace moraine
                  active);
     // What pushes in a later stage goes with the material from now on.
     for (auto &load : loads.carried)
-      if (!has(stage.loads, load.name()) &&
+      if (!contains(stage.loads, load.name()) &&
           std::any_of(
             scene.stages.begin(), scene.stages.end(), [&](const auto &other) {
               const auto &bodies_then = other.second.bodies;
               return other.second.time.start_time > stage.time.start_time &&
-                     has(other.second.loads, load.name()) &&
+                     contains(other.second.loads, load.name()) &&
                      // Its surface may be that of a body still to come.
                      std::all_of(bodies_then.begin(),
                                  bodies_then.end(),
                                  [&](const std::string &body) {
-                                   return has(stage.bodies, body);
+                                   return contains(stage.bodies, body);
                                  });
             }))
         terms.push_back(
@@ -210,9 +207,11 @@ namespace moraine
       {
         const std::string &name = boundary.name();
         const bool         acts =
-          has(boundary.is_on_side() ? stage.grid_conditions : stage.boundaries,
-              name);
-        if (acts && (has(stage.absorbing, name) || !scene.absorbs_later(name)))
+          contains(boundary.is_on_side() ? stage.grid_conditions :
+                                           stage.boundaries,
+                   name);
+        if (acts &&
+            (contains(stage.absorbing, name) || !scene.absorbs_later(name)))
           terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
       }
     return terms;
@@ -241,10 +240,9 @@ namespace moraine
     std::vector<bool>  stay(n), come(n), wanted(n);
     for (unsigned int b = 0; b < n; ++b)
       {
-        wanted[b] =
-          std::find(names.begin(), names.end(), body_names[b]) != names.end();
-        stay[b] = wanted[b] && present[b];
-        come[b] = wanted[b] && !present[b];
+        wanted[b] = contains(names, body_names[b]);
+        stay[b]   = wanted[b] && present[b];
+        come[b]   = wanted[b] && !present[b];
       }
     if (wanted == present)
       return;

@@ -4,12 +4,12 @@
 #include <moraine/run/scene.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/run/renamed_keys.h>
-#include <moraine/run/scene_bodies.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
+#include <moraine/run/renamed_keys.h>
+#include <moraine/run/scene_bodies.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace moraine
@@ -401,8 +401,7 @@ namespace moraine
   Scene<dim>::absorbs_later(const std::string &name) const
   {
     // What absorbs once does so to the end.
-    const auto &names = stages.back().second.absorbing;
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return contains(stages.back().second.absorbing, name);
   }
 
 

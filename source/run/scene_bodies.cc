@@ -4,6 +4,7 @@
 #include <moraine/run/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 
 #include <algorithm>
 #include <fstream>
@@ -139,8 +140,7 @@ namespace moraine
     bool before = true;
     for (const auto &[stage_name, stage] : stages)
       {
-        const bool now =
-          std::count(stage.bodies.begin(), stage.bodies.end(), name) > 0;
+        const bool now = contains(stage.bodies, name);
         if (now && !before)
           return true;
         before = now;
@@ -156,8 +156,7 @@ namespace moraine
   {
     return std::any_of(stages.begin(), stages.end(), [&](const auto &stage) {
       const auto &names = stage.second.bodies;
-      return std::count(names.begin(), names.end(), a) > 0 &&
-             std::count(names.begin(), names.end(), b) > 0;
+      return contains(names, a) && contains(names, b);
     });
   }
 
@@ -168,9 +167,7 @@ namespace moraine
   Scene<dim>::first_stage_with(const std::string &name) const
   {
     unsigned int k = 0;
-    while (k + 1 < stages.size() && std::count(stages[k].second.bodies.begin(),
-                                               stages[k].second.bodies.end(),
-                                               name) == 0)
+    while (k + 1 < stages.size() && !contains(stages[k].second.bodies, name))
       ++k;
     return k;
   }

@@ -3,13 +3,12 @@
 
 // The part of Scene that finds what cannot be right, as far as the text tells.
 
-#include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene.h>
+#include <moraine/run/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 
-#include <algorithm>
 
 namespace moraine
 {
@@ -17,29 +16,16 @@ namespace moraine
 
   namespace
   {
-    bool
-    is_one_of(const std::string &word, const std::vector<std::string> &words)
-    {
-      return std::find(words.begin(), words.end(), word) != words.end();
-    }
-
-
-
     /** Whether loads of this type look at the key. */
     bool
     load_uses(const std::string &type, const std::string &key)
     {
-      const bool is_of_surface = !is_one_of(key,
-                                            {"Type",
-                                             "Value",
-                                             "Curve",
-                                             "Bodies",
-                                             "Coordinates",
-                                             "Side",
-                                             "Location"});
-      return is_one_of(key, {"Type", "Value", "Curve"}) ||
-             (is_one_of(type, {"body force", "gravity"}) &&
-              is_one_of(key, {"Bodies", "Coordinates"})) ||
+      const bool is_of_surface = !contains(
+        {"Type", "Value", "Curve", "Bodies", "Coordinates", "Side", "Location"},
+        key);
+      return contains({"Type", "Value", "Curve"}, key) ||
+             (contains({"body force", "gravity"}, type) &&
+              contains({"Bodies", "Coordinates"}, key)) ||
              (type == "side traction" && key == "Side") ||
              (type == "point force" && key == "Location") ||
              (type == "force on points" && key == "Location") ||
@@ -52,11 +38,11 @@ namespace moraine
     bool
     integrator_uses(const IntegratorParameters &chosen, const std::string &key)
     {
-      if (is_one_of(key, {"Newmark beta", "Newmark gamma"}))
+      if (contains({"Newmark beta", "Newmark gamma"}, key))
         return chosen.integrator == "Newmark";
       if (key == "Spectral radius")
         return chosen.integrator == "generalised-alpha";
-      if (is_one_of(key, {"Mass", "Velocity transfer", "Error tolerance"}))
+      if (contains({"Mass", "Velocity transfer", "Error tolerance"}, key))
         return chosen.dynamic();
       if (key == "FLIP share")
         return chosen.dynamic() && chosen.transfer == "blend";
@@ -154,18 +140,18 @@ namespace moraine
     bool
     is_of_motion(const std::string &key)
     {
-      return is_one_of(key,
-                       {"Components",
-                        "Displacement",
-                        "Translation",
-                        "Rotation angle",
-                        "Rotation centre",
-                        "Rotation axis",
-                        "Penetration limit",
-                        "Enforcement",
-                        "Band width",
-                        "Nitsche factor",
-                        "Penalty factor"});
+      return contains({"Components",
+                       "Displacement",
+                       "Translation",
+                       "Rotation angle",
+                       "Rotation centre",
+                       "Rotation axis",
+                       "Penetration limit",
+                       "Enforcement",
+                       "Band width",
+                       "Nitsche factor",
+                       "Penalty factor"},
+                      key);
     }
 
 
@@ -335,7 +321,7 @@ namespace moraine
         body.damping.factors(section, !is_dynamic());
         body.initial_stress.check(section);
         if (!body.initial_velocity.empty() && operands.count(name) == 0 &&
-            !is_one_of(name, first_dynamic_stage().bodies))
+            !contains(first_dynamic_stage().bodies, name))
           reject(section,
                  "Initial velocity",
                  body.initial_velocity,
@@ -349,7 +335,7 @@ namespace moraine
                  std::to_string(dim) + " numbers, of a box");
         if (body.material.empty() ?
               materials.size() > 1 && operands.count(name) == 0 :
-              !is_one_of(body.material, material_names))
+              !contains(material_names, body.material))
           reject(section,
                  "Material",
                  body.material,

@@ -5,7 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 #include <moraine/run/scene_bodies.h>
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 
 #include <moraine/run/stage_parameters.h>
 
+#include <moraine/core/words.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/nearest.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace moraine
@@ -75,7 +75,7 @@ namespace moraine
       else if (names == std::vector<std::string>{"none"})
         names.clear();
       for (const std::string &name : names)
-        if (std::find(all.begin(), all.end(), name) == all.end())
+        if (!contains(all, name))
           reject(section,
                  key,
                  name,
@@ -94,7 +94,7 @@ namespace moraine
       if (names.empty())
         names = before;
       for (const std::string &name : names)
-        if (std::find(all.begin(), all.end(), name) == all.end())
+        if (!contains(all, name))
           reject(section,
                  "Bodies",
                  name,
@@ -186,7 +186,7 @@ namespace moraine
                       stage.grid_conditions.begin(),
                       stage.grid_conditions.end());
         for (const std::string &boundary : stage.absorbing)
-          if (std::find(active.begin(), active.end(), boundary) == active.end())
+          if (!contains(active, boundary))
             reject(section,
                    "Absorbing",
                    boundary,

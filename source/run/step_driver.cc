@@ -5,16 +5,14 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
+#include <moraine/core/words.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/step_failure.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -35,14 +33,6 @@ namespace moraine
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
-
-    /** A boundary that the material misses by more than both is told of. */
-    constexpr double told_share_of_motion = 0.02;
-    constexpr double told_share_of_cell   = 1e-3;
-
-    /** Energy that the integrator made is told of from this part of the largest
-     * on. */
-    constexpr double told_share_of_energy = 0.01;
 
     std::vector<TimeParameters>
     times_of(const NamedStages &stages)
@@ -67,6 +57,7 @@ namespace moraine
     , communicator(model.space->communicator())
     , newton(scene.newton)
     , time_control(times_of(scene.stages))
+    , checks(scene, model)
   {
     if (model.mesh_motion.moves())
       lasting.add(*model.mesh);
@@ -123,7 +114,9 @@ namespace moraine
     else if (!first_step)
       model.system->begin_step(time_control.time(),
                                [this]() { model.linear_solver->clear(); });
-    check_separation();
+    const std::string separation = checks.separation();
+    if (!separation.empty())
+      warn(separation);
     for (unsigned int n_rejections = 0;;)
       {
         time_control.next();
@@ -136,7 +129,7 @@ namespace moraine
           std::max(sums.condition_number, report.condition_number);
         std::string reason = reason_to_reject(report, x);
         if (reason.empty() && may_support_more())
-          reason = point_that_leaves(x);
+          reason = point_that_leaves(model, time_control, x);
         if (reason.empty())
           return accept(report, x, passes);
         ++n_rejections;
@@ -158,16 +151,14 @@ namespace moraine
          << ", from t = " << parameters.time.start_time << " to "
          << parameters.time.end_time;
     for (const std::string &body : parameters.bodies)
-      if (std::count(before.bodies.begin(), before.bodies.end(), body) == 0)
+      if (!contains(before.bodies, body))
         text << ", with " << body;
     for (const std::string &body : before.bodies)
-      if (std::count(parameters.bodies.begin(),
-                     parameters.bodies.end(),
-                     body) == 0)
+      if (!contains(parameters.bodies, body))
         text << ", without " << body;
     tell(text.str());
     if (parameters.bodies != before.bodies)
-      n_parts.clear();
+      checks.bodies_change();
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction);
@@ -269,7 +260,7 @@ namespace moraine
                                      time_control.time(),
                                      time_control.trial_time());
       });
-    const std::string leaves = point_that_leaves(x);
+    const std::string leaves = point_that_leaves(model, time_control, x);
     if (!leaves.empty())
       throw ComputationError(leaves);
     const std::vector<Tensor<1, dim>> increments =
@@ -300,8 +291,9 @@ namespace moraine
     for (const auto &u : increments)
       largest = std::max(largest, u.norm());
     largest = Utilities::MPI::max(largest, communicator);
-    check_boundaries(largest);
-    check_energy();
+    for (const std::string &warning :
+         checks.of_step(time_control.time(), last_reports, largest))
+      warn(warning);
     std::optional<double> distance;
     if (was_pseudo_transient)
       {
@@ -473,80 +465,10 @@ namespace moraine
 
   template <int dim>
   void
-  StepDriver<dim>::check_separation()
+  StepDriver<dim>::warn(const std::string &text)
   {
-    if (!n_parts.empty() && !model.system->coupling_changed())
-      return;
-    const auto parts = parts_of_bodies(*model.space,
-                                       *model.points,
-                                       *model.basis,
-                                       model.body_names.size());
-    if (n_parts.empty())
-      {
-        for (const auto &of_body : parts)
-          n_parts.push_back(of_body.size());
-        return;
-      }
-    const std::string found = name_separation(parts, n_parts, model.body_names);
-    if (found.empty())
-      return;
-    if (method.separation == "stop")
-      throw ComputationError(
-        found + ". Points that drift apart leave a cell empty between them: "
-                "more points per direction, domains that follow the material "
-                "('Method = CPDI2', or GIMP with 'Domain update = corners') or "
-                "larger cells keep them together; 'Separation = note' in "
-                "section 'Method' goes on");
-    for (unsigned int b = 0; b < parts.size(); ++b)
-      n_parts[b] = std::max<unsigned int>(n_parts[b], parts[b].size());
-    sums.warnings.push_back(found);
-    tell(found);
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::check_boundaries(const double largest_motion)
-  {
-    for (const BoundaryReport<dim> &report : last_reports)
-      if (report.violation > told_share_of_motion * largest_motion &&
-          report.violation > told_share_of_cell * model.mesh->cell_size() &&
-          missed.insert(report.name).second)
-        {
-          std::ostringstream text;
-          text << "boundary '" << report.name << "': the material misses it by "
-               << report.violation << ", "
-               << std::round(100 * report.violation / largest_motion)
-               << " % of the largest motion in the step to t = "
-               << time_control.time()
-               << "; smaller cells or steps bring it closer";
-          sums.warnings.push_back(text.str());
-          tell(text.str());
-        }
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::check_energy()
-  {
-    if (!model.motion || told_of_energy)
-      return;
-    const Works &works = model.motion->works();
-    const double made  = -works.out_of_balance();
-    if (!(made > told_share_of_energy * works.largest()))
-      return;
-    told_of_energy = true;
-    std::ostringstream text;
-    text << "energy grows without work: by t = " << time_control.time()
-         << " the integrator has made " << std::setprecision(2)
-         << 100 * made / works.largest()
-         << " % of the largest part of it; shorter steps, or 'Integrator = "
-            "energy-momentum' or 'generalised-alpha', do not";
-    sums.warnings.push_back(text.str());
-    tell(text.str());
+    sums.warnings.push_back(text);
+    tell(text);
   }
 
 
@@ -557,54 +479,6 @@ namespace moraine
   {
     for (RunObserver<dim> *observer : observers)
       observer->note(text);
-  }
-
-
-
-  template <int dim>
-  std::string
-  StepDriver<dim>::point_that_leaves(const LA::Vector &x)
-  {
-    State<dim>                &state  = *model.state;
-    const BackgroundMesh<dim> &mesh   = *model.mesh;
-    const PointSet<dim>       &points = *model.points;
-    const TimeControl         &time   = time_control;
-    if (state.mesh_after_step() != MeshAfterStep::reset)
-      return "";
-    state.set_trial(x);
-    const auto  increments = state.point_increments();
-    const auto  box = GridTools::compute_bounding_box(mesh.triangulation());
-    std::string message;
-    for (const auto &in_cell : points.cells())
-      for (unsigned int p = in_cell.first; p < in_cell.last && message.empty();
-           ++p)
-        {
-          const Point<dim> x_new = points.position(p) + increments[p];
-          // Where that is in the mesh before it moves.
-          const Point<dim> X =
-            model.mesh_motion.map(x_new, time.trial_time(), time.time());
-          if (box.point_inside(X) &&
-              (mesh.box_grid() || in_cell.cell->point_inside(X) ||
-               GridTools::find_active_cell_around_point(mesh.search_cache(),
-                                                        X,
-                                                        in_cell.cell)
-                   .first.state() == IteratorState::valid ||
-               points.place_for(X)))
-            continue;
-          std::ostringstream text;
-          text << "point " << points.id(p) << " of body '"
-               << model.body_names[points.body(p)] << "' leaves the mesh at ("
-               << std::setprecision(10) << x_new << ") in step "
-               << time.n_accepted() + 1 << ", t = " << time.trial_time()
-               << "; the results end with the last accepted step, t = "
-               << time.time();
-          message = text.str();
-        }
-    for (const std::string &text :
-         Utilities::MPI::all_gather(communicator, message))
-      if (!text.empty())
-        return text;
-    return "";
   }
 
 

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -15,11 +17,6 @@ namespace moraine
 
   namespace
   {
-    /** Of the volume of its body: less than that may splash. */
-    constexpr double smallest_part = 0.01;
-
-
-
     /** Node of the largest force on this rank, n_nodes() if there is none. */
     template <int dim>
     std::pair<unsigned int, double>
@@ -112,30 +109,48 @@ namespace moraine
 
   template <int dim>
   std::string
-  name_separation(const std::vector<std::vector<BodyPart<dim>>> &parts,
-                  const std::vector<unsigned int>               &at_start,
-                  const std::vector<std::string>                &body_names)
+  point_that_leaves(const Model<dim>  &model,
+                    const TimeControl &time,
+                    const LA::Vector  &x)
   {
-    for (unsigned int b = 0; b < parts.size(); ++b)
-      {
-        double volume = 0;
-        for (const auto &part : parts[b])
-          volume += part.volume;
-        const unsigned int next = at_start[b];
-        if (parts[b].size() <= next ||
-            parts[b][next].volume < smallest_part * volume)
-          continue;
-        std::ostringstream text;
-        text << "body '" << body_names[b]
-             << "' came apart: " << std::setprecision(3)
-             << 100 * parts[b][next].volume / volume
-             << " % of its volume, around (" << std::setprecision(6);
-        for (unsigned int d = 0; d < dim; ++d)
-          text << (d > 0 ? ", " : "") << parts[b][next].centre[d];
-        text << "), share no node with the rest any more and carry no force "
-                "across";
-        return text.str();
-      }
+    State<dim>                &state  = *model.state;
+    const BackgroundMesh<dim> &mesh   = *model.mesh;
+    const PointSet<dim>       &points = *model.points;
+    if (state.mesh_after_step() != MeshAfterStep::reset)
+      return "";
+    state.set_trial(x);
+    const auto  increments = state.point_increments();
+    const auto  box = GridTools::compute_bounding_box(mesh.triangulation());
+    std::string message;
+    for (const auto &in_cell : points.cells())
+      for (unsigned int p = in_cell.first; p < in_cell.last && message.empty();
+           ++p)
+        {
+          const Point<dim> x_new = points.position(p) + increments[p];
+          // Where that is in the mesh before it moves.
+          const Point<dim> X =
+            model.mesh_motion.map(x_new, time.trial_time(), time.time());
+          if (box.point_inside(X) &&
+              (mesh.box_grid() || in_cell.cell->point_inside(X) ||
+               GridTools::find_active_cell_around_point(mesh.search_cache(),
+                                                        X,
+                                                        in_cell.cell)
+                   .first.state() == IteratorState::valid ||
+               points.place_for(X)))
+            continue;
+          std::ostringstream text;
+          text << "point " << points.id(p) << " of body '"
+               << model.body_names[points.body(p)] << "' leaves the mesh at ("
+               << std::setprecision(10) << x_new << ") in step "
+               << time.n_accepted() + 1 << ", t = " << time.trial_time()
+               << "; the results end with the last accepted step, t = "
+               << time.time();
+          message = text.str();
+        }
+    for (const std::string &text : Utilities::MPI::all_gather(
+           points.mesh().triangulation().get_communicator(), message))
+      if (!text.empty())
+        return text;
     return "";
   }
 
@@ -145,10 +160,9 @@ namespace moraine
   template std::string place_of_imbalance(const GridSpace<dim> &, \
                                           const PointSet<dim> &,  \
                                           const LA::Vector &);    \
-  template std::string name_separation(                           \
-    const std::vector<std::vector<BodyPart<dim>>> &,              \
-    const std::vector<unsigned int> &,                            \
-    const std::vector<std::string> &);
+  template std::string point_that_leaves(const Model<dim> &,      \
+                                         const TimeControl &,     \
+                                         const LA::Vector &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -7,9 +7,9 @@
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/memory.h>
-#include <moraine/core/nearest.h>
 #include <moraine/core/patterns.h>
 #include <moraine/core/version.h>
+#include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/located.h>

@@ -4,6 +4,7 @@
 #include <moraine/run/study_expansion.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -191,7 +192,7 @@ namespace moraine
     std::vector<std::string> paths;
     for (const StudyCase &study_case : cases)
       for (const auto &choice : study_case.choices)
-        if (std::find(paths.begin(), paths.end(), choice.first) == paths.end())
+        if (!contains(paths, choice.first))
           paths.push_back(choice.first);
     return paths;
   }

@@ -5,6 +5,7 @@
 
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/atomic_file.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/table_handler.h>
 #include <deal.II/base/utilities.h>
@@ -39,7 +40,7 @@ namespace moraine
                 const std::vector<std::string> &more)
     {
       for (const std::string &name : more)
-        if (std::find(columns.begin(), columns.end(), name) == columns.end())
+        if (!contains(columns, name))
           columns.push_back(name);
     }
 

@@ -45,7 +45,8 @@ namespace moraine
     prm.add_parameter(
       "Mass",
       mass,
-      "consistent, or lumped: all of a point's share of a node at the node",
+      "consistent, with the mass of nodes that have next to none lumped; or "
+      "lumped: all of a point's share of a node at the node",
       patterns::selection({"consistent", "lumped"}));
     prm.add_parameter(
       "Velocity transfer",

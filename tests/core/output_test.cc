@@ -7,7 +7,7 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/json.h>
 #include <moraine/core/memory.h>
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
 

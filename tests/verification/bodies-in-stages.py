@@ -75,7 +75,7 @@ bound("two dynamic stages: mass at the end",
       result.history()[-1]["mass"] - 20, 1e-10)
 
 # An embankment on ground at rest: the ground carries what is there.
-result = run("prm/geotechnics/embankment.prm")
+result = run("prm/geotechnics/staged-embankment.prm")
 rows = result.history()
 bound("embankment: ground at rest moves", rows[0]["u_y at ground"], 1e-12)
 for row, area in zip(rows, (0, 16, 24)):

@@ -40,6 +40,17 @@ namespace moraine
            const unsigned int  n_nodes,
            const bool          tangent);
 
+    /** Add @p c times the row-major matrix @p of_nodes in every direction. */
+    void
+    add_in_all_directions(const double c, const std::vector<double> &of_nodes)
+    {
+      const unsigned int n = nodal_increments.size();
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int d = 0; d < dim; ++d)
+            matrix(dim * a + d, dim * b + d) += c * of_nodes[a * n + b];
+    }
+
     /** @f$\sum f \cdot \Delta u@f$ */
     double
     work() const

@@ -88,11 +88,10 @@ namespace moraine
       BlockMass<dim>                      mass;
     };
 
-    /** @p c is alpha times the mass of a point. */
     void
-    add_of_mass(const double             c,
+    add_of_mass(const PointSet<dim>     &points,
+                const Motion<dim>       &motion,
                 const StencilBlock<dim> &block,
-                const unsigned int       p,
                 const bool               tangent,
                 LocalSystem<dim>        &local) const;
 
@@ -104,6 +103,7 @@ namespace moraine
                      LocalSystem<dim>        &local) const;
 
     const std::vector<RayleighFactors> factors;
+    const bool                         damps_mass; ///< of any body
     mutable Scratch                    scratch;
   };
 } // namespace moraine

@@ -7,8 +7,8 @@
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/run/run_observer.h>
+#include <moraine/run/step_checks.h>
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -119,23 +119,9 @@ namespace moraine
     bool
     may_support_more() const;
 
-    /**
-     * Say that a body came apart, and end the run unless the scene wants to go
-     * on. Collective.
-     */
+    /** Tell, and let it stand in the summary. */
     void
-    check_separation();
-
-    /**
-     * Say once of each boundary that the material misses it. @p largest_motion:
-     * of a node in the step.
-     */
-    void
-    check_boundaries(const double largest_motion);
-
-    /** Say once that energy grows without work, at the step where it starts. */
-    void
-    check_energy();
+    warn(const std::string &text);
 
     /** A note for the observers. */
     void
@@ -170,10 +156,6 @@ namespace moraine
            const std::string  &reason,
            unsigned int       &n_rejections);
 
-    /** Name the point that the step pushes out of the mesh; empty if none. */
-    std::string
-    point_that_leaves(const LA::Vector &x);
-
     const Scene<dim>                     &scene;
     const MethodParameters<dim>          &method;
     Model<dim>                           &model;
@@ -184,14 +166,12 @@ namespace moraine
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
-    std::vector<unsigned int>             n_parts; ///< of each body
-    std::set<std::string>                 missed;  ///< boundaries told of
+    StepChecks<dim>                       checks;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
     bool                      first_step        = true;
     unsigned int              stage             = 0;
-    bool                      told_of_energy    = false;
   };
 } // namespace moraine
 

@@ -4,10 +4,9 @@
 #ifndef moraine_run_step_failure_h
 #define moraine_run_step_failure_h
 
-#include <moraine/basis/body_parts.h>
+#include <moraine/run/model.h>
 
 #include <string>
-#include <vector>
 
 namespace moraine
 {
@@ -26,14 +25,14 @@ namespace moraine
                      const LA::Vector     &residual);
 
   /**
-   * What to say if a body fell into more parts of at least 1 % of its volume
-   * than it had @p at_start; empty if none did.
+   * Name the point that the trial displacements @p x push out of the mesh, and
+   * the step; empty if none. Collective.
    */
   template <int dim>
   std::string
-  name_separation(const std::vector<std::vector<BodyPart<dim>>> &parts,
-                  const std::vector<unsigned int>               &at_start,
-                  const std::vector<std::string>                &body_names);
+  point_that_leaves(const Model<dim>  &model,
+                    const TimeControl &time,
+                    const LA::Vector  &x);
 } // namespace moraine
 
 #endif

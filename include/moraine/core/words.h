@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_core_nearest_h
-#define moraine_core_nearest_h
+#ifndef moraine_core_words_h
+#define moraine_core_words_h
 
 #include <string>
 #include <vector>
 
 namespace moraine
 {
+  /** Whether @p word is one of @p words. */
+  bool
+  contains(const std::vector<std::string> &words, const std::string &word);
+
   /**
    * The word of @p known that is most like @p word (Levenshtein distance, upper
    * and lower case alike), or an empty text if none is near: more than a third

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/nearest.h>
+#include <moraine/core/words.h>
 
 #include <algorithm>
 #include <cctype>
@@ -42,6 +42,14 @@ namespace moraine
       return row.back();
     }
   } // namespace
+
+
+
+  bool
+  contains(const std::vector<std::string> &words, const std::string &word)
+  {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  }
 
 
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_step_checks_h
+#define moraine_run_step_checks_h
+
+#include <moraine/run/model.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Looks for what makes the numbers of a run doubtful although its steps are
+   * accepted, and says it once, where it begins. All functions are collective.
+   */
+  template <int dim>
+  class StepChecks
+  {
+  public:
+    StepChecks(const Scene<dim> &scene, const Model<dim> &model);
+
+    /** Bodies come or go: what hangs together is counted anew. */
+    void
+    bodies_change()
+    {
+      n_parts.clear();
+    }
+
+    /**
+     * That a body came apart before the step that begins; empty if none did.
+     * @throws ComputationError unless the scene wants to go on.
+     */
+    std::string
+    separation();
+
+    /**
+     * What is to be told of an accepted step that ended at time @p t: of each
+     * boundary that the material misses it; of energy that grows without work.
+     *
+     * @param largest_motion of a node in the step
+     */
+    std::vector<std::string>
+    of_step(const double                            t,
+            const std::vector<BoundaryReport<dim>> &reports,
+            const double                            largest_motion);
+
+  private:
+    std::string
+    missed_boundary(const double               t,
+                    const BoundaryReport<dim> &report,
+                    const double               largest_motion);
+
+    std::string
+    energy_made(const double t);
+
+    const Scene<dim>         &scene;
+    const Model<dim>         &model;
+    std::vector<unsigned int> n_parts; ///< of each body
+    std::set<std::string>     missed;  ///< boundaries told of
+    bool                      told_of_energy = false;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/step_checks.h>
+
+#include <moraine/basis/body_parts.h>
+#include <moraine/core/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of the volume of its body: less than that may splash. */
+    constexpr double smallest_part = 0.01;
+
+    /** A boundary that the material misses by more than both is told of. */
+    constexpr double told_share_of_motion = 0.02;
+    constexpr double told_share_of_cell   = 1e-3;
+
+    /** Energy that the integrator made is told of from this part of the largest
+     * on. */
+    constexpr double told_share_of_energy = 0.01;
+
+
+
+    /** What to say if a body fell into more parts of at least 1 % of its volume
+     * than it had @p at_start; empty if none did. */
+    template <int dim>
+    std::string
+    name_separation(const std::vector<std::vector<BodyPart<dim>>> &parts,
+                    const std::vector<unsigned int>               &at_start,
+                    const std::vector<std::string>                &body_names)
+    {
+      for (unsigned int b = 0; b < parts.size(); ++b)
+        {
+          double volume = 0;
+          for (const auto &part : parts[b])
+            volume += part.volume;
+          const unsigned int next = at_start[b];
+          if (parts[b].size() <= next ||
+              parts[b][next].volume < smallest_part * volume)
+            continue;
+          std::ostringstream text;
+          text << "body '" << body_names[b]
+               << "' came apart: " << std::setprecision(3)
+               << 100 * parts[b][next].volume / volume
+               << " % of its volume, around (" << std::setprecision(6);
+          for (unsigned int d = 0; d < dim; ++d)
+            text << (d > 0 ? ", " : "") << parts[b][next].centre[d];
+          text << "), share no node with the rest any more and carry no force "
+                  "across";
+          return text.str();
+        }
+      return "";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StepChecks<dim>::StepChecks(const Scene<dim> &scene, const Model<dim> &model)
+    : scene(scene)
+    , model(model)
+  {}
+
+
+
+  template <int dim>
+  std::string
+  StepChecks<dim>::separation()
+  {
+    if (!n_parts.empty() && !model.system->coupling_changed())
+      return "";
+    const auto parts = parts_of_bodies(*model.space,
+                                       *model.points,
+                                       *model.basis,
+                                       model.body_names.size());
+    if (n_parts.empty())
+      {
+        for (const auto &of_body : parts)
+          n_parts.push_back(of_body.size());
+        return "";
+      }
+    const std::string found = name_separation(parts, n_parts, model.body_names);
+    if (!found.empty() && scene.method.separation == "stop")
+      throw ComputationError(
+        found + ". Points that drift apart leave a cell empty between them: "
+                "more points per direction, domains that follow the material "
+                "('Method = CPDI2', or GIMP with 'Domain update = corners') or "
+                "larger cells keep them together; 'Separation = note' in "
+                "section 'Method' goes on");
+    if (!found.empty())
+      for (unsigned int b = 0; b < parts.size(); ++b)
+        n_parts[b] = std::max<unsigned int>(n_parts[b], parts[b].size());
+    return found;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  StepChecks<dim>::of_step(const double                            t,
+                           const std::vector<BoundaryReport<dim>> &reports,
+                           const double largest_motion)
+  {
+    std::vector<std::string> found;
+    for (const BoundaryReport<dim> &report : reports)
+      found.push_back(missed_boundary(t, report, largest_motion));
+    found.push_back(energy_made(t));
+    found.erase(std::remove(found.begin(), found.end(), ""), found.end());
+    return found;
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepChecks<dim>::missed_boundary(const double               t,
+                                   const BoundaryReport<dim> &report,
+                                   const double               largest_motion)
+  {
+    if (!(report.violation > told_share_of_motion * largest_motion) ||
+        !(report.violation > told_share_of_cell * model.mesh->cell_size()) ||
+        !missed.insert(report.name).second)
+      return "";
+    std::ostringstream text;
+    text << "boundary '" << report.name << "': the material misses it by "
+         << report.violation << ", "
+         << std::round(100 * report.violation / largest_motion)
+         << " % of the largest motion in the step to t = " << t
+         << "; smaller cells or steps bring it closer";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepChecks<dim>::energy_made(const double t)
+  {
+    if (!model.motion || told_of_energy)
+      return "";
+    const Works &works = model.motion->works();
+    const double made  = -works.out_of_balance();
+    if (!(made > told_share_of_energy * works.largest()))
+      return "";
+    told_of_energy = true;
+    std::ostringstream text;
+    text << "energy grows without work: by t = " << t
+         << " the integrator has made " << std::setprecision(2)
+         << 100 * made / works.largest()
+         << " % of the largest part of it; shorter steps, or 'Integrator = "
+            "energy-momentum' or 'generalised-alpha', do not";
+    return text.str();
+  }
+
+
+
+  template class StepChecks<2>;
+  template class StepChecks<3>;
+} // namespace moraine
