@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -28,7 +29,8 @@ namespace moraine
 
     ~DirectSolver();
 
-    /** The same for new values of the matrix in the same pattern. */
+    /** The same for new values of the matrix in the same pattern, unless they
+     * are those that are factorised but for round-off. Collective. */
     void
     refactorise();
 
@@ -49,6 +51,12 @@ namespace moraine
     std::string              package;
     std::unique_ptr<Factors> factors;
     std::string              failure;
+    std::vector<double>      factorised; ///< values of the matrix, this rank's
+
+    /** Whether the matrix differs by more than round-off from what is
+     * factorised. Collective. */
+    bool
+    has_changed() const;
 
     /** The first one that is there; another one if KLU fails. */
     void
