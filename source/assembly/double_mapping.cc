@@ -84,7 +84,7 @@ namespace moraine
                                      gradients[g].data());
       }
     find_cells();
-    find_carried_forces(context.state);
+    find_carried_forces(context.state, context.motion != nullptr);
     return false;
   }
 
@@ -167,7 +167,8 @@ namespace moraine
 
   template <int dim>
   void
-  DoubleMapping<dim>::find_carried_forces(const State<dim> &state)
+  DoubleMapping<dim>::find_carried_forces(const State<dim> &state,
+                                          const bool        with_inertia)
   {
     carried_forces.assign(space.n_nodes(), Tensor<1, dim>());
     StencilBlock<dim> stencil;
@@ -179,7 +180,9 @@ namespace moraine
           {
             const unsigned int point = stencil.points[p];
             const double       v     = state.integration_volume(point);
-            const auto stress = points.stress_field()(points.values(point));
+            auto stress = points.stress_field()(points.values(point));
+            if (with_inertia)
+              stress -= state.stress_of_recovery(point);
             for (unsigned int a = 0; a < stencil.n_nodes; ++a)
               carried_forces[stencil.nodes[a]] -=
                 force_of_stress(v, stress, stencil.grad_N(p)[a]);

@@ -253,6 +253,21 @@ namespace moraine
 
     template <int dim>
     Method<dim>
+    dm_c()
+    {
+      Method<dim> method = double_mapping_of_points<
+        dim,
+        WithCompositeStrain<dim, CellBasis<dim, 1>>>(
+        "DM-C",
+        "DM with the strain of points from composite functions of the cells around.");
+      method.recovers_strains = true;
+      return method;
+    }
+
+
+
+    template <int dim>
+    Method<dim>
     dm_gc()
     {
       Method<dim> method =
@@ -260,6 +275,7 @@ namespace moraine
       method.make_basis = [](const auto &of) {
         return box_basis<dim, WithCompositeStrain<dim, GimpBasis<dim>>>(of);
       };
+      method.recovers_strains = true;
       return method;
     }
 
@@ -296,10 +312,7 @@ namespace moraine
       double_mapping(gimp<dim>(),
                      "DM-G",
                      "the same by the local functions of GIMP."),
-      double_mapping_of_points<dim,
-                               WithCompositeStrain<dim, CellBasis<dim, 1>>>(
-        "DM-C",
-        "DM with the strain of points from composite functions of the cells around."),
+      dm_c<dim>(),
       dm_gc<dim>()};
     return all;
   }

@@ -5,6 +5,8 @@
 
 #include <moraine/material/elastic_state.h>
 
+#include <deal.II/physics/transformations.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,7 @@ namespace moraine
                        std::make_optional<FittedWeights<dim>>(points) :
                        std::nullopt)
     , state_fields(find_fields(points, measure, materials))
+    , recovery_field(points.fields().find(FieldNames<dim>::stress_of_recovery))
   {
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
@@ -227,6 +230,38 @@ namespace moraine
 
   template <int dim>
   void
+  State<dim>::commit_recovery(const TrialPoints<dim>      &trial_points,
+                              const unsigned int           i,
+                              const unsigned int           p,
+                              const SymmetricTensor<2, 3> *own)
+  {
+    SymmetricTensor<2, 3> stress;
+    if (own)
+      {
+        const double v = points.volume(p);
+        stress         = trial_points.weight(i) * trial_points.stress(i) - *own;
+        if (measure == StrainMeasure::small)
+          stress = stress / v + stress_of_recovery(p);
+        else
+          {
+            // Carried along with the material.
+            Tensor<2, 3> dF = unit_symmetric_tensor<3>();
+            for (unsigned int k = 0; k < dim; ++k)
+              for (unsigned int l = 0; l < dim; ++l)
+                dF[k][l] += trial_points.increment_gradient(i)[k][l];
+            stress = (stress / v +
+                      Physics::Transformations::Contravariant::push_forward(
+                        stress_of_recovery(p), dF)) /
+                     determinant(dF);
+          }
+      }
+    recovery_field.store(stress, points.values(p));
+  }
+
+
+
+  template <int dim>
+  void
   State<dim>::accept(const std::function<void()> &move_mesh,
                      StepEnergies                *energies)
   {
@@ -241,27 +276,50 @@ namespace moraine
       for (unsigned int a = 0; a < block.n_nodes; ++a)
         nodal[a] = trial[block.nodes[a]];
     };
+    const Basis<dim> &of_strains = basis.strain_basis();
+    // Stress times volume by the points' own functions; with inertia alone.
+    std::vector<SymmetricTensor<2, 3>> own(
+      recovery_field.exists() && energies ? points.n_local() : 0);
+    const auto evaluate_run = [&](const unsigned int begin) {
+      const unsigned int end = end_of_body(block, begin);
+      trial_points.evaluate(*this, block, begin, end, nodal.data());
+      return end;
+    };
+    const auto find_own_stresses = [&]() {
+      for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
+        {
+          end = evaluate_run(begin);
+          for (unsigned int p = begin; p < end; ++p)
+            own[block.points[p]] =
+              trial_points.weight(p - begin) * trial_points.stress(p - begin);
+        }
+    };
     const auto commit_stresses = [&]() {
       for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
         {
-          end = end_of_body(block, begin);
-          trial_points.evaluate(*this, block, begin, end, nodal.data());
+          end = evaluate_run(begin);
           if (energies)
             trial_points.add_energies(*this, block, begin, *energies);
           for (unsigned int p = begin; p < end; ++p)
             {
+              if (recovery_field.exists())
+                commit_recovery(trial_points,
+                                p - begin,
+                                block.points[p],
+                                own.empty() ? nullptr : &own[block.points[p]]);
               commit(trial_points, p - begin, block.points[p]);
               gradients[block.points[p]] =
                 trial_points.increment_gradient(p - begin);
             }
         }
     };
-    const Basis<dim> &of_strains = basis.strain_basis();
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         evaluate(basis, g);
         if (&of_strains == &basis)
           commit_stresses();
+        else if (!own.empty())
+          find_own_stresses();
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
             const unsigned int point = block.points[p];

@@ -101,7 +101,7 @@ namespace moraine
     find_cells();
 
     void
-    find_carried_forces(const State<dim> &state);
+    find_carried_forces(const State<dim> &state, const bool with_inertia);
 
     void
     evaluate(const Cell &cell, GaussBlock &block) const;

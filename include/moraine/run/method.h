@@ -115,6 +115,8 @@ namespace moraine
     /** Whether make_internal_force makes one, which no integrator evaluates in
      * the middle of a step. */
     bool has_own_internal_force = false;
+    /** Whether points have strains by other functions than their own. */
+    bool recovers_strains = false;
     /** Its own internal force; none for InternalForce. */
     std::function<std::unique_ptr<Term<dim>>(const GridSpace<dim> &,
                                              const PointSet<dim> &)>

@@ -208,6 +208,19 @@ namespace moraine
                points.volume(p);
     }
 
+    /**
+     * The part of the stress of a point that strains recovered by other
+     * functions than its own (Basis::strain_basis()) have added in steps with
+     * inertia: stress less what its own functions would have made of them. Zero
+     * without such functions.
+     */
+    dealii::SymmetricTensor<2, 3>
+    stress_of_recovery(const unsigned int p) const
+    {
+      return recovery_field.exists() ? recovery_field(points.values(p)) :
+                                       dealii::SymmetricTensor<2, 3>();
+    }
+
     /** Where a point was when its displacement was zero. */
     dealii::Point<dim>
     original_position(const unsigned int p) const
@@ -238,16 +251,25 @@ namespace moraine
            const unsigned int      i,
            const unsigned int      p);
 
-    GridSpace<dim>                                    &space;
-    PointSet<dim>                                     &points;
-    Basis<dim>                                        &basis;
-    const std::vector<std::shared_ptr<const Material>> materials;
-    const MeshAfterStep                                after_step;
-    const StrainMeasure                                measure;
-    const std::optional<FittedWeights<dim>>            fitted_weights;
-    const StateFields<dim>                             state_fields;
-    StepTime                                           times;
-    bool                                               first_step = true;
+    /** Of a point whose own functions would make it stress times volume @p own;
+     * without that, none. Before commit(). */
+    void
+    commit_recovery(const TrialPoints<dim>              &trial_points,
+                    const unsigned int                   i,
+                    const unsigned int                   p,
+                    const dealii::SymmetricTensor<2, 3> *own);
+
+    GridSpace<dim>                                      &space;
+    PointSet<dim>                                       &points;
+    Basis<dim>                                          &basis;
+    const std::vector<std::shared_ptr<const Material>>   materials;
+    const MeshAfterStep                                  after_step;
+    const StrainMeasure                                  measure;
+    const std::optional<FittedWeights<dim>>              fitted_weights;
+    const StateFields<dim>                               state_fields;
+    const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
+    StepTime                                             times;
+    bool                                                 first_step = true;
     /** Of fitted_weights; empty without them. */
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;
