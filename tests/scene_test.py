@@ -12,6 +12,8 @@ so the comparison is exact and nothing passes by a tolerance hidden elsewhere.
     number("torque", value, 4)      prints  torque 1.234e+00 (4 digits)
     text("status", "ok")
 
+Runs on one process are copies of one that stands ready if MORAINE_FORK_SERVER is
+set, as ctest does; see fork_server.py.
 The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
 Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """
@@ -26,11 +28,15 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True  # in a folder of sources
+from fork_server import Starter
+
 root = pathlib.Path(__file__).resolve().parent.parent
 program = None
 ranks = 1
 printed = []
 _folder = None
+_starter = None
 _count = 0
 # Of scenes that must be refused every fourth runs on two ranks: starting them
 # takes longest.
@@ -64,24 +70,35 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     global _count
     _count += 1
     folder = _folder / str(_count)
-    words = [str(program), command, str(root / scene)]
+    words = [command, str(root / scene)]
     n = on_ranks or ranks
     if expect == 2 and not on_ranks:
         n = 2 if next(_refused) % 4 == 0 else 1
-    if n > 1:
-        words = ["mpirun", "-q", "-n", str(n)] + words
     if command in ("run", "study"):
         words += ["--output", str(folder)]
     for key, value in (settings or {}).items():
         words += ["--set", f"{key} = {value}"]
-    process = subprocess.run(
-        words + list(extra), capture_output=True, text=True, cwd=_folder
-    )
-    output = process.stdout + process.stderr
-    if expect is not None and process.returncode != expect:
+    code, output = _ended(words + list(map(str, extra)), n, expect == 2)
+    if expect is not None and code != expect:
         print(output)
-        sys.exit(f"exit code {process.returncode}, expected {expect}: {words}")
-    return Run(process.returncode, output, folder)
+        sys.exit(f"exit code {code}, expected {expect}: {words}")
+    return Run(code, output, folder)
+
+
+def _ended(words, n, refused):
+    """Exit code and text of the program with these arguments on n ranks."""
+    if n > 1:
+        # Ranks that refuse end together: mpirun need not give the second, when
+        # the first has ended, a second of time before it looks again.
+        quick = ["--mca", "odls_base_sigkill_timeout", "0"] if refused else []
+        process = subprocess.run(
+            ["mpirun", "-q", *quick, "-n", str(n), str(program), *words],
+            capture_output=True, text=True, cwd=_folder)
+        return process.returncode, process.stdout + process.stderr
+    with tempfile.TemporaryDirectory(prefix="moraine-text-") as name:
+        files = [pathlib.Path(name) / "out", pathlib.Path(name) / "err"]
+        code = _starter.start(words, _folder, *files).wait()
+        return code, "".join(file.read_text() for file in files)
 
 
 def plain(output):
@@ -109,10 +126,11 @@ def number(name, value, digits):
 
 
 def main():
-    global program, ranks, _folder
+    global program, ranks, _folder, _starter
     test = pathlib.Path(sys.argv[1]).resolve()
     program = pathlib.Path(sys.argv[2]).resolve()
     ranks = int(sys.argv[3])
+    _starter = Starter(program)
     _folder = pathlib.Path(tempfile.mkdtemp(prefix="moraine-"))
     try:
         names = {n: globals()[n] for n in
@@ -120,6 +138,7 @@ def main():
                   "root")}
         names["ranks"] = ranks
         names["program"] = program
+        names["start"] = _starter.start
         names["folder"] = _folder
         exec(compile(test.read_text(), str(test), "exec"), names)
     finally:

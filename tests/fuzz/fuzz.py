@@ -19,12 +19,15 @@ import pathlib
 import random
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 
 root = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True  # in a folder of sources
+sys.path.insert(0, str(root / "tests"))
+from fork_server import Starter
+
 TIMEOUT = 30  # seconds
 
 # Too long until the first step ends, or studies: run one by one elsewhere.
@@ -170,20 +173,20 @@ def make_case(folder, seed, number):
     return source, scene
 
 
-def one_run(program, scene, output):
+def one_run(starter, scene, output):
     """Exit code, what was printed, and whether its time was over."""
-    process = subprocess.Popen(
-        [str(program), "run", str(scene), "--output", str(output)],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=scene.parent)
+    files = [scene.parent / "standard-output", scene.parent / "standard-error"]
+    process = starter.start(["run", scene, "--output", output], scene.parent,
+                            *files)
+    late = False
     try:
-        out, err = process.communicate(timeout=TIMEOUT)
-        late = False
+        process.wait(TIMEOUT)
     except subprocess.TimeoutExpired:
-        process.send_signal(signal.SIGKILL)
-        out, err = process.communicate()
         late = True
-    return (process.returncode, out.decode("utf-8", "replace"),
-            err.decode("utf-8", "replace"), late)
+        process.kill()
+        process.wait()
+    return (process.returncode,
+            *[file.read_text("utf-8", "replace") for file in files], late)
 
 
 def complaints_about_folder(output, code):
@@ -208,8 +211,8 @@ def complaints_about_folder(output, code):
     return complaints
 
 
-def complaints_about(program, scene, output):
-    code, out, err, late = one_run(program, scene, output)
+def complaints_about(starter, scene, output):
+    code, out, err, late = one_run(starter, scene, output)
     if late:
         return [] if "  steps " in out else [f"silent for {TIMEOUT} s"]
     complaints = []
@@ -235,14 +238,14 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--keep", type=pathlib.Path)
     arguments = parser.parse_args()
-    program = arguments.program.resolve()
+    starter = Starter(arguments.program.resolve())
     n_bad = 0
     for number in range(arguments.first, arguments.first + arguments.cases):
         with tempfile.TemporaryDirectory(prefix="moraine-fuzz-") as name:
             folder = pathlib.Path(name)
             source, scene = make_case(folder, arguments.seed, number)
             output = folder / "output"
-            complaints = complaints_about(program, scene, output)
+            complaints = complaints_about(starter, scene, output)
             if arguments.keep:
                 shutil.copytree(folder, arguments.keep, dirs_exist_ok=True)
         if complaints:

@@ -5,23 +5,27 @@
 scene again: of every scene that runs, 'check' says of them what the run did, and of
 some the run ends with the same summary."""
 
-import subprocess
+from subprocess import TimeoutExpired
 
 
 def begun(scene):
     """What a run says of a scene, and its parameters.prm; the run is ended when
     that has been written."""
     target = folder / "begun" / f"{scene.parent.name}-{scene.stem}"
-    words = [str(program), "run", str(scene), "--output", str(target)]
-    process = subprocess.Popen(words, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, cwd=folder)
-    head = []
-    for line in process.stdout:
-        if line.startswith("  results in"):
+    said = target.with_suffix(".txt")
+    said.parent.mkdir(exist_ok=True)
+    said.touch()
+    process = start(["run", scene, "--output", target], folder, said, said)
+    while "\n  results in" not in said.read_text():
+        try:
+            process.wait(0.01)
             break
-        head.append(line.rstrip("\n"))
-    process.kill()
-    process.communicate()
+        except TimeoutExpired:
+            pass
+    else:
+        process.kill()
+        process.wait()
+    head = said.read_text().split("  results in")[0].splitlines()
     return head, target / "parameters.prm"
 
 
