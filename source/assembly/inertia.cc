@@ -23,6 +23,7 @@ namespace moraine
                     const bool               tangent,
                     LocalSystem<dim>        &local) const
   {
+    const State<dim>  &state   = context.state;
     const Motion<dim> &motion  = *context.motion;
     const unsigned int n_nodes = block.n_nodes;
     accelerations.resize(n_nodes);
@@ -33,16 +34,13 @@ namespace moraine
       masses.assign(n_nodes * n_nodes, 0.);
     mass.find_lumped(
       block,
-      [&motion](const unsigned int p) { return motion.mass(p); },
+      [&state](const unsigned int p) { return state.mass(p); },
       motion.lumped_mass());
     for (unsigned int p = 0; p < block.n_points; ++p)
       {
         const double *N = block.N(p);
-        const double  m = motion.mass(block.points[p]);
-        mass.multiply(N, accelerations, of_rows);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            local.force[dim * a + d] -= m * N[a] * of_rows[a][d];
+        const double  m = state.mass(block.points[p]);
+        mass.add_product(N, -m, accelerations, local.force);
         if (tangent)
           mass.add_matrix(N, m, masses);
       }

@@ -290,6 +290,30 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  InternalForce<dim>::add_at_start(const StepContext<dim>  &context,
+                                   const StencilBlock<dim> &block,
+                                   LocalSystem<dim>        &local) const
+  {
+    const State<dim>    &state  = context.state;
+    const PointSet<dim> &points = state.material_points();
+    for (unsigned int p = 0; p < block.n_points; ++p)
+      {
+        const unsigned int point = block.points[p];
+        const double       v = block.share(p) * state.integration_volume(point);
+        const SymmetricTensor<2, 3> stress =
+          points.stress_field()(points.values(point));
+        const Tensor<1, dim> *grad_N = block.grad_N(p);
+        for (unsigned int a = 0; a < block.n_nodes; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              local.force[dim * a + i] -= v * stress[i][j] * grad_N[a][j];
+      }
+  }
+
+
+
 #define INSTANTIATE(dim)                                       \
   template std::string why_no_stress(const State<dim> &,       \
                                      const TrialPoints<dim> &, \

@@ -135,13 +135,56 @@ namespace moraine
     state.set_step_time({context.t_start, context.t_end});
     state.reject();
     start_over();
+    add_point_forces_by_kind();
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {
-        sums.begin(false);
-        add_terms(
-          [k](const auto &term) { return term.work_kind() == WorkKind(k); },
-          false);
-        forces.by_kind[k] = sums.forces_of_this_rank();
+        bool any = false;
+        for (const auto &term : terms)
+          if (!dynamic_cast<PointTerm<dim> *>(term.get()) &&
+              term->work_kind() == WorkKind(k))
+            {
+              if (!any)
+                sums.begin(false);
+              any = true;
+              term->add(context, false, sums);
+            }
+        for (unsigned int node = 0; any && node < forces.by_kind[k].size();
+             ++node)
+          forces.by_kind[k][node] += sums.forces_of_this_rank()[node];
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::add_point_forces_by_kind()
+  {
+    std::array<std::vector<const PointTerm<dim> *>, Works::n_kinds> of_kinds;
+    for (const auto &term : terms)
+      if (const auto *of_points = dynamic_cast<PointTerm<dim> *>(term.get()))
+        if (term->work_kind() != WorkKind::none)
+          of_kinds[unsigned(term->work_kind())].push_back(of_points);
+    for (NodeValues &of_kind : forces.by_kind)
+      of_kind.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    StencilBlock<dim> block;
+    LocalSystem<dim>  local;
+    const Basis<dim> &basis = state.point_basis();
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        for (unsigned int k = 0; k < Works::n_kinds; ++k)
+          {
+            if (of_kinds[k].empty())
+              continue;
+            local.reinit(state, block.nodes, block.n_nodes, false);
+            for (const auto *term : of_kinds[k])
+              term->add_at_start(context, block, local);
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              for (unsigned int d = 0; d < dim; ++d)
+                forces.by_kind[k][block.nodes[a]][d] +=
+                  local.force[dim * a + d];
+          }
       }
   }
 
@@ -200,8 +243,8 @@ namespace moraine
 
 
   template <int dim>
-  void
-  MechanicsSystem<dim>::count_work(const LA::Vector &x)
+  typename Motion<dim>::StepWorks
+  MechanicsSystem<dim>::works_of_step(const LA::Vector &x)
   {
     TimerOutput::Scope scope(timer, "energy");
     assemble_forces_at(x);
@@ -223,7 +266,7 @@ namespace moraine
       works.on_prescribed_at_end = work_on_prescribed();
     works.sum_over_ranks(state.grid().communicator());
     works.at_end[unsigned(WorkKind::external)] += of_dead;
-    context.motion->count(works);
+    return works;
   }
 
 
@@ -292,6 +335,10 @@ namespace moraine
   template void
   MechanicsSystem<2>::find_forces_at_start();
   template void
+  MechanicsSystem<2>::add_point_forces_by_kind();
+  template void
+  MechanicsSystem<3>::add_point_forces_by_kind();
+  template void
   MechanicsSystem<3>::find_forces_at_start();
   template LA::Vector
   MechanicsSystem<2>::sum_of_kinds() const;
@@ -305,10 +352,10 @@ namespace moraine
   MechanicsSystem<2>::forces_and_mass();
   template LA::Vector
   MechanicsSystem<3>::forces_and_mass();
-  template void
-  MechanicsSystem<2>::count_work(const LA::Vector &x);
-  template void
-  MechanicsSystem<3>::count_work(const LA::Vector &x);
+  template typename Motion<2>::StepWorks
+  MechanicsSystem<2>::works_of_step(const LA::Vector &);
+  template typename Motion<3>::StepWorks
+  MechanicsSystem<3>::works_of_step(const LA::Vector &);
   template double
   MechanicsSystem<2>::work_on_prescribed();
   template double

@@ -513,14 +513,15 @@ namespace moraine
         }))
       assemble_forces_at(x);
     state.set_trial(x);
+    typename Motion<dim>::StepWorks works;
     if (context.motion)
-      count_work(x);
+      works = works_of_step(x);
     for (const auto &term : terms)
       term->prepare(context, unbalanced);
     {
       TimerOutput::Scope scope(timer, "update and search");
       if (context.motion)
-        context.motion->accept();
+        context.motion->accept(works);
       StepEnergies energies;
       state.accept(move_mesh, context.motion ? &energies : nullptr);
       if (context.motion)

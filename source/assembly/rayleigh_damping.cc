@@ -44,7 +44,7 @@ namespace moraine
       scratch.velocities[a] =
         motion.velocity(block.nodes[a], local.nodal_increments[a]);
     if (damps_mass)
-      add_of_mass(points, motion, block, tangent, local);
+      add_of_mass(context.state, motion, block, tangent, local);
     for (unsigned int p = 0; p < block.n_points; ++p)
       if (factors[points.body(block.points[p])].stiffness > 0)
         add_of_stiffness(context, block, p, tangent, local);
@@ -54,7 +54,7 @@ namespace moraine
 
   template <int dim>
   void
-  RayleighDamping<dim>::add_of_mass(const PointSet<dim>     &points,
+  RayleighDamping<dim>::add_of_mass(const State<dim>        &state,
                                     const Motion<dim>       &motion,
                                     const StencilBlock<dim> &block,
                                     const bool               tangent,
@@ -62,19 +62,17 @@ namespace moraine
   {
     scratch.mass.find_lumped(
       block,
-      [&motion](const unsigned int p) { return motion.mass(p); },
+      [&state](const unsigned int p) { return state.mass(p); },
       motion.lumped_mass());
     if (tangent)
       scratch.masses.assign(block.n_nodes * block.n_nodes, 0.);
     for (unsigned int p = 0; p < block.n_points; ++p)
       {
         const unsigned int point = block.points[p];
-        const double  c = factors[points.body(point)].mass * motion.mass(point);
+        const double       c =
+          factors[state.material_points().body(point)].mass * state.mass(point);
         const double *N = block.N(p);
-        scratch.mass.multiply(N, scratch.velocities, scratch.of_rows);
-        for (unsigned int a = 0; a < block.n_nodes; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            local.force[dim * a + d] -= c * N[a] * scratch.of_rows[a][d];
+        scratch.mass.add_product(N, -c, scratch.velocities, local.force);
         if (tangent)
           scratch.mass.add_matrix(N, c, scratch.masses);
       }

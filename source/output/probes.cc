@@ -189,6 +189,17 @@ namespace moraine
 
 
   template <int dim>
+  bool
+  Probes<dim>::any_interpolated() const
+  {
+    return std::any_of(probes.begin(), probes.end(), [](const Probe &probe) {
+      return !probe.follows_point();
+    });
+  }
+
+
+
+  template <int dim>
   void
   Probes<dim>::try_step(const PlaceFunction<dim> &step_increment,
                         const PointSet<dim>      &points,

@@ -266,7 +266,8 @@ namespace moraine
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
     typename Motion<dim>::Nodal motion;
-    const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
+    const bool dynamic = scene.stages[stage].second.time.integrator.dynamic() &&
+                         model.probes->any_interpolated();
     if (dynamic)
       motion = model.motion->at_end();
     const auto at = [&](const std::vector<Tensor<1, dim>> &values) {

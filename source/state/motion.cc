@@ -90,15 +90,6 @@ namespace moraine
 
 
   template <int dim>
-  double
-  Motion<dim>::mass(const unsigned int p) const
-  {
-    return state.material(points.body(p)).density() * state.initial_volume(p);
-  }
-
-
-
-  template <int dim>
   typename Motion<dim>::Nodal
   Motion<dim>::map_to_nodes(const Nodal *known) const
   {
@@ -122,7 +113,7 @@ namespace moraine
           {
             const unsigned int point  = block.points[p];
             const double      *values = points.values(point);
-            const double       m      = mass(point);
+            const double       m      = state.mass(point);
             Tensor<1, dim>     V = v_field(values), A = a_field(values);
             if (known)
               for (unsigned int k = 0; k < block.n_nodes; ++k)
@@ -135,6 +126,9 @@ namespace moraine
             Tensor<1, dim> centre;
             for (unsigned int k = 0; k < places.size(); ++k)
               centre += block.N(p)[k] * places[k];
+            Tensor<2, dim> G;
+            if (gradient_field.exists())
+              G = gradient_field(values);
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 const unsigned int node  = block.nodes[k];
@@ -143,8 +137,7 @@ namespace moraine
                 sums.v[node] += share * V;
                 sums.a[node] += share * A;
                 if (gradient_field.exists())
-                  sums.v[node] +=
-                    share * (gradient_field(values) * (places[k] - centre));
+                  sums.v[node] += share * (G * (places[k] - centre));
               }
           }
       }
@@ -251,9 +244,27 @@ namespace moraine
 
   template <int dim>
   void
+  Motion<dim>::set_step_size(const double size)
+  {
+    step_size    = size;
+    by_increment = by_start = 0;
+    if (!(size > 0))
+      return;
+    const double of_increment = 1, of_start = 1, none = 0;
+    by_increment =
+      rule.end_inertia() * rule.acceleration(size, of_increment, none, none);
+    by_start =
+      rule.end_inertia() * rule.acceleration(size, none, none, of_start) +
+      rule.start_inertia();
+  }
+
+
+
+  template <int dim>
+  void
   Motion<dim>::begin_step()
   {
-    step_size = 0;
+    set_step_size(0);
     if (!points_carry())
       {
         v.resize(state.grid().n_nodes());
@@ -283,7 +294,7 @@ namespace moraine
                           const Constrain &constrain,
                           const bool       moves)
   {
-    step_size = size;
+    set_step_size(size);
     prescribed.clear();
     if (!constrain)
       return;
@@ -366,46 +377,73 @@ namespace moraine
 
 
   template <int dim>
-  void
+  typename Motion<dim>::KineticProducts
   Motion<dim>::map_to_points(const Nodal &end)
   {
-    const double      share = points_carry() ? transfer.flip_share : 0.;
-    const Basis<dim> &basis = state.point_basis();
+    const double      share      = points_carry() ? transfer.flip_share : 0.;
+    const Basis<dim> &basis      = state.point_basis();
+    const NodeValues &increments = state.nodal_increments();
     StencilBlock<dim> block;
+    BlockMass<dim>    matrix;
+    NodeValues        v_0, a_0, du, v_1, a_1; // of the nodes of a block
+    KineticProducts   products;
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
+        matrix.find_lumped(
+          block,
+          [this](const unsigned int p) { return state.mass(p); },
+          lumped);
+        const auto gather = [&block](const NodeValues &from, NodeValues &to) {
+          to.resize(block.n_nodes);
+          for (unsigned int k = 0; k < block.n_nodes; ++k)
+            to[k] = from[block.nodes[k]];
+        };
+        gather(v, v_0);
+        gather(a, a_0);
+        gather(increments, du);
+        gather(end.v, v_1);
+        gather(end.a, a_1);
         for (unsigned int p = 0; p < block.n_points; ++p)
           {
             double        *values = points.values(block.points[p]);
+            const double  *N      = block.N(p);
             Tensor<1, dim> V_start, V_end, A_end;
-            Tensor<2, dim> gradient;
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
-                const unsigned int node = block.nodes[k];
-                const double       N    = block.N(p)[k];
-                V_start += N * v[node];
-                V_end += N * end.v[node];
-                A_end += N * end.a[node];
-                if (gradient_field.exists())
-                  gradient += outer_product(end.v[node], block.grad_N(p)[k]);
+                V_start += N[k] * v_0[k];
+                V_end += N[k] * v_1[k];
+                A_end += N[k] * a_1[k];
               }
             v_field.store(V_end + share * (v_field(values) - V_start), values);
             a_field.store(A_end, values);
             if (gradient_field.exists())
-              gradient_field.store(gradient, values);
+              {
+                Tensor<2, dim> gradient;
+                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                  gradient += outer_product(v_1[k], block.grad_N(p)[k]);
+                gradient_field.store(gradient, values);
+              }
+            const double m = state.mass(block.points[p]);
+            products.v_v += m * matrix.product(N, v_0, v_0);
+            products.a_du += m * matrix.product(N, a_0, du);
+            products.v_v_end += m * matrix.product(N, v_1, v_1);
           }
       }
+    for (double *product : {&products.v_v, &products.a_du, &products.v_v_end})
+      *product = Utilities::MPI::sum(*product, state.grid().communicator());
+    return products;
   }
 
 
 
   template <int dim>
   void
-  Motion<dim>::accept()
+  Motion<dim>::accept(const StepWorks &step)
   {
-    Nodal end = at_end();
-    map_to_points(end);
+    Nodal      end      = at_end();
+    const auto products = map_to_points(end);
+    count(step, products, end);
     v = std::move(end.v);
     a = std::move(end.a);
   }
@@ -420,13 +458,15 @@ namespace moraine
     const Basis<dim>     &basis = state.point_basis();
     StencilBlock<dim>     block;
     BlockMass<dim>        matrix;
-    NodeValues            u, w, w_rows;
+    NodeValues            u, w;
     std::array<double, n> products{};
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
         matrix.find_lumped(
-          block, [this](const unsigned int p) { return mass(p); }, lumped);
+          block,
+          [this](const unsigned int p) { return state.mass(p); },
+          lumped);
         u.resize(block.n_nodes);
         w.resize(block.n_nodes);
         for (unsigned int i = 0; i < n; ++i)
@@ -437,13 +477,8 @@ namespace moraine
                 w[k] = (*pairs[i].second)[block.nodes[k]];
               }
             for (unsigned int p = 0; p < block.n_points; ++p)
-              {
-                matrix.multiply(block.N(p), w, w_rows);
-                double product = 0;
-                for (unsigned int k = 0; k < block.n_nodes; ++k)
-                  product += block.N(p)[k] * (u[k] * w_rows[k]);
-                products[i] += mass(block.points[p]) * product;
-              }
+              products[i] +=
+                state.mass(block.points[p]) * matrix.product(block.N(p), u, w);
           }
       }
     for (double &product : products)
@@ -489,19 +524,17 @@ namespace moraine
 
   template <int dim>
   void
-  Motion<dim>::count(const StepWorks &step)
+  Motion<dim>::count(const StepWorks       &step,
+                     const KineticProducts &products,
+                     const Nodal           &end)
   {
-    const Nodal       end = at_end();
-    const NodeValues &du  = state.nodal_increments();
-    const auto [v_v, a_du, v_v_end] =
-      mass_products<3>({{{&v, &v}, {&a, &du}, {&end.v, &end.v}}});
     if (!done.begun)
-      done.kinetic_at_start = 0.5 * v_v;
+      done.kinetic_at_start = 0.5 * products.v_v;
     else
-      done.lost_in_transfer += done.kinetic - 0.5 * v_v;
+      done.lost_in_transfer += done.kinetic - 0.5 * products.v_v;
     // The parts of the forces at both ends in what moves the nodes.
     const double share   = rule.forces_in_the_middle() ? 0. : 0.5;
-    double       missing = share * a_du;
+    double       missing = share * products.a_du;
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {
         const double of_start = share * step.at_start[k];
@@ -522,7 +555,7 @@ namespace moraine
     // Only Newmark's rule has accelerations that balance the forces.
     if (points_carry() && rule.start_forces() == 0.)
       done.lost_in_transfer -= missing;
-    done.kinetic = 0.5 * v_v_end;
+    done.kinetic = 0.5 * products.v_v_end;
   }
 
 
@@ -552,7 +585,7 @@ namespace moraine
     MotionSums<dim> result;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        const double         m = mass(p);
+        const double         m = state.mass(p);
         const Point<dim>     x = points.position(p);
         const Tensor<1, dim> v = v_field(points.values(p));
         result.mass += m;

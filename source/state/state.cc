@@ -53,6 +53,8 @@ namespace moraine
     , state_fields(find_fields(points, measure, materials))
     , recovery_field(points.fields().find(FieldNames<dim>::stress_of_recovery))
   {
+    for (const auto &material : materials)
+      densities.push_back(material->density());
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
         double            *values    = points.values(p);

@@ -30,7 +30,7 @@ namespace
   struct MovingBlock
   {
     static PointFields
-    fields(const VelocityTransfer                              &transfer,
+    fields(const VelocityTransfer                             &transfer,
            const std::vector<std::shared_ptr<const Material>> &materials)
     {
       PointFields layout;
@@ -97,11 +97,10 @@ namespace
     double      error = 0;
     const auto &v     = block.motion->velocities();
     for (unsigned int node = 0; node < v.size(); ++node)
-      error =
-        std::max(error,
-                 (v[node] - MovingBlock<dim>::linear_velocity(
-                              0, block.space.node_position(node)))
-                   .norm());
+      error = std::max(error,
+                       (v[node] - MovingBlock<dim>::linear_velocity(
+                                    0, block.space.node_position(node)))
+                         .norm());
     return Utilities::MPI::max(error, MPI_COMM_WORLD);
   }
 
@@ -149,9 +148,9 @@ namespace
         block.motion->begin_step();
         block.motion->set_target(0.1, {});
         // The increments of nodes that go on as they are.
-        const auto          &v  = block.motion->velocities();
-        auto                 du = v;
-        LA::Vector           x  = block.space.vector();
+        const auto &v  = block.motion->velocities();
+        auto        du = v;
+        LA::Vector  x  = block.space.vector();
         for (unsigned int node = 0; node < v.size(); ++node)
           for (unsigned int d = 0; d < dim; ++d)
             {
@@ -161,7 +160,7 @@ namespace
             }
         x.compress(VectorOperation::insert);
         block.state->set_trial(x);
-        block.motion->accept();
+        block.motion->accept({});
         block.state->reject();
       }
     const auto after = block.motion->sums();
@@ -233,9 +232,8 @@ TEST(Motion, ArchivesKeepNodesAndWorks)
   Motion<2>::StepWorks works;
   works.at_start = {{1., 2., 3., 4.}};
   works.at_end   = {{5., 6., 7., 8.}};
-  block.motion->count(works);
+  block.motion->accept(works);
   block.motion->count(StepEnergies{1., 2., 3.});
-  block.motion->accept();
   const Archive kept = archive_of(*block.motion);
 
   MovingBlock<2> other{VelocityTransfer()};

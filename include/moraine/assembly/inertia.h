@@ -44,7 +44,7 @@ namespace moraine
   private:
     // Scratch.
     mutable BlockMass<dim>                      mass;
-    mutable std::vector<dealii::Tensor<1, dim>> accelerations, of_rows;
+    mutable std::vector<dealii::Tensor<1, dim>> accelerations;
     mutable std::vector<double>                 masses;
   };
 } // namespace moraine

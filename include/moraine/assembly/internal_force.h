@@ -55,6 +55,12 @@ namespace moraine
         const StencilBlock<dim> &block,
         const bool               tangent,
         LocalSystem<dim>        &local) const override;
+
+    /** By the stresses that points have, without asking the material. */
+    void
+    add_at_start(const StepContext<dim>  &context,
+                 const StencilBlock<dim> &block,
+                 LocalSystem<dim>        &local) const override;
   };
 } // namespace moraine
 

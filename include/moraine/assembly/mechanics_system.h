@@ -227,6 +227,10 @@ namespace moraine
     void
     find_forces_at_start();
 
+    /** Those of point terms, in one pass over the stencils. */
+    void
+    add_point_forces_by_kind();
+
     /** Velocities and accelerations of what is constrained. */
     void
     set_target_of_motion();
@@ -296,10 +300,10 @@ namespace moraine
              context.motion->integrator().forces_in_the_middle();
     }
 
-    /** Let the motion know of the work of the step to the trial state @p x,
-     * at which forces were assembled last. */
-    void
-    count_work(const LA::Vector &x);
+    /** The work of the step to the trial state @p x, at which forces were
+     * assembled last. */
+    typename Motion<dim>::StepWorks
+    works_of_step(const LA::Vector &x);
 
     /** The work of the forces at the end of the step in the prescribed motion
      * of nodes, on this rank. */

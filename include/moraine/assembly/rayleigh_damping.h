@@ -83,13 +83,12 @@ namespace moraine
     {
       std::vector<dealii::Tensor<1, dim>> velocities;
       std::vector<dealii::Tensor<1, dim>> gradients;
-      std::vector<dealii::Tensor<1, dim>> of_rows;
       std::vector<double>                 masses; ///< alpha M of a batch
       BlockMass<dim>                      mass;
     };
 
     void
-    add_of_mass(const PointSet<dim>     &points,
+    add_of_mass(const State<dim>        &state,
                 const Motion<dim>       &motion,
                 const StencilBlock<dim> &block,
                 const bool               tangent,

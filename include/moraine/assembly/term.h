@@ -225,6 +225,15 @@ namespace moraine
         const StencilBlock<dim> &block,
         const bool               tangent,
         LocalSystem<dim>        &local) const = 0;
+
+    /** The forces alone, of a step that has begun and moved nothing yet. */
+    virtual void
+    add_at_start(const StepContext<dim>  &context,
+                 const StencilBlock<dim> &block,
+                 LocalSystem<dim>        &local) const
+    {
+      add(context, block, false, local);
+    }
   };
 } // namespace moraine
 

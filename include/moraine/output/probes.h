@@ -76,6 +76,10 @@ namespace moraine
     check_places(const PlaceFunction<dim> &on_material,
                  const bool                bodies_are_away = false) const;
 
+    /** Whether there are interpolated probes, which try_step() moves. */
+    bool
+    any_interpolated() const;
+
     /**
      * Follow the trial step with the interpolated probes. Collective.
      *

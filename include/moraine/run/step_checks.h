@@ -37,10 +37,9 @@ namespace moraine
     separation();
 
     /**
-     * What is to be told of an accepted step that ended at time @p t: of each
-     * boundary that the material misses it; of energy that grows without work.
-     *
-     * @param largest_motion of a node in the step
+     * What is to be told of an accepted step that ended at time @p t with the
+     * boundaries' @p reports: that the material misses one of them, with @p
+     * largest_motion of a node in the step; that energy grows without work.
      */
     std::vector<std::string>
     of_step(const double                            t,

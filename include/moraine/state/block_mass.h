@@ -8,6 +8,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -38,58 +40,84 @@ namespace moraine
                 const Mass              &mass,
                 const bool               all)
     {
-      constexpr double share = 1e-3;
-      lumped.assign(block.n_nodes, all);
+      constexpr double   share = 1e-3;
+      const unsigned int n     = block.n_nodes;
+      lumped.assign(n, all);
       any = all;
       if (all)
         return;
-      bool negative = false;
-      of_nodes.assign(block.n_nodes, 0.);
+      of_nodes.assign(n, 0.);
+      double least = 0;
       for (unsigned int p = 0; p < block.n_points; ++p)
         {
-          const double m = mass(block.points[p]);
-          for (unsigned int a = 0; a < block.n_nodes; ++a)
+          const double  m = mass(block.points[p]);
+          const double *N = block.N(p);
+          for (unsigned int a = 0; a < n; ++a)
             {
-              of_nodes[a] += m * block.N(p)[a];
-              negative = negative || block.N(p)[a] < 0;
+              of_nodes[a] += m * N[a];
+              least = std::min(least, N[a]);
             }
         }
-      if (negative)
+      if (least < 0)
         return;
-      const double limit =
-        share * *std::max_element(of_nodes.begin(), of_nodes.end());
-      for (unsigned int a = 0; a < block.n_nodes; ++a)
+      const auto [smallest, largest] =
+        std::minmax_element(of_nodes.begin(), of_nodes.end());
+      const double limit = share * *largest;
+      any                = *smallest < limit;
+      for (unsigned int a = 0; any && a < n; ++a)
+        lumped[a] = of_nodes[a] < limit;
+    }
+
+    /** Add @p c times the product of a point of mass one with @p u to nodal
+     * forces. */
+    void
+    add_product(const double                              *N,
+                const double                               c,
+                const std::vector<dealii::Tensor<1, dim>> &u,
+                dealii::Vector<double>                    &force) const
+    {
+      const unsigned int     n = lumped.size();
+      dealii::Tensor<1, dim> u_p;
+      double                 of_lumped = 0;
+      for (unsigned int a = 0; a < n; ++a)
+        if (any && lumped[a])
+          of_lumped += N[a];
+        else
+          u_p += N[a] * u[a];
+      for (unsigned int a = 0; a < n; ++a)
         {
-          lumped[a] = of_nodes[a] < limit;
-          any       = any || lumped[a];
+          dealii::Tensor<1, dim> row = u_p;
+          if (any)
+            row = lumped[a] ? u[a] : u_p + of_lumped * u[a];
+          for (unsigned int d = 0; d < dim; ++d)
+            force[dim * a + d] += c * N[a] * row[d];
         }
     }
 
-    /** The share of a point with functions @p N in the product with @p u, over
-     * its mass: row a has @f$N_a@f$ times @p rows[a]. */
-    void
-    multiply(const double                              *N,
-             const std::vector<dealii::Tensor<1, dim>> &u,
-             std::vector<dealii::Tensor<1, dim>>       &rows) const
+    /** The share of a point of mass one in @f$u^T M w@f$. */
+    double
+    product(const double                              *N,
+            const std::vector<dealii::Tensor<1, dim>> &u,
+            const std::vector<dealii::Tensor<1, dim>> &w) const
     {
       const unsigned int     n = lumped.size();
-      dealii::Tensor<1, dim> of_point;
-      rows.resize(n);
-      if (!any)
-        {
-          for (unsigned int a = 0; a < n; ++a)
-            of_point += N[a] * u[a];
-          std::fill(rows.begin(), rows.end(), of_point);
-          return;
-        }
-      double of_lumped = 0;
+      dealii::Tensor<1, dim> u_p, w_p;
+      double                 of_lumped = 0, sum = 0;
       for (unsigned int a = 0; a < n; ++a)
-        if (lumped[a])
-          of_lumped += N[a];
+        if (any && lumped[a])
+          {
+            of_lumped += N[a];
+            sum += N[a] * (u[a] * w[a]);
+          }
         else
-          of_point += N[a] * u[a];
-      for (unsigned int a = 0; a < n; ++a)
-        rows[a] = lumped[a] ? u[a] : of_point + of_lumped * u[a];
+          {
+            u_p += N[a] * u[a];
+            w_p += N[a] * w[a];
+          }
+      for (unsigned int a = 0; of_lumped > 0 && a < n; ++a)
+        if (!lumped[a])
+          sum += of_lumped * N[a] * (u[a] * w[a]);
+      return sum + u_p * w_p;
     }
 
     /** Add the share of a point of mass @p m to the @p matrix, row by row. */
@@ -103,15 +131,22 @@ namespace moraine
       for (unsigned int a = 0; any && a < n; ++a)
         of_lumped += lumped[a] ? N[a] : 0.;
       for (unsigned int a = 0; a < n; ++a)
-        if (lumped[a])
-          matrix[a * n + a] += m * N[a];
-        else
-          {
-            matrix[a * n + a] += m * N[a] * of_lumped;
+        {
+          const double m_a = m * N[a];
+          double      *row = &matrix[a * n];
+          if (!any)
             for (unsigned int b = 0; b < n; ++b)
-              if (!lumped[b])
-                matrix[a * n + b] += m * N[a] * N[b];
-          }
+              row[b] += m_a * N[b];
+          else if (lumped[a])
+            row[a] += m_a;
+          else
+            {
+              row[a] += m_a * of_lumped;
+              for (unsigned int b = 0; b < n; ++b)
+                if (!lumped[b])
+                  row[b] += m_a * N[b];
+            }
+        }
     }
 
   private:

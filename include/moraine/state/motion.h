@@ -180,11 +180,7 @@ namespace moraine
     inertial_acceleration(const unsigned int            node,
                           const dealii::Tensor<1, dim> &du) const
     {
-      if (!(step_size > 0))
-        return dealii::Tensor<1, dim>();
-      return rule.end_inertia() *
-               rule.acceleration(step_size, du, v[node], a[node]) +
-             rule.start_inertia() * a[node];
+      return by_increment * (du - step_size * v[node]) + by_start * a[node];
     }
 
     /** Its derivative by @f$\Delta u@f$; 1 in a step of size 0. */
@@ -280,10 +276,6 @@ namespace moraine
       return lumped;
     }
 
-    /** Of point @p p. */
-    double
-    mass(const unsigned int p) const;
-
     /** The group "motion": works, and what nodes keep. */
     void
     write(Archive &archive) const override;
@@ -311,17 +303,8 @@ namespace moraine
       return prescribed;
     }
 
-    /**
-     * Count the work of a step, the mean of both ends, before accept(). What
-     * holds the prescribed motion does work as a boundary; what forces are
-     * missing at free nodes at the start of the step is counted as lost in
-     * transfer. Collective.
-     */
-    void
-    count(const StepWorks &step);
-
-    /** Count the @p energies of this rank in a step that count() was called
-     * for. Collective. */
+    /** Count the @p energies of this rank in the step that was accepted.
+     * Collective. */
     void
     count(const StepEnergies &energies);
 
@@ -335,18 +318,38 @@ namespace moraine
     MotionSums<dim>
     sums() const;
 
-    /** Commit the motion of the trial state. Collective. */
+    /**
+     * Commit the motion of the trial state and count the work of the step, the
+     * mean of both ends. What holds the prescribed motion does work as a
+     * boundary; what forces are missing at free nodes at the start of the step
+     * is counted as lost in transfer. Collective.
+     */
     void
-    accept();
+    accept(const StepWorks &step);
 
   private:
+    void
+    set_step_size(const double size);
+
     /** @f$S^+@f$ of what points carry, less what they get from @p known. */
     Nodal
     map_to_nodes(const Nodal *known = nullptr) const;
 
-    /** Give points what they carry. */
-    void
+    /** @f$u^T M w@f$ of the motion in the step. */
+    struct KineticProducts
+    {
+      double v_v = 0, a_du = 0, v_v_end = 0;
+    };
+
+    /** Give points what they carry. Collective. */
+    KineticProducts
     map_to_points(const Nodal &end);
+
+    /** Count a step. Collective. */
+    void
+    count(const StepWorks       &step,
+          const KineticProducts &products,
+          const Nodal           &end);
 
     /** Give points the @p field that nodes have. */
     void
@@ -370,7 +373,10 @@ namespace moraine
     NodeValues                              v, a;
     NodeValues                              prescribed; ///< increments, if any
     double                                  step_size = 0;
-    Works                                   done;
+    /** Of inertial_acceleration(), by @f$\Delta u - \Delta t\, v_n@f$ and
+     * @f$a_n@f$. */
+    double by_increment = 0, by_start = 0;
+    Works  done;
   };
 } // namespace moraine
 

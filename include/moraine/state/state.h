@@ -208,6 +208,12 @@ namespace moraine
                points.volume(p);
     }
 
+    double
+    mass(const unsigned int p) const
+    {
+      return densities[points.body(p)] * initial_volume(p);
+    }
+
     /**
      * The part of the stress of a point that strains recovered by other
      * functions than its own (Basis::strain_basis()) have added in steps with
@@ -259,14 +265,15 @@ namespace moraine
                     const unsigned int                   p,
                     const dealii::SymmetricTensor<2, 3> *own);
 
-    GridSpace<dim>                                      &space;
-    PointSet<dim>                                       &points;
-    Basis<dim>                                          &basis;
-    const std::vector<std::shared_ptr<const Material>>   materials;
-    const MeshAfterStep                                  after_step;
-    const StrainMeasure                                  measure;
-    const std::optional<FittedWeights<dim>>              fitted_weights;
-    const StateFields<dim>                               state_fields;
+    GridSpace<dim>                                    &space;
+    PointSet<dim>                                     &points;
+    Basis<dim>                                        &basis;
+    const std::vector<std::shared_ptr<const Material>> materials;
+    const MeshAfterStep                                after_step;
+    const StrainMeasure                                measure;
+    std::vector<double>                                densities; ///< of bodies
+    const std::optional<FittedWeights<dim>>            fitted_weights;
+    const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
     StepTime                                             times;
     bool                                                 first_step = true;
