@@ -1,7 +1,8 @@
-# ranks: 2  # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A soft column under its own weight comes down to half its height."""
+"""A soft column under its own weight comes down to half its height. On two ranks
+the finest mesh of each method."""
 
 from math import exp, log2
 
@@ -38,7 +39,8 @@ for scene, cells in (
     for n in cells:
         result = run(scene,
                      {"Mesh/Cells": f"1, {n}", "Output/Points": "false",
-                      "Output/Mesh": "false"})
+                      "Output/Mesh": "false"},
+                     on_ranks=2 if n == cells[-1] else 1)
         errors.append(result.errors["mean_sigma"] / SCALE)
         title = f"{name}, {n} cells"
         number(f"{title}: mean stress error", errors[-1], 3)
@@ -66,7 +68,8 @@ for n in (4, 16, 64):
     result = run("prm/large-deformation/column-mpm.prm",
                  {"Mesh/Cells": f"1, {n}", "Output/Points": "false",
                   "Output/Mesh": "false",
-                  "Method/Point weights": "fitted to cells"})
+                  "Method/Point weights": "fitted to cells"},
+                 on_ranks=2 if n == 64 else 1)
     errors.append(result.errors["mean_sigma"] / SCALE)
     number(f"mpm fitted to cells, {n} cells: mean stress error", errors[-1], 3)
     bound(f"mpm fitted to cells, {n} cells: base reaction over weight - 1",
