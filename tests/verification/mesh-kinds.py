@@ -3,7 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """Patch tests on meshes that are no boxes: a linear displacement field on
 quadrilaterals of gmsh and on an annulus, plane and extruded, and on a body that
-cuts such cells."""
+cuts such cells. Where the points of a cell are is nothing to two ranks: 2 Gauss
+points are on one."""
 
 import math
 
@@ -27,7 +28,8 @@ METHODS = {
 
 for name, scene in SCENES.items():
     for method, settings in METHODS.items():
-        result = run(scene, settings)
+        result = run(scene, settings,
+                     on_ranks=1 if method == "MPM, 2 Gauss points" else None)
         bound(f"{name}, {method}: r_u", result.errors["r_u"], 1e-12)
         bound(f"{name}, {method}: l2_sigma", result.errors["l2_sigma"], 1e-10)
 

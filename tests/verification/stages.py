@@ -30,7 +30,7 @@ def compare(name, settings, scene=SCENE, length=20., balance=1e-10,
     return rows
 
 
-compare("finite element", {})
+plain_rows = compare("finite element", {})
 compare("generalised-alpha", {"Stages/pulse/Time/Integrator": "generalised-alpha"},
         balance=1e-6)  # it dissipates
 compare("GIMP", {"Method/Method": "GIMP"})
@@ -61,11 +61,10 @@ compare("cut cells, GIMP, augmented Lagrangian",
         {"Method/Method": "GIMP", **lagrangian}, cut, 19.6)
 
 # Without the reset displacements go on.
-rows = compare("finite element", {})
 kept = run(SCENE, {"Stages/pulse/Reset displacements": "false"}).history()
 bound("displacement with reset and without, less the settlement",
-      kept[-1]["u_y at middle"] - rows[-1]["u_y at middle"]
-      - rows[0]["u_y at middle"], 1e-12)
+      kept[-1]["u_y at middle"] - plain_rows[-1]["u_y at middle"]
+      - plain_rows[0]["u_y at middle"], 1e-12)
 
 # The material carries a surface that is loaded in the second stage alone, in the
 # first by more than a cell.
@@ -87,7 +86,8 @@ bound("end with a load of the second stage over one that was nothing before - 1"
 for tolerance in (1e-4, 1e-5):
     result = run(SCENE, {"Stages/pulse/Time/Error tolerance": tolerance,
                          "Stages/pulse/Time/Steps": 20,
-                         "Stages/pulse/Time/Smallest step": 1e-3})
+                         "Stages/pulse/Time/Smallest step": 1e-3},
+                 on_ranks=1 if tolerance == 1e-5 else None)
     number(f"Error tolerance {tolerance}: steps", result.summary["steps"], 2)
     end = result.history()[-1]
     bound(f"Error tolerance {tolerance}: end over impulse / (rho c) - 1",
