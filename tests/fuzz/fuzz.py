@@ -78,6 +78,9 @@ def shortened(text):
     for key, value in (("Time/Smallest step", "0.25"),
                        ("Time/Steps", "2"),
                        ("Solver/Maximum iterations", "8")):
+        # Beside stages, which have times of their own, this would be refused.
+        if key.startswith("Time/") and "subsection Stages\n" in text:
+            continue
         if not re.search(rf"set {key.split('/')[1]} *=", text):
             text += setting(key, value)
     return text
