@@ -33,28 +33,28 @@ for steps in 8 16 32 64; do
   error steps-cpdi2 $steps bar CPDI2 "Constants/n = 256" "Time/Steps = $steps"
 done
 
-plot manufactured 1150,480 <<'GP'
+plot manufactured 1200,460 <<'GP'
 set multiplot layout 1,3
 set logscale xy
 set format y '10^{%T}'
-set ylabel 'relative l_2 error of the displacement'
-set key below maxrows 3
+set ylabel 'relative error of displacement, l_2'
+set key below maxrows 2 samplen 1.2 spacing 1.3 font ',11'
 set title 'Bar: cells and steps'
 set xlabel 'cells n'
 set xrange [7:150]
 set xtics (8, 16, 32, 64, 128)
 set yrange [3e-5:3]
-plot 'bar-fe.csv' w lp lt 8 title 'finite elements', 'bar-gimp.csv' w lp lt 1 title 'GIMP', \
+plot 'bar-fe.csv' w lp lt 8 title 'FE', 'bar-gimp.csv' w lp lt 1 title 'GIMP', \
      'bar-cpdi2.csv' w lp lt 3 title 'CPDI2', 'bar-mpm.csv' w lp lt 4 title 'MPM', \
      'bar-mpm-small.csv' w lp lt 6 title 'MPM, G/10', 0.4 / x**2 w l lt 9 title 'order 2'
 set title 'Vortex: cells and steps'
 set xrange [14:75]
-plot 'vortex-fe.csv' w lp lt 8 title 'finite elements', 'vortex-gimp.csv' w lp lt 1 title 'GIMP', \
+plot 'vortex-fe.csv' w lp lt 8 title 'FE', 'vortex-gimp.csv' w lp lt 1 title 'GIMP', \
      'vortex-cpdi2.csv' w lp lt 3 title 'CPDI2', 40 / x**2 w l lt 9 title 'order 2'
 set title 'Bar, 256 cells: steps'
 set xlabel 'steps'
 set xrange [7:75]
-plot 'steps-fe.csv' w lp lt 8 title 'finite elements', 'steps-gimp.csv' w lp lt 1 title 'GIMP', \
+plot 'steps-fe.csv' w lp lt 8 title 'FE', 'steps-gimp.csv' w lp lt 1 title 'GIMP', \
      'steps-cpdi2.csv' w lp lt 3 title 'CPDI2', 0.3 / x**2 w l lt 9 title 'order 2'
 unset multiplot
 GP
