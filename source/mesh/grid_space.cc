@@ -191,6 +191,39 @@ namespace moraine
 
 
   template <int dim>
+  void
+  GridSpace<dim>::sum_over_ranks(std::vector<Tensor<1, dim>> &values) const
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator()) == 1)
+      return;
+    LA::Vector sums = vector();
+    sum_node_values(values, sums);
+    node_values(sums, values);
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  GridSpace<dim>::vector_of(const std::vector<Tensor<1, dim>> &values) const
+  {
+    LA::Vector result = vector();
+    if (owned.n_elements() == 0)
+      return result;
+    AssertThrow(owned.is_contiguous(), ExcInternalError());
+    double                       *entries = result.begin();
+    const types::global_dof_index first   = owned.nth_index_in_set(0);
+    for (unsigned int node = 0; node < first_dof.size(); ++node)
+      if (owned.is_element(first_dof[node]))
+        std::copy_n(values[node].begin_raw(),
+                    dim,
+                    entries + (first_dof[node] - first));
+    return result;
+  }
+
+
+
+  template <int dim>
   LA::Vector
   GridSpace<dim>::vector() const
   {

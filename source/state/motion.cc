@@ -141,12 +141,8 @@ namespace moraine
               }
           }
       }
-    LA::Vector all = space.vector();
     for (NodeValues *values : {&masses, &sums.v, &sums.a})
-      {
-        space.sum_node_values(*values, all);
-        space.node_values(all, *values);
-      }
+      space.sum_over_ranks(*values);
     for (unsigned int k = 0; k < n; ++k)
       if (masses[k][0] > 0)
         {
@@ -202,12 +198,8 @@ namespace moraine
                 n_known[node][0] += 1;
               }
           }
-        LA::Vector all = space.vector();
         for (NodeValues *values : {&v, &n_known})
-          {
-            space.sum_node_values(*values, all);
-            space.node_values(all, *values);
-          }
+          space.sum_over_ranks(*values);
         for (unsigned int k = 0; k < v.size(); ++k)
           if (n_known[k][0] > 0)
             v[k] /= n_known[k][0];
@@ -301,12 +293,7 @@ namespace moraine
     const GridSpace<dim> &space       = state.grid();
     const auto            constrained = [&](const NodeValues &values,
                                  const Prescribed  prescribed) {
-      LA::Vector x = space.vector();
-      for (unsigned int node = 0; node < space.n_nodes(); ++node)
-        for (unsigned int d = 0; d < dim; ++d)
-          if (space.locally_owned().is_element(space.node_dof(node) + d))
-            x(space.node_dof(node) + d) = values[node][d];
-      x.compress(VectorOperation::insert);
+      LA::Vector x = space.vector_of(values);
       constrain(prescribed, x);
       NodeValues result;
       space.node_values(x, result);

@@ -139,6 +139,15 @@ namespace moraine
     sum_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
                     LA::Vector                                &vector) const;
 
+    /** The sums of what each rank has at its nodes take the place of it.
+     * Collective. */
+    void
+    sum_over_ranks(std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /** The owned unknowns of nodal values that all ranks agree on. */
+    LA::Vector
+    vector_of(const std::vector<dealii::Tensor<1, dim>> &values) const;
+
     /** A zero vector of the owned unknowns. */
     LA::Vector
     vector() const;
