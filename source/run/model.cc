@@ -310,7 +310,8 @@ namespace moraine
     StateFields<dim>(fields, parameters.strain_measure(), materials);
     if (scene.is_dynamic())
       Motion<dim>::request_fields(velocity_transfer(scene), fields);
-    if (scene.is_dynamic() && method.recovers_strains)
+    if (scene.is_dynamic() && method.recovers_strains &&
+        parameters.strain_measure() == StrainMeasure::small)
       fields.request(FieldNames<dim>::stress_of_recovery);
     request_columns(bodies, fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);

@@ -5,8 +5,6 @@
 
 #include <moraine/material/elastic_state.h>
 
-#include <deal.II/physics/transformations.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -239,24 +237,9 @@ namespace moraine
   {
     SymmetricTensor<2, 3> stress;
     if (own)
-      {
-        const double v = points.volume(p);
-        stress         = trial_points.weight(i) * trial_points.stress(i) - *own;
-        if (measure == StrainMeasure::small)
-          stress = stress / v + stress_of_recovery(p);
-        else
-          {
-            // Carried along with the material.
-            Tensor<2, 3> dF = unit_symmetric_tensor<3>();
-            for (unsigned int k = 0; k < dim; ++k)
-              for (unsigned int l = 0; l < dim; ++l)
-                dF[k][l] += trial_points.increment_gradient(i)[k][l];
-            stress = (stress / v +
-                      Physics::Transformations::Contravariant::push_forward(
-                        stress_of_recovery(p), dF)) /
-                     determinant(dF);
-          }
-      }
+      stress = (trial_points.weight(i) * trial_points.stress(i) - *own) /
+                 points.volume(p) +
+               stress_of_recovery(p);
     recovery_field.store(stress, points.values(p));
   }
 

@@ -33,7 +33,7 @@ namespace moraine
    * own strain (Basis::strain_basis()), not that of the Gauss points. The
    * difference is out of balance until the next step balances it. With inertia
    * it would feed waves with energy; there @f$\sigma_n@f$ in the first sum is
-   * without State::stress_of_recovery().
+   * without State::stress_of_recovery() at small strain.
    *
    * Points of a material that is linear at small strain cost the sums over
    * @f$w_{pg}@f$ alone; others ask the material once for each Gauss point of

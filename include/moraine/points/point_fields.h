@@ -257,8 +257,8 @@ namespace moraine
     /** Where it goes back to nodes, see Motion. */
     inline static const Tensor velocity_gradient{"velocity_gradient", "1/time"};
     inline static const SymmetricTensor stress{"stress", "stress"};
-    /** In dynamics, what recovered strains add to the stress; see
-     * DoubleMapping. */
+    /** In dynamics at small strain, what recovered strains add to the stress;
+     * see DoubleMapping. */
     inline static const SymmetricTensor stress_of_recovery{"stress_of_recovery",
                                                            "stress"};
     /** @f$F@f$, at finite strain. */

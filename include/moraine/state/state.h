@@ -218,7 +218,7 @@ namespace moraine
      * The part of the stress of a point that strains recovered by other
      * functions than its own (Basis::strain_basis()) have added in steps with
      * inertia: stress less what its own functions would have made of them. Zero
-     * without such functions.
+     * without such functions and at finite strain.
      */
     dealii::SymmetricTensor<2, 3>
     stress_of_recovery(const unsigned int p) const
