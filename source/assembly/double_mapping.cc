@@ -22,22 +22,6 @@ namespace moraine
       return {
         {near * S[0] + (1 - near) * S[1], (1 - near) * S[0] + near * S[1]}};
     }
-
-
-
-    /** @f$v \sigma \nabla N@f$ of a point's committed stress. */
-    template <int dim>
-    Tensor<1, dim>
-    force_of_stress(const double                 v,
-                    const SymmetricTensor<2, 3> &stress,
-                    const Tensor<1, dim>        &gradient)
-    {
-      Tensor<1, dim> force;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          force[i] += v * stress[i][j] * gradient[j];
-      return force;
-    }
   } // namespace
 
 

@@ -306,9 +306,11 @@ namespace moraine
           points.stress_field()(points.values(point));
         const Tensor<1, dim> *grad_N = block.grad_N(p);
         for (unsigned int a = 0; a < block.n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              local.force[dim * a + i] -= v * stress[i][j] * grad_N[a][j];
+          {
+            const Tensor<1, dim> f = force_of_stress(v, stress, grad_N[a]);
+            for (unsigned int i = 0; i < dim; ++i)
+              local.force[dim * a + i] -= f[i];
+          }
       }
   }
 

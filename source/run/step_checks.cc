@@ -149,13 +149,16 @@ namespace moraine
       return "";
     const Works &works = model.motion->works();
     const double made  = -works.out_of_balance();
-    if (!(made > told_share_of_energy * works.largest()))
+    // What a first step of next to no energy makes falls behind.
+    const double before = share_made;
+    share_made          = made / works.largest();
+    if (!(share_made > told_share_of_energy) || share_made < before)
       return "";
     told_of_energy = true;
     std::ostringstream text;
     text << "energy grows without work: by t = " << t
          << " the integrator has made " << std::setprecision(2)
-         << 100 * made / works.largest()
+         << 100 * share_made
          << " % of the largest part of it; shorter steps, or 'Integrator = "
             "energy-momentum' or 'generalised-alpha', do not";
     return text.str();

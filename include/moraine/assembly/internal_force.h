@@ -18,6 +18,22 @@ namespace moraine
 
 
 
+  /** @f$v\, \sigma \nabla N@f$ of a stress in a volume. */
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  force_of_stress(const double                         v,
+                  const dealii::SymmetricTensor<2, 3> &stress,
+                  const dealii::Tensor<1, dim>        &gradient)
+  {
+    dealii::Tensor<1, dim> force;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        force[i] += v * stress[i][j] * gradient[j];
+    return force;
+  }
+
+
+
   /**
    * @f$-\sum_p B_p^T \sigma_p v_p@f$ with trial stresses, and
    * @f$K = \sum_p B_p^T C B_p v_p@f$ (Cortis et al. 2017, eqs. 7-9).

@@ -6,6 +6,7 @@
 
 #include <moraine/run/model.h>
 
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -59,7 +60,10 @@ namespace moraine
     const Model<dim>         &model;
     std::vector<unsigned int> n_parts; ///< of each body
     std::set<std::string>     missed;  ///< boundaries told of
-    bool                      told_of_energy = false;
+    /** Energy that the integrator had made by the last step, over the largest
+     * part; in the first step none is told of. */
+    double share_made     = std::numeric_limits<double>::infinity();
+    bool   told_of_energy = false;
   };
 } // namespace moraine
 
