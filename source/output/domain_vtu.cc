@@ -27,25 +27,25 @@ namespace moraine
     const auto             order     = points_by_id(points);
     VtuFile<dim, dim>      file;
     declare_point_rows(points.fields(), file);
-    file.patches.resize(order.size());
-    for (unsigned int i = 0; i < order.size(); ++i)
-      {
-        const auto rows    = point_rows(points, order[i]);
-        const auto corners = basis.domain_corners(order[i]);
-        auto      &patch   = file.patches[i];
-        std::copy(corners.begin(), corners.end(), patch.vertices);
-        patch.reference_cell = ReferenceCells::get_hypercube<dim>();
-        patch.patch_index    = i;
-        patch.n_subdivisions = 1;
-        patch.data.reinit(file.n_rows(), n_corners);
-        for (unsigned int row = 0; row < rows.size(); ++row)
-          for (unsigned int c = 0; c < n_corners; ++c)
-            patch.data(row, c) = rows[row];
-      }
+    const auto make_patch = [&](const unsigned int i) {
+      const auto rows    = point_rows(points, order[i]);
+      const auto corners = basis.domain_corners(order[i]);
+      typename VtuFile<dim, dim>::Patch patch;
+      std::copy(corners.begin(), corners.end(), patch.vertices);
+      patch.reference_cell = ReferenceCells::get_hypercube<dim>();
+      patch.n_subdivisions = 1;
+      patch.data.reinit(file.n_rows(), n_corners);
+      for (unsigned int row = 0; row < rows.size(); ++row)
+        for (unsigned int c = 0; c < n_corners; ++c)
+          patch.data(row, c) = rows[row];
+      return patch;
+    };
     file.write(path,
                time,
                step,
-               points.mesh().triangulation().get_communicator());
+               points.mesh().triangulation().get_communicator(),
+               order.size(),
+               make_patch);
   }
 
 

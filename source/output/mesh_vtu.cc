@@ -73,15 +73,19 @@ namespace moraine
         AssertDimension(field.values.size(), space.n_nodes());
         file.add_vector(field.name, field.unit);
       }
+    std::vector<const unsigned int *> cells;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
-        {
-          file.patches.push_back(
-            make_patch<dim>(space, space.cell_nodes(cell), fields));
-          file.patches.back().patch_index = file.patches.size() - 1;
-        }
-    file.write(path, time, step, space.communicator());
+        cells.push_back(space.cell_nodes(cell));
+    file.write(path,
+               time,
+               step,
+               space.communicator(),
+               cells.size(),
+               [&](const unsigned int i) {
+                 return make_patch<dim>(space, cells[i], fields);
+               });
   }
 
 

@@ -20,21 +20,21 @@ namespace moraine
     const auto      order = points_by_id(points);
     VtuFile<0, dim> file;
     declare_point_rows(points.fields(), file);
-    file.patches.resize(order.size());
-    for (unsigned int i = 0; i < order.size(); ++i)
-      {
-        const auto rows   = point_rows(points, order[i]);
-        auto      &patch  = file.patches[i];
-        patch.vertices[0] = points.position(order[i]);
-        patch.patch_index = i;
-        patch.data.reinit(file.n_rows(), 1);
-        for (unsigned int row = 0; row < rows.size(); ++row)
-          patch.data(row, 0) = rows[row];
-      }
+    const auto make_patch = [&](const unsigned int i) {
+      const auto                      rows = point_rows(points, order[i]);
+      typename VtuFile<0, dim>::Patch patch;
+      patch.vertices[0] = points.position(order[i]);
+      patch.data.reinit(file.n_rows(), 1);
+      for (unsigned int row = 0; row < rows.size(); ++row)
+        patch.data(row, 0) = rows[row];
+      return patch;
+    };
     file.write(path,
                time,
                step,
-               points.mesh().triangulation().get_communicator());
+               points.mesh().triangulation().get_communicator(),
+               order.size(),
+               make_patch);
   }
 
 

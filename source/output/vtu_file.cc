@@ -9,6 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -21,26 +22,29 @@ namespace moraine
 
   namespace
   {
-    /**
-     * Write the texts of all ranks into @p out of rank 0, in the order of
-     * ranks; it holds one foreign text at a time.
-     */
+    /** About 60 MB of boxes in 3D. */
+    constexpr unsigned int patches_of_a_piece = 16384;
+
+    constexpr int tag = 0;
+
+
+
     void
-    collect(const std::string &text,
-            std::ostream      *out,
-            const MPI_Comm    &communicator)
+    send_to_root(const std::string &text, const MPI_Comm &communicator)
     {
-      constexpr int tag = 0;
-      if (Utilities::MPI::this_mpi_process(communicator) != 0)
-        {
-          MPI_Send(text.data(), text.size(), MPI_CHAR, 0, tag, communicator);
-          return;
-        }
-      *out << text;
+      MPI_Send(text.data(), text.size(), MPI_CHAR, 0, tag, communicator);
+    }
+
+
+
+    /** Write the pieces of a rank into @p out until it sends an empty one. */
+    void
+    receive_pieces(const unsigned int rank,
+                   std::ostream      &out,
+                   const MPI_Comm    &communicator)
+    {
       std::string received;
-      for (unsigned int rank = 1;
-           rank < Utilities::MPI::n_mpi_processes(communicator);
-           ++rank)
+      do
         {
           MPI_Status status;
           int        size = 0;
@@ -54,8 +58,9 @@ namespace moraine
                    tag,
                    communicator,
                    MPI_STATUS_IGNORE);
-          *out << received;
+          out << received;
         }
+      while (!received.empty());
     }
 
 
@@ -63,7 +68,7 @@ namespace moraine
     /**
      * Give an array that deal.II has written what VTK's readers look for: names
      * of the components of a tensor, and the unit as VTK's own key (deal.II's
-     * attribute "units" is not read by VTK). Each rank wrote every array once.
+     * attribute "units" is not read by VTK). A piece has every array once.
      */
     void
     annotate(std::string       &text,
@@ -148,34 +153,61 @@ namespace moraine
 
 
   template <int patch_dim, int dim>
+  std::string
+  VtuFile<patch_dim, dim>::piece(const DataOutBase::VtkFlags &flags) const
+  {
+    std::ostringstream out;
+    DataOutBase::write_vtu_main(
+      patches, names, get_nonscalar_data_ranges(), flags, out);
+    std::string text = out.str();
+    for (const std::string &name :
+         std::set<std::string>(names.begin(), names.end()))
+      annotate(text, name, units.count(name) > 0 ? units.at(name) : "");
+    return text;
+  }
+
+
+
+  template <int patch_dim, int dim>
   void
-  VtuFile<patch_dim, dim>::write(const std::string &path,
-                                 const double       time,
-                                 const unsigned int step,
-                                 const MPI_Comm    &communicator)
+  VtuFile<patch_dim, dim>::write(
+    const std::string                              &path,
+    const double                                    time,
+    const unsigned int                              step,
+    const MPI_Comm                                 &communicator,
+    const unsigned int                              n_patches,
+    const std::function<Patch(const unsigned int)> &make_patch)
   {
     // A date would make two equal runs differ.
     const DataOutBase::VtkFlags flags(
       time, step, false, DataOutBase::VtkFlags::best_speed, false, units);
-    // For a rank without patches deal.II declares tensors of 3 components.
-    std::string text;
-    if (!patches.empty())
-      {
-        std::ostringstream out;
-        DataOutBase::write_vtu_main(
-          patches, names, get_nonscalar_data_ranges(), flags, out);
-        text = out.str();
-        for (const std::string &name :
-             std::set<std::string>(names.begin(), names.end()))
-          annotate(text, name, units.count(name) > 0 ? units.at(name) : "");
-      }
-
     std::unique_ptr<AtomicFile> file;
     on_root(communicator, [&]() {
       file = std::make_unique<AtomicFile>(path);
       DataOutBase::write_vtu_header(file->stream(), flags);
     });
-    collect(text, file ? &file->stream() : nullptr, communicator);
+    // A rank without patches has no piece: deal.II would declare tensors of 3
+    // components there.
+    for (unsigned int begin = 0; begin < n_patches; begin += patches.size())
+      {
+        patches.resize(std::min(patches_of_a_piece, n_patches - begin));
+        for (unsigned int i = 0; i < patches.size(); ++i)
+          {
+            patches[i]             = make_patch(begin + i);
+            patches[i].patch_index = i;
+          }
+        if (file)
+          file->stream() << piece(flags);
+        else
+          send_to_root(piece(flags), communicator);
+      }
+    if (!file)
+      send_to_root("", communicator);
+    else
+      for (unsigned int rank = 1;
+           rank < Utilities::MPI::n_mpi_processes(communicator);
+           ++rank)
+        receive_pieces(rank, file->stream(), communicator);
     on_root(communicator, [&]() {
       // deal.II takes a stream that failed for a mistake of ours.
       if (file->stream())

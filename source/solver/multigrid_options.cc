@@ -7,6 +7,7 @@
 
 #include <deal.II/lac/trilinos_precondition.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace moraine
@@ -37,6 +38,43 @@ namespace moraine
                                  near_null_space[0].get_mpi_communicator()) ==
              1;
     }
+
+
+
+    /**
+     * Whether inertia holds nearly every node: a rigid translation takes a
+     * force of two hundredths of the diagonal or more, as it does for Courant
+     * numbers below about twelve. Stiffness alone has none but beside held
+     * nodes.
+     */
+    bool
+    is_held_by_inertia(const LA::SparseMatrix        &matrix,
+                       const std::vector<LA::Vector> &near_null_space,
+                       const unsigned int             dim)
+    {
+      constexpr double least_share = 0.02, most_nodes = 0.9;
+      LA::Vector       diagonal(near_null_space[0]), forces(diagonal);
+      matrix.trilinos_matrix().ExtractDiagonalCopy(
+        *diagonal.trilinos_vector()(0));
+      unsigned int counts[2] = {0, 0};
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          matrix.vmult(forces, near_null_space[c]);
+          const double *t = near_null_space[c].trilinos_vector()[0];
+          const double *d = diagonal.trilinos_vector()[0];
+          const double *f = forces.trilinos_vector()[0];
+          for (unsigned int i = 0; i < forces.locally_owned_size(); ++i)
+            if (t[i] != 0.)
+              {
+                ++counts[0];
+                counts[1] += f[i] * t[i] >= least_share * d[i] * t[i] * t[i];
+              }
+        }
+      Utilities::MPI::sum(counts,
+                          near_null_space[0].get_mpi_communicator(),
+                          counts);
+      return counts[1] >= most_nodes * counts[0];
+    }
   } // namespace
 
 
@@ -63,9 +101,17 @@ namespace moraine
     if (near_null_space.empty())
       return;
 
+    unsigned int n_modes = near_null_space.size();
+    if (is_held_by_inertia(matrix, near_null_space, dim))
+      {
+        // The coarse space has little to do then; a smooth one with rotations
+        // would take more memory than the matrix where rows are long.
+        list.set("aggregation: damping factor", 0.);
+        n_modes = std::min(n_modes, dim);
+      }
     const Epetra_Map &map = matrix.trilinos_matrix().DomainMap();
-    modes = std::make_unique<Epetra_MultiVector>(map, near_null_space.size());
-    for (unsigned int m = 0; m < near_null_space.size(); ++m)
+    modes                 = std::make_unique<Epetra_MultiVector>(map, n_modes);
+    for (unsigned int m = 0; m < n_modes; ++m)
       *(*modes)(m) = *near_null_space[m].trilinos_vector()(0);
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", modes->NumVectors());

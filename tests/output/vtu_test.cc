@@ -7,6 +7,7 @@
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/output/pvd_history.h>
+#include <moraine/output/vtu_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -331,6 +332,45 @@ namespace moraine
           if (active[cell->active_cell_index()] != 0)
             centre += 0.5 * cell->center();
         EXPECT_NEAR(sum_x / (values.size() / 3.), centre[0], 1e-5);
+      }
+  }
+
+
+
+  TEST(VtuFile, holds_a_piece_of_a_large_file_at_a_time)
+  {
+    const Folder      folder;
+    const std::string path = folder.file("large.vtu");
+    const auto        rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const auto        n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    // Without patches on the last rank, where there are three of them.
+    const unsigned int n = rank == 2 ? 0 : 40000;
+    VtuFile<0, 2>      file;
+    file.add_scalar("number", "-");
+    file.write(path, 0., 0, MPI_COMM_WORLD, n, [&](const unsigned int i) {
+      VtuFile<0, 2>::Patch patch;
+      patch.vertices[0] = Point<2>(i, rank);
+      patch.data.reinit(1, 1);
+      patch.data(0, 0) = 1e5 * rank + i;
+      return patch;
+    });
+
+    const unsigned int n_writing = std::min(n_ranks, 2u);
+    const std::string  text      = content(path);
+    const std::string  tag       = "<Piece";
+    unsigned int       n_pieces  = 0;
+    for (auto at = text.find(tag); at != std::string::npos;
+         at      = text.find(tag, at + 1))
+      ++n_pieces;
+    EXPECT_EQ(n_pieces, 3 * n_writing);
+    auto        arrays  = read_vtu(path);
+    const auto &numbers = arrays["number"].values;
+    ASSERT_EQ(numbers.size(), 40000 * n_writing);
+    ASSERT_EQ(arrays["position"].values.size(), 3 * numbers.size());
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      {
+        ASSERT_EQ(numbers[i], 1e5 * (i / 40000) + i % 40000);
+        ASSERT_EQ(arrays["position"].values[3 * i], i % 40000);
       }
   }
 

@@ -32,7 +32,7 @@ namespace moraine::testing_solver
 {
   /**
    * A linear elastic cube of n^dim bilinear cells under its weight, held at
-   * x = 0 (or not at all).
+   * x = 0 (or not at all); inertia is the factor of its mass of density one.
    */
   template <int dim>
   struct Elasticity
@@ -48,11 +48,12 @@ namespace moraine::testing_solver
 
     Elasticity(const unsigned int n,
                const bool         held       = true,
-               const double       convection = 0.);
+               const double       convection = 0.,
+               const double       inertia    = 0.);
 
   private:
     void
-    assemble(const double convection);
+    assemble(const double convection, const double inertia);
 
     void
     make_modes();
@@ -63,7 +64,8 @@ namespace moraine::testing_solver
   template <int dim>
   Elasticity<dim>::Elasticity(const unsigned int n,
                               const bool         held,
-                              const double       convection)
+                              const double       convection,
+                              const double       inertia)
     : triangulation(
         MPI_COMM_WORLD,
         dealii::Triangulation<dim>::none,
@@ -98,7 +100,7 @@ namespace moraine::testing_solver
                                                        relevant);
     matrix->reinit(owned, owned, pattern, MPI_COMM_WORLD);
     rhs.reinit(owned, MPI_COMM_WORLD);
-    assemble(convection);
+    assemble(convection, inertia);
     make_modes();
   }
 
@@ -106,7 +108,7 @@ namespace moraine::testing_solver
 
   template <int dim>
   void
-  Elasticity<dim>::assemble(const double convection)
+  Elasticity<dim>::assemble(const double convection, const double inertia)
   {
     using namespace dealii;
     const QGauss<dim>                    quadrature(2);
@@ -140,7 +142,9 @@ namespace moraine::testing_solver
                     double k = lambda * gi[ci] * gj[cj] + mu * gi[cj] * gj[ci];
                     if (ci == cj)
                       k += mu * (gi * gj) +
-                           convection * values.shape_value(i, q) * gj[0];
+                           convection * values.shape_value(i, q) * gj[0] +
+                           inertia * values.shape_value(i, q) *
+                             values.shape_value(j, q);
                     local(i, j) += k * weight;
                   }
               }

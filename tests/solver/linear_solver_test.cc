@@ -9,6 +9,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <moraine/solver/linear_solver.h>
+#include <moraine/solver/multigrid_options.h>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +114,30 @@ TEST(LinearSolver, RotationsInTheNearNullSpacePay)
   EXPECT_LT(multigrid_iterations<2>(48, 3),
             0.8 * multigrid_iterations<2>(48, 2));
   EXPECT_LT(multigrid_iterations<3>(8, 6), 0.8 * multigrid_iterations<3>(8, 3));
+}
+
+// Newmark's method, average acceleration: 4 / (time step)^2 times the mass.
+TEST(LinearSolver, InertiaNeedsNoSmoothCoarseSpace)
+{
+  const unsigned int n           = 16;
+  const auto         coarse_list = [](const Elasticity<3> &problem) {
+    return MultigridOptions(*problem.matrix, true, problem.modes, 3).list;
+  };
+  for (const double courant : {2., 9., 20., 80.})
+    {
+      const double        steps = 1.346 * n * n / (courant * courant);
+      const Elasticity<3> problem(n, true, 0., 4. * steps);
+      const auto          list = coarse_list(problem);
+      const std::string   key  = "aggregation: damping factor";
+      EXPECT_EQ(list.isParameter(key), courant < 12) << courant;
+      if (list.isParameter(key))
+        {
+          EXPECT_EQ(list.get<double>(key), 0.);
+        }
+      solve(problem, "amg-cg");
+    }
+  EXPECT_FALSE(
+    coarse_list(Elasticity<3>(8)).isParameter("aggregation: damping factor"));
 }
 
 TEST(LinearSolver, KeepsTheFactorisation)

@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <tuple>
@@ -17,7 +18,8 @@ namespace moraine
 {
   /**
    * Patches with named fields on their way into a VTU file. deal.II writes;
-   * this class only holds what it asks for.
+   * this class only holds what it asks for, a piece of the file at a time: in
+   * memory, patches take ten times what they take in the file.
    */
   template <int patch_dim, int dim>
   class VtuFile : public dealii::DataOutInterface<patch_dim, dim>
@@ -44,18 +46,20 @@ namespace moraine
       return names.size();
     }
 
-    std::vector<Patch> patches;
-
     /**
      * Write one file for all ranks and agree on the result. Collective.
+     * @p make_patch gives the patches of this rank, from 0 to @p n_patches,
+     * each once and in this order; they get their indices here.
      *
      * @throws InputError naming @p path.
      */
     void
-    write(const std::string &path,
-          const double       time,
-          const unsigned int step,
-          const MPI_Comm    &communicator);
+    write(const std::string                              &path,
+          const double                                    time,
+          const unsigned int                              step,
+          const MPI_Comm                                 &communicator,
+          const unsigned int                              n_patches,
+          const std::function<Patch(const unsigned int)> &make_patch);
 
   protected:
     const std::vector<Patch> &
@@ -72,6 +76,10 @@ namespace moraine
     get_nonscalar_data_ranges() const override;
 
   private:
+    /** The next piece of a file: XML of the patches in memory. */
+    std::string
+    piece(const dealii::DataOutBase::VtkFlags &flags) const;
+
     void
     add_range(
       const std::string &name,
@@ -80,6 +88,7 @@ namespace moraine
       const dealii::DataComponentInterpretation::DataComponentInterpretation
         interpretation);
 
+    std::vector<Patch>                 patches;
     std::vector<std::string>           names;
     std::map<std::string, std::string> units;
     std::vector<std::tuple<
