@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/assembly/couplings.h>
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/assembly/rigid_motion_check.h>
 
@@ -203,24 +204,9 @@ namespace moraine
                        space.communicator(),
                        lines_of_terms());
 
-    // deal.II 9.4 takes a rank without rows for one with too many of them,
-    // unless their length is zero (trilinos_sparsity_pattern.cc).
-    const unsigned int row_length =
-      space.locally_owned().n_elements() > 0 ? Utilities::pow(3, dim) * dim : 0;
-    LA::SparsityPattern                  pattern(space.locally_owned(),
-                                space.locally_owned(),
-                                space.locally_relevant(),
-                                space.communicator(),
-                                row_length);
-    std::vector<types::global_dof_index> dofs;
+    Couplings<dim> couplings(space);
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
-      dofs.clear();
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          dofs.push_back(space.node_dof(nodes[a]) + c);
-      constraints.homogeneous().add_entries_local_to_global(dofs,
-                                                            pattern,
-                                                            false);
+      couplings.add(nodes, n);
     };
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
@@ -234,11 +220,10 @@ namespace moraine
       }
     for (const auto &term : terms)
       term->couple(context, couple);
-    pattern.compress();
     bodies = find_bodies_of_nodes(state, body_names.size());
     sums.reinit(space,
                 constraints.homogeneous(),
-                pattern,
+                couplings.pattern(constraints.homogeneous()),
                 bodies.of_node,
                 body_names.size());
     for (LA::Vector *vector :

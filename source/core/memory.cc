@@ -29,6 +29,18 @@ namespace moraine
 
 
 
+  void
+  return_large_blocks()
+  {
+    // Vectors are made and freed too often for new pages each time.
+    constexpr int MiB = 1024 * 1024;
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, 16 * MiB);
+    mallopt(M_TRIM_THRESHOLD, 64 * MiB);
+  }
+
+
+
   bool
   reset_peak_memory()
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/core/memory.h>
 #include <moraine/run/command_line.h>
 
 #include <deal.II/base/mpi.h>
@@ -70,6 +71,7 @@ main(int argc, char **argv)
   if (argc > 1 && std::strcmp(argv[1], "plot") == 0)
     return plot(argv + 2);
   start_quickly_if_alone();
+  moraine::return_large_blocks();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   return moraine::main_program({argv + 1, argv + argc});
 }

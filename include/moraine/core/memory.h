@@ -24,6 +24,14 @@ namespace moraine
   memory_in_use(const MPI_Comm communicator);
 
   /**
+   * Give large blocks back to the system as they are freed. SuperLU_DIST, which
+   * Trilinos may bring along, turns that off for the whole program as it is
+   * loaded.
+   */
+  void
+  return_large_blocks();
+
+  /**
    * Let the peak begin anew at what is resident now, on this rank.
    * @return false where the system does not allow it.
    */

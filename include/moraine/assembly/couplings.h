@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_couplings_h
+#define moraine_assembly_couplings_h
+
+#include <moraine/core/linear_algebra.h>
+#include <moraine/mesh/grid_space.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Which nodes are coupled, and the pattern of a matrix that follows. Nodes
+   * are a ninth of the entries in 3D, and tell the length of rows, so that
+   * nothing grows while the pattern is filled.
+   */
+  template <int dim>
+  class Couplings
+  {
+  public:
+    explicit Couplings(const GridSpace<dim> &space);
+
+    /** Couple @p n nodes, each with each. */
+    void
+    add(const unsigned int *nodes, const unsigned int n);
+
+    /**
+     * Pattern with what @p constraints put in place of their rows and columns;
+     * of these it has the diagonal. Collective.
+     */
+    LA::SparsityPattern
+    pattern(const dealii::AffineConstraints<double> &constraints) const;
+
+  private:
+    const GridSpace<dim>          &space;
+    dealii::DynamicSparsityPattern nodes;
+    std::vector<unsigned int>      sorted;
+  };
+} // namespace moraine
+
+#endif
