@@ -14,7 +14,7 @@ namespace moraine
   void
   GlobalSystem<dim>::reinit(const GridSpace<dim>            &space_,
                             const AffineConstraints<double> &constraints_,
-                            const LA::SparsityPattern       &pattern,
+                            const Couplings<dim>            &couplings,
                             const std::vector<unsigned int> &body_of_node_,
                             const unsigned int               n_bodies)
   {
@@ -23,11 +23,12 @@ namespace moraine
     body_of_node = &body_of_node_;
     squares.assign(n_bodies, 0.);
     sum_of_matrices = std::make_shared<LA::SparseMatrix>();
-    sum_of_matrices->reinit(pattern);
+    sum_of_matrices->reinit(couplings.pattern(*constraints));
     rows = LA::LocalRows(*sum_of_matrices);
     nodes_in_matrix.resize(space->n_nodes());
     for (unsigned int node = 0; node < space->n_nodes(); ++node)
       nodes_in_matrix[node] = find_node(node);
+    find_ghost_rows(couplings);
   }
 
 
@@ -36,10 +37,13 @@ namespace moraine
   typename GlobalSystem<dim>::NodeInMatrix
   GlobalSystem<dim>::find_node(const unsigned int node) const
   {
-    const auto         dof = space->node_dof(node);
-    const NodeInMatrix first{rows.row(dof), rows.column(dof)};
-    if (first.row == LA::LocalRows::none || first.column == LA::LocalRows::none)
+    const auto   dof = space->node_dof(node);
+    NodeInMatrix first;
+    first.row    = rows.row(dof);
+    first.column = rows.column(dof);
+    if (first.column == LA::LocalRows::none)
       return {};
+    const bool is_here      = first.row != LA::LocalRows::none;
     const auto same_columns = [&](const int row) {
       return std::equal(rows.columns(first.row),
                         rows.columns(first.row) + rows.row_length(first.row),
@@ -48,11 +52,73 @@ namespace moraine
     };
     for (unsigned int c = 0; c < dim; ++c)
       if (constraints->is_constrained(dof + c) ||
-          rows.row(dof + c) != first.row + static_cast<int>(c) ||
           rows.column(dof + c) != first.column + static_cast<int>(c) ||
-          !same_columns(first.row + c))
+          (is_here && (rows.row(dof + c) != first.row + static_cast<int>(c) ||
+                       !same_columns(first.row + c))))
         return {};
     return first;
+  }
+
+
+
+  template <int dim>
+  void
+  GlobalSystem<dim>::find_ghost_rows(const Couplings<dim> &couplings)
+  {
+    ghost_rows.clear();
+    const DynamicSparsityPattern &nodes = couplings.of_nodes();
+    for (unsigned int node = 0; node < space->n_nodes(); ++node)
+      {
+        NodeInMatrix &at = nodes_in_matrix[node];
+        if (at.column == LA::LocalRows::none || at.row != LA::LocalRows::none ||
+            nodes.row_length(node) == 0)
+          continue;
+        at.ghost = ghost_rows.size();
+        GhostRows ghost;
+        ghost.first_row = space->node_dof(node);
+        by_column.clear();
+        for (unsigned int k = 0; k < nodes.row_length(node); ++k)
+          {
+            const unsigned int other = nodes.column_number(node, k);
+            if (nodes_in_matrix[other].column != LA::LocalRows::none)
+              by_column.emplace_back(nodes_in_matrix[other].column, other);
+          }
+        std::sort(by_column.begin(), by_column.end());
+        for (const auto &[column, other] : by_column)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              ghost.columns.push_back(column + c);
+              ghost.global_columns.push_back(space->node_dof(other) + c);
+            }
+        ghost.values.assign(dim * ghost.columns.size(), 0.);
+        ghost_rows.push_back(std::move(ghost));
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  GlobalSystem<dim>::add_rows_of_node(const LocalSystem<dim> &local,
+                                      const unsigned int      a,
+                                      const unsigned int      length,
+                                      const int              *columns,
+                                      double                 *values) const
+  {
+    const unsigned int n     = dim * by_column.size();
+    const int         *end   = columns + length;
+    const int         *found = columns;
+    for (const auto &[column, b] : by_column)
+      {
+        found = std::find(found, end, column);
+        Assert(found != end, ExcInternalError());
+        const double *K = &local.matrix(dim * a, dim * b);
+        double       *V = values + (found - columns);
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            V[c * length + d] += K[c * n + d];
+        found += dim;
+      }
   }
 
 
@@ -71,26 +137,24 @@ namespace moraine
         by_column[a] = {column, a};
       }
     std::sort(by_column.begin(), by_column.end());
-    const unsigned int n = dim * n_nodes;
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        // The rows of a node have the same columns and follow each other.
-        const int          row     = nodes_in_matrix[local.nodes[a]].row;
-        const unsigned int length  = rows.row_length(row);
-        const int         *columns = rows.columns(row);
-        const int         *end     = columns + length;
-        double            *values  = rows.values(row);
-        const int         *found   = columns;
-        for (const auto &[column, b] : by_column)
+        const NodeInMatrix &at = nodes_in_matrix[local.nodes[a]];
+        if (at.ghost == LA::LocalRows::none)
+          // The rows of a node have the same columns and follow each other.
+          add_rows_of_node(local,
+                           a,
+                           rows.row_length(at.row),
+                           rows.columns(at.row),
+                           rows.values(at.row));
+        else
           {
-            found = std::find(found, end, column);
-            Assert(found != end, ExcInternalError());
-            const double *K = &local.matrix(dim * a, dim * b);
-            double       *V = values + (found - columns);
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                V[c * length + d] += K[c * n + d];
-            found += dim;
+            GhostRows &ghost = ghost_rows[at.ghost];
+            add_rows_of_node(local,
+                             a,
+                             ghost.columns.size(),
+                             ghost.columns.data(),
+                             ghost.values.data());
           }
       }
     return true;
@@ -109,8 +173,11 @@ namespace moraine
     std::fill(squares.begin(), squares.end(), 0.);
     work_sum = 0;
     node_forces.assign(space->n_nodes(), Tensor<1, dim>());
-    if (tangent)
-      *sum_of_matrices = 0;
+    if (!tangent)
+      return;
+    *sum_of_matrices = 0;
+    for (GhostRows &ghost : ghost_rows)
+      std::fill(ghost.values.begin(), ghost.values.end(), 0.);
   }
 
 
@@ -149,7 +216,15 @@ namespace moraine
   GlobalSystem<dim>::end(LA::Vector &forces)
   {
     if (with_tangent)
-      sum_of_matrices->compress(VectorOperation::add);
+      {
+        for (const GhostRows &ghost : ghost_rows)
+          for (unsigned int c = 0; c < dim; ++c)
+            sum_of_matrices->add(ghost.first_row + c,
+                                 ghost.columns.size(),
+                                 ghost.global_columns.data(),
+                                 &ghost.values[c * ghost.columns.size()]);
+        sum_of_matrices->compress(VectorOperation::add);
+      }
     space->sum_node_values(node_forces, forces);
   }
 

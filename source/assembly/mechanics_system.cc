@@ -223,7 +223,7 @@ namespace moraine
     bodies = find_bodies_of_nodes(state, body_names.size());
     sums.reinit(space,
                 constraints.homogeneous(),
-                couplings.pattern(constraints.homogeneous()),
+                couplings,
                 bodies.of_node,
                 body_names.size());
     for (LA::Vector *vector :

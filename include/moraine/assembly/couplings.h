@@ -36,6 +36,13 @@ namespace moraine
     LA::SparsityPattern
     pattern(const dealii::AffineConstraints<double> &constraints) const;
 
+    /** By the numbers of nodes on this rank. */
+    const dealii::DynamicSparsityPattern &
+    of_nodes() const
+    {
+      return nodes;
+    }
+
   private:
     const GridSpace<dim>          &space;
     dealii::DynamicSparsityPattern nodes;

@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_global_system_h
 #define moraine_assembly_global_system_h
 
+#include <moraine/assembly/couplings.h>
 #include <moraine/assembly/local_system.h>
 #include <moraine/core/linear_algebra.h>
 #include <moraine/core/local_rows.h>
@@ -22,9 +23,10 @@ namespace moraine
    * Where the terms put their forces and minus their derivatives: the matrix
    * with the constraints condensed, and the forces of all nodes as they are.
    *
-   * Matrices of nodes that this rank owns and no constraint touches are summed
-   * where the rows lie in memory: the columns of a node follow each other, so
-   * one search finds a pair of nodes. Others take deal.II's way.
+   * Matrices of nodes that no constraint touches are summed where the rows lie
+   * in memory: the columns of a node follow each other, so one search finds a
+   * pair of nodes. Rows of other ranks are summed here before they are sent.
+   * Others take deal.II's way.
    */
   template <int dim>
   class GlobalSystem
@@ -37,12 +39,13 @@ namespace moraine
       sum_of_matrices.reset();
     }
 
-    /** Make a matrix with a new pattern. Forces are measured for each of
-     * @p n_bodies, to which nodes belong by @p body_of_node. */
+    /** Make a matrix with the pattern of @p couplings. Forces are measured for
+     * each of @p n_bodies, to which nodes belong by @p body_of_node.
+     * Collective. */
     void
     reinit(const GridSpace<dim>                    &space,
            const dealii::AffineConstraints<double> &constraints,
-           const LA::SparsityPattern               &pattern,
+           const Couplings<dim>                    &couplings,
            const std::vector<unsigned int>         &body_of_node,
            const unsigned int                       n_bodies);
 
@@ -120,17 +123,39 @@ namespace moraine
     }
 
   private:
-    /** Where an unconstrained node of this rank is in the matrix; the first
-     * of dim rows, with the same entries, and columns that follow each other,
-     * or none. */
+    /** Where an unconstrained node is in the matrix; the first of dim rows,
+     * with the same entries, and columns that follow each other, or none. */
     struct NodeInMatrix
     {
       int row    = LA::LocalRows::none;
       int column = LA::LocalRows::none;
+      int ghost  = LA::LocalRows::none; ///< in ghost_rows
+    };
+
+    /** The dim rows of a node of another rank, what this rank adds to them. */
+    struct GhostRows
+    {
+      dealii::types::global_dof_index              first_row;
+      std::vector<int>                             columns; ///< on this rank
+      std::vector<dealii::types::global_dof_index> global_columns;
+      std::vector<double>                          values; ///< row major
     };
 
     NodeInMatrix
     find_node(const unsigned int node) const;
+
+    /** Find the rows of other ranks, after all nodes are found. */
+    void
+    find_ghost_rows(const Couplings<dim> &couplings);
+
+    /** Add the rows of the a-th node of @p local, whose nodes are in
+     * by_column, to rows of @p length entries with these @p columns. */
+    void
+    add_rows_of_node(const LocalSystem<dim> &local,
+                     const unsigned int      a,
+                     const unsigned int      length,
+                     const int              *columns,
+                     double                 *values) const;
 
     /** Add to rows in memory. @return whether all nodes are there. */
     bool
@@ -141,6 +166,7 @@ namespace moraine
     std::shared_ptr<LA::SparseMatrix>        sum_of_matrices;
     LA::LocalRows                            rows;
     std::vector<NodeInMatrix>                nodes_in_matrix;
+    std::vector<GhostRows>                   ghost_rows;
     std::vector<std::pair<int, unsigned int>>
       by_column; ///< scratch: columns of nodes
     std::vector<dealii::Tensor<1, dim>> node_forces;
