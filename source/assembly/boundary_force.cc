@@ -11,17 +11,22 @@ namespace moraine
   {
     /**
      * @f$M\,(C : \mathrm{sym}(w \otimes g))\,n@f$: the flux of a displacement
-     * gradient of rank one.
+     * gradient of rank one, whose change of volume is that of
+     * @f$\bar w \otimes \bar g@f$.
      */
     template <int dim>
     Tensor<1, dim>
     flux(const Tensor<1, dim>          &w,
          const Tensor<1, dim>          &g,
+         const Tensor<1, dim>          &mean_w,
+         const Tensor<1, dim>          &mean_g,
          const Tensor<1, dim>          &n,
          const SymmetricTensor<2, dim> &M,
          const LameConstants           &C)
     {
-      return M * (C.lambda * (w * g) * n + C.mu * ((g * n) * w + (w * n) * g));
+      const double change = mean_w * mean_g;
+      return M * ((C.lambda * change + 2. * C.mu / dim * (change - w * g)) * n +
+                  C.mu * ((g * n) * w + (w * n) * g));
     }
 
 
@@ -86,7 +91,8 @@ namespace moraine
                     const Enforcement          &how,
                     const LameConstants        &C,
                     const StrainMeasure         measure,
-                    const Tensor<2, dim>       &grad_du)
+                    const Tensor<2, dim>       &grad_du,
+                    const Tensor<2, dim>       &mean_grad_du)
   {
     const Tensor<1, dim> &n = constraint.normal;
     const auto           &M = constraint.M;
@@ -94,9 +100,14 @@ namespace moraine
     Tensor<1, dim> traction = point.multiplier;
     if (&n != &point.normal && n != point.normal)
       traction = (point.multiplier * point.normal) * n;
-    const Tensor<2, dim>          A = Tensor<2, dim>(weights(how, M)) * grad_du;
-    const SymmetricTensor<2, dim> strain =
-      symmetrize(A * to_middle(A, measure));
+    const Tensor<2, dim>    W      = weights(how, M);
+    const Tensor<2, dim>    A      = W * grad_du;
+    const Tensor<2, dim>    mean_A = W * mean_grad_du;
+    SymmetricTensor<2, dim> strain = symmetrize(A * to_middle(A, measure));
+    const double            change =
+      trace(mean_A * to_middle(mean_A, measure)) - trace(strain);
+    for (unsigned int d = 0; d < dim; ++d)
+      strain[d][d] += change / dim;
     traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
     traction -= penalty(how, point.h, n, M, C) * constraint.violation;
     return pushed(traction, constraint);
@@ -113,30 +124,40 @@ namespace moraine
                      const StrainMeasure          measure,
                      const double                *N,
                      const Tensor<1, dim>        *grad_N,
+                     const Tensor<1, dim>        *mean_grad_N,
                      const Tensor<2, dim>        &grad_du,
+                     const Tensor<2, dim>        &mean_grad_du,
                      const bool                   tangent,
                      std::vector<Tensor<1, dim>> &fluxes,
                      LocalSystem<dim>            &local)
   {
-    const Tensor<1, dim> &n       = constraint.normal;
-    const auto           &M       = constraint.M;
-    const Tensor<2, dim>  W       = weights(how, M);
-    const unsigned int    n_nodes = local.dofs.size() / dim;
-    const Tensor<1, dim>  traction =
-      boundary_traction(point, constraint, how, C, measure, grad_du);
+    const Tensor<1, dim> &n        = constraint.normal;
+    const auto           &M        = constraint.M;
+    const Tensor<2, dim>  W        = weights(how, M);
+    const unsigned int    n_nodes  = local.dofs.size() / dim;
+    const Tensor<1, dim>  traction = boundary_traction(
+      point, constraint, how, C, measure, grad_du, mean_grad_du);
     const Tensor<1, dim> violation =
       point.accumulated_violation + constraint.violation;
 
     // f[b*dim+j] = flux of the unit displacement j of node b
     std::vector<Tensor<1, dim>> &f        = fluxes;
-    const auto                   evaluate = [&](const Tensor<2, dim> &B) {
-      const Tensor<2, dim> W_columns = transpose(B * W);
+    const auto                   evaluate = [&](const Tensor<2, dim> &B,
+                              const Tensor<2, dim> &mean_B) {
+      const Tensor<2, dim> W_columns      = transpose(B * W);
+      const Tensor<2, dim> mean_W_columns = transpose(mean_B * W);
       for (unsigned int b = 0; b < n_nodes; ++b)
         for (unsigned int j = 0; j < dim; ++j)
-          f[dim * b + j] = flux(W_columns[j], grad_N[b] * B, n, M, C);
+          f[dim * b + j] = flux(W_columns[j],
+                                grad_N[b] * B,
+                                mean_W_columns[j],
+                                mean_grad_N[b] * mean_B,
+                                n,
+                                M,
+                                C);
     };
     f.resize(dim * n_nodes);
-    evaluate(unit_symmetric_tensor<dim>());
+    evaluate(unit_symmetric_tensor<dim>(), unit_symmetric_tensor<dim>());
 
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
@@ -160,7 +181,8 @@ namespace moraine
               point.JxW * (N[a] * N[b] * beta[j][i] -
                            how.adjoint_sign * f[dim * a + i][j] * N[b]);
     if (measure == StrainMeasure::finite)
-      evaluate(to_middle(W * grad_du, measure));
+      evaluate(to_middle(W * grad_du, measure),
+               to_middle(W * mean_grad_du, measure));
     for (Tensor<1, dim> &flux_of_node : f)
       flux_of_node = pushed(flux_of_node, constraint);
     for (unsigned int a = 0; a < n_nodes; ++a)
@@ -179,6 +201,7 @@ namespace moraine
                                             const Enforcement &,            \
                                             const LameConstants &,          \
                                             const StrainMeasure,            \
+                                            const Tensor<2, dim> &,         \
                                             const Tensor<2, dim> &);        \
   template void           add_boundary_point(const BoundaryPoint<dim> &,    \
                                              const ConstraintState<dim> &,  \
@@ -187,6 +210,8 @@ namespace moraine
                                              const StrainMeasure,           \
                                              const double *,                \
                                              const Tensor<1, dim> *,        \
+                                             const Tensor<1, dim> *,        \
+                                             const Tensor<2, dim> &,        \
                                              const Tensor<2, dim> &,        \
                                              const bool,                    \
                                              std::vector<Tensor<1, dim>> &, \

@@ -16,24 +16,49 @@ namespace moraine
 
   namespace
   {
-    /** Value and gradient of the trial increment at a place of a boundary. */
+    /** The trial increment at a place of a boundary. */
     template <int dim>
-    std::pair<Tensor<1, dim>, Tensor<2, dim>>
+    struct Increment
+    {
+      Tensor<1, dim> value;
+      Tensor<2, dim> gradient;
+      /** By which the volume changes. */
+      Tensor<2, dim> mean_gradient;
+    };
+
+
+
+    template <int dim>
+    Increment<dim>
     increment_at(const std::vector<Tensor<1, dim>> &nodal,
                  const unsigned int                *nodes,
                  const unsigned int                 n_nodes,
                  const double                      *N,
-                 const Tensor<1, dim>              *grad_N)
+                 const Tensor<1, dim>              *grad_N,
+                 const Tensor<1, dim>              *mean_grad_N)
     {
-      Tensor<1, dim> du;
-      Tensor<2, dim> grad_du;
+      Increment<dim> du;
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           const Tensor<1, dim> &u = nodal[nodes ? nodes[a] : a];
-          du += N[a] * u;
-          grad_du += outer_product(u, grad_N[a]);
+          du.value += N[a] * u;
+          du.gradient += outer_product(u, grad_N[a]);
+          du.mean_gradient += outer_product(u, mean_grad_N[a]);
         }
-      return {du, grad_du};
+      return du;
+    }
+
+
+
+    /** The mean over the cell, or @p grad_N if there is none. */
+    template <int dim>
+    const Tensor<1, dim> *
+    mean_gradients(const State<dim>     &state,
+                   const unsigned int    cell,
+                   const Tensor<1, dim> *grad_N)
+    {
+      const Tensor<1, dim> *mean = state.cell_mean(cell);
+      return mean ? mean : grad_N;
     }
 
 
@@ -136,21 +161,26 @@ namespace moraine
         local.reinit(context.state, space.cell_nodes(cell), n, tangent);
         for (; end < points.size() && points[end].cell == cell; ++end)
           {
-            const auto [du, grad_du] = increment_at<dim>(local.nodal_increments,
-                                                         nullptr,
-                                                         n,
-                                                         boundary.N(end),
-                                                         boundary.grad_N(end));
+            const Tensor<1, dim> *mean_grad_N =
+              mean_gradients(context.state, cell, boundary.grad_N(end));
+            const auto du = increment_at<dim>(local.nodal_increments,
+                                              nullptr,
+                                              n,
+                                              boundary.N(end),
+                                              boundary.grad_N(end),
+                                              mean_grad_N);
             add_boundary_point(points[end],
                                boundary.constraint_state(points[end],
-                                                         du,
+                                                         du.value,
                                                          in_the_middle),
                                boundary.enforcement(),
                                context.cell_materials.elastic_stiffness(cell),
                                context.state.strain_measure(),
                                boundary.N(end),
                                boundary.grad_N(end),
-                               grad_du,
+                               mean_grad_N,
+                               du.gradient,
+                               du.mean_gradient,
                                tangent,
                                fluxes,
                                local);
@@ -174,14 +204,16 @@ namespace moraine
     violations.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       {
-        const auto [du, grad_du] =
-          increment_at<dim>(context.increments(),
-                            space.cell_nodes(points[q].cell),
-                            space.nodes_per_cell(),
-                            boundary.N(q),
-                            boundary.grad_N(q));
+        const auto du = increment_at<dim>(context.increments(),
+                                          space.cell_nodes(points[q].cell),
+                                          space.nodes_per_cell(),
+                                          boundary.N(q),
+                                          boundary.grad_N(q),
+                                          mean_gradients(context.state,
+                                                         points[q].cell,
+                                                         boundary.grad_N(q)));
         const auto constraint =
-          boundary.constraint_state(points[q], du, in_the_middle);
+          boundary.constraint_state(points[q], du.value, in_the_middle);
         violations[q] = constraint.violation;
         tractions[q] =
           boundary_traction(points[q],
@@ -190,7 +222,8 @@ namespace moraine
                             context.cell_materials.elastic_stiffness(
                               points[q].cell),
                             context.state.strain_measure(),
-                            grad_du);
+                            du.gradient,
+                            du.mean_gradient);
       }
   }
 
@@ -237,6 +270,7 @@ namespace moraine
                             context.cell_materials.elastic_stiffness(
                               point.cell),
                             context.state.strain_measure(),
+                            Tensor<2, dim>(),
                             Tensor<2, dim>());
       }
     boundary.set_multipliers(multipliers);

@@ -14,7 +14,8 @@ namespace moraine
 
   namespace
   {
-    /** Add the force @f$-w\,\tau g_a@f$ of a run of points of one body. */
+    /** Add the force @f$-w\,\tau g_a@f$ of a run of points of one body; with
+     * means of cells all but what their pressure does. */
     template <int dim>
     void
     add_stress_force(const TrialPoints<dim> &points,
@@ -24,7 +25,9 @@ namespace moraine
       for (unsigned int p = 0; p < points.n_points(); ++p)
         {
           const double w      = points.weight(p);
-          const auto  &stress = points.stress(p);
+          const auto   stress = points.n_means() > 0 ?
+                                  local.dilatation.take_pressure(p) :
+                                  points.stress(p);
           const auto  *grad_N = points.grad_N(p);
           for (unsigned int a = 0; a < n_nodes; ++a)
             for (unsigned int i = 0; i < dim; ++i)
@@ -72,17 +75,25 @@ namespace moraine
      * Add the tangent of one point to the upper triangle of node pairs,
      * @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
      * @f$D_{a,ijk} = w\, (c_{iljk}\, g_{a,l} + \delta_{ij}\, \tau_{kl}\,
-     * g_{a,l})@f$.
+     * g_{a,l})@f$. If the pressure p of @p tau works on means of cells, c is
+     * deviatoric and the point still has
+     * @f$w\,(-\frac2n (\mathrm{dev}\,\tau g_a \otimes g_b + g_a \otimes
+     * \mathrm{dev}\,\tau g_b) - \frac{2p}{n} g_a \otimes g_b
+     * + p\, g_b \otimes g_a)@f$ (MeanDilatation).
      */
     template <int dim>
     void
     add_tangent(const VoigtMatrix<dim>      &c,
                 const double                 w,
                 const SymmetricTensor<2, 3> *tau,
+                const bool                   has_means,
                 const Tensor<1, dim>        *g,
                 const unsigned int           n_nodes,
                 FullMatrix<double>          &matrix)
     {
+      double p = 0;
+      for (unsigned int d = 0; tau && d < dim; ++d)
+        p += (*tau)[d][d] / dim;
       constexpr unsigned int n     = n_voigt<dim>;
       constexpr auto         voigt = voigt_numbers<dim>();
       for (unsigned int a = 0; a < n_nodes; ++a)
@@ -110,6 +121,15 @@ namespace moraine
                   tau_g += (*tau)[k][l] * w_g[l];
                 for (unsigned int i = 0; i < dim; ++i)
                   D[i][k][i] += tau_g;
+                if (!has_means)
+                  continue;
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    D[k][j][j] += 2. / dim * (p * w_g[k] - tau_g);
+                    D[k][k][j] += p * w_g[j];
+                    for (unsigned int i = 0; i < dim; ++i)
+                      D[i][k][j] -= 2. / dim * w_g[i] * (*tau)[j][k];
+                  }
               }
           for (unsigned int i = 0; i < dim; ++i)
             add_row<dim>(D[i],
@@ -208,6 +228,25 @@ namespace moraine
               }
           }
     }
+
+
+
+    /** The force of a pressure times volume on the means of the cells. */
+    template <int dim>
+    void
+    add_mean_pressure(const double              v_p,
+                      const CellMeanBlock<dim> &means,
+                      const unsigned int        p,
+                      LocalSystem<dim>         &local)
+    {
+      for (unsigned int c = 0; c < means.n_cells; ++c)
+        for (unsigned int a = c * means.n_corners;
+             a < (c + 1) * means.n_corners;
+             ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            local.force[dim * means.places[a] + i] -=
+              v_p * means.share(p, c) * means.gradients[a][i];
+    }
   } // namespace
 
 
@@ -253,6 +292,9 @@ namespace moraine
       {
         end = state.end_of_body(block, begin);
         trial.evaluate(state, block, begin, end, local.nodal_increments.data());
+        const bool has_means = trial.n_means() > 0;
+        if (has_means)
+          local.dilatation.begin(trial, block.n_nodes);
         add_stress_force(trial, block.n_nodes, local);
         const Material &material =
           state.material(points.body(block.points[begin]));
@@ -262,29 +304,37 @@ namespace moraine
                           trial,
                           material,
                           block.points[begin + trial.first_failure()]);
-        if (!tangent || !local.failure.empty())
-          continue;
-        if (state.strain_measure() == StrainMeasure::small &&
-            material.is_linear())
+        const bool with_tangent = tangent && local.failure.empty();
+        if (with_tangent && !trial.is_finite() && material.is_linear())
           {
+            LameConstants C = material.elastic_stiffness();
+            if (has_means)
+              {
+                local.dilatation.add_modulus(C.lambda + 2. * C.mu / dim);
+                C.lambda = -2. * C.mu / dim;
+              }
             sum_moments(state, block, begin, end, local.moments);
-            add_stiffness<dim>(local.moments,
-                               block.n_nodes,
-                               material.elastic_stiffness(),
-                               local.matrix);
+            add_stiffness<dim>(local.moments, block.n_nodes, C, local.matrix);
           }
-        else
+        else if (with_tangent)
           {
-            const bool finite = state.strain_measure() == StrainMeasure::finite;
             for (unsigned int p = 0; p < trial.n_points(); ++p)
-              add_tangent<dim>(trial.tangent(p),
-                               trial.weight(p),
-                               finite ? &trial.stress(p) : nullptr,
-                               trial.grad_N(p),
-                               block.n_nodes,
-                               local.matrix);
+              {
+                const VoigtMatrix<dim> c = trial.tangent(p);
+                add_tangent<dim>(has_means ?
+                                   local.dilatation.take_volumetric(p, c) :
+                                   c,
+                                 trial.weight(p),
+                                 trial.is_finite() ? &trial.stress(p) : nullptr,
+                                 has_means,
+                                 trial.grad_N(p),
+                                 block.n_nodes,
+                                 local.matrix);
+              }
             mirror<dim>(block.n_nodes, local.matrix);
           }
+        if (has_means)
+          local.dilatation.end(with_tangent, local.force, local.matrix);
       }
   }
 
@@ -302,9 +352,11 @@ namespace moraine
       {
         const unsigned int point = block.points[p];
         const double       v = block.share(p) * state.integration_volume(point);
-        const SymmetricTensor<2, 3> stress =
+        SymmetricTensor<2, 3> stress =
           points.stress_field()(points.values(point));
         const Tensor<1, dim> *grad_N = block.grad_N(p);
+        if (block.means.n_cells > 0)
+          add_mean_pressure(v * take_mean<dim>(stress), block.means, p, local);
         for (unsigned int a = 0; a < block.n_nodes; ++a)
           {
             const Tensor<1, dim> f = force_of_stress(v, stress, grad_N[a]);

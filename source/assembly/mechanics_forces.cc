@@ -172,7 +172,7 @@ namespace moraine
     const Basis<dim> &basis = state.point_basis();
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
-        basis.evaluate(g, block);
+        context.state.evaluate(g, block);
         for (unsigned int k = 0; k < Works::n_kinds; ++k)
           {
             if (of_kinds[k].empty())

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/couplings.h>
 #include <moraine/assembly/mechanics_system.h>
+
+#include <moraine/assembly/couplings.h>
 #include <moraine/assembly/rigid_motion_check.h>
 
 #include <deal.II/base/mpi.h>
@@ -319,7 +320,7 @@ namespace moraine
     const Basis<dim> &basis = state.point_basis();
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
-        basis.evaluate(g, block);
+        state.evaluate(g, block);
         local.reinit(state, block.nodes, block.n_nodes, tangent);
         double before = 0;
         for (const auto *term : point_terms)

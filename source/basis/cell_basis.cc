@@ -20,6 +20,22 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  Basis<dim>::evaluate_parts(const unsigned int       batch,
+                             const StencilBlock<dim> &block,
+                             CellParts<dim>          &parts) const
+  {
+    AssertDimension(block.n_nodes, CellParts<dim>::n_corners);
+    parts.cells = {points.cells()[batch].cell->active_cell_index()};
+    parts.places.resize(block.n_nodes);
+    std::iota(parts.places.begin(), parts.places.end(), 0u);
+    parts.shares.assign(block.n_points, 1.);
+    parts.gradients.assign(block.grad_N(0), block.grad_N(block.n_points));
+  }
+
+
+
   template <int dim, int degree>
   bool
   CellBasis<dim, degree>::batch_points()

@@ -6,6 +6,9 @@
 #include <moraine/basis/domain_tools.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/object_error.h>
+#include <moraine/mesh/cell_shapes.h>
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 
@@ -130,6 +133,7 @@ namespace moraine
   {
     const unsigned int first_node = this->batch_node_list.size();
     first_place.push_back(places_of_nodes.size());
+    cells_of_batches.push_back(cells);
     for (unsigned int i = 0; i < cells.n; ++i)
       {
         const unsigned int *nodes = this->space.cell_nodes(cells.cells[i]);
@@ -163,6 +167,8 @@ namespace moraine
     this->batch_node_list.clear();
     this->order.clear();
     first_place.clear();
+    cells_of_batches.clear();
+    cell_of_batch.clear();
     places_of_nodes.clear();
     cell_in_batch.resize(corner_cells.size());
 
@@ -179,6 +185,8 @@ namespace moraine
                                    [this](const CornerCells &cells) {
                                      append_batch(cells);
                                    });
+        cell_of_batch.resize(this->batches.size(),
+                             cell.cell->active_cell_index());
         for (unsigned int i = 0; i < of_batches.size(); ++i)
           {
             const auto &batch = this->batches[first_batch + i];
@@ -229,6 +237,99 @@ namespace moraine
                 grad_S[place[a]] += N[a] * gradient_weights[k];
               }
           }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  CpdiBasis<dim>::evaluate_parts(const unsigned int       batch,
+                                 const StencilBlock<dim> &block,
+                                 CellParts<dim>          &parts) const
+  {
+    const auto        &g     = this->batches[batch];
+    const CornerCells  cells = cells_of_batches[batch];
+    const unsigned int first = first_place[batch];
+    parts.cells.assign(cells.cells.begin(), cells.cells.begin() + cells.n);
+    parts.places.assign(&places_of_nodes[first],
+                        &places_of_nodes[first] + cells.n * n_corners);
+    parts.shares.assign(g.n_points * cells.n, 0.);
+    parts.gradients.assign(g.n_points * cells.n * n_corners, Tensor<1, dim>());
+    CellPatch<dim> patch(neighbours);
+    patch.reinit(neighbours.cell(cell_of_batch[batch]));
+    for (unsigned int i = 0; i < g.n_points; ++i)
+      add_parts_of(block.points[i], i, patch, parts);
+  }
+
+
+
+  template <int dim>
+  void
+  CpdiBasis<dim>::add_parts_of(const unsigned int    point,
+                               const unsigned int    i,
+                               const CellPatch<dim> &patch,
+                               CellParts<dim>       &parts) const
+  {
+    // Of a domain in one cell the gradients alone are looked for.
+    const unsigned int    m = parts.cells.size();
+    const QMidpoint<1>    middle;
+    const Quadrature<dim> rule(
+      QIterated<dim>(middle, cells_of(point).n == 1 ? 2 : 4));
+    const auto         corners = this->domain_corners(point);
+    const CellMap<dim> map(corners);
+    double             sum = 0;
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        unsigned int cell = GridSpace<dim>::no_cell;
+        double       N[n_corners];
+        if (!patch.locate(
+              this->points.position(point), map.place(rule.point(q)), cell, N))
+          continue;
+        const auto found =
+          std::find(parts.cells.begin(), parts.cells.end(), cell);
+        if (found == parts.cells.end())
+          continue;
+        const unsigned int c = found - parts.cells.begin();
+        Point<dim>         X[n_corners], xi;
+        for (unsigned int a = 0; a < n_corners; ++a)
+          {
+            X[a] = this->space.node_position(this->space.cell_nodes(cell)[a]);
+            for (unsigned int d = 0; d < dim; ++d)
+              xi[d] += (a >> d) & 1 ? N[a] : 0.;
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          xi[d] = std::clamp(xi[d], 0., 1.);
+        Tensor<1, dim> gradients[n_corners];
+        CellShapes<dim, 1>::evaluate(xi, X, N, gradients);
+        const double w =
+          rule.weight(q) * std::abs(determinant(map.jacobian(rule.point(q))));
+        sum += w;
+        parts.shares[i * m + c] += w;
+        for (unsigned int a = 0; a < n_corners; ++a)
+          parts.gradients[(i * m + c) * n_corners + a] += w * gradients[a];
+      }
+    if (sum == 0)
+      {
+        // None of the places is in a cell of a corner: take one of those.
+        Point<dim> X[n_corners], middle_of_cell;
+        for (unsigned int a = 0; a < n_corners; ++a)
+          X[a] = this->space.node_position(
+            this->space.cell_nodes(parts.cells[0])[a]);
+        for (unsigned int d = 0; d < dim; ++d)
+          middle_of_cell[d] = 0.5;
+        double N[n_corners];
+        CellShapes<dim, 1>::evaluate(middle_of_cell,
+                                     X,
+                                     N,
+                                     &parts.gradients[i * m * n_corners]);
+        parts.shares[i * m] = sum = 1;
+      }
+    for (unsigned int c = i * m; c < (i + 1) * m; ++c)
+      {
+        parts.shares[c] /= sum;
+        for (unsigned int a = c * n_corners; a < (c + 1) * n_corners; ++a)
+          parts.gradients[a] /= sum;
       }
   }
 

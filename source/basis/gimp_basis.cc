@@ -33,6 +33,7 @@ namespace moraine
     , half_length_field(points.fields().find(half_length_name))
     , initial_half_length_field(points.fields().find(initial_half_length_name))
     , half_length_offset(half_length_field.offset())
+    , local_functions(space, points)
   {}
 
 
@@ -272,6 +273,55 @@ namespace moraine
                   block.gradients[a][2] = S[0][i] * S[1][j] * dS[2][k];
               }
       }
+  }
+
+
+
+  template <int dim>
+  void
+  GimpBasis<dim>::evaluate_parts(const unsigned int       batch,
+                                 const StencilBlock<dim> &block,
+                                 CellParts<dim>          &parts) const
+  {
+    constexpr unsigned int n_corners = CellParts<dim>::n_corners;
+    const Window          &window    = windows[batch];
+    const unsigned int     n_cells   = window.n_cells();
+    parts.cells.clear();
+    parts.places.clear();
+    parts.shares.resize(block.n_points * n_cells);
+    parts.gradients.resize(block.n_points * n_cells * n_corners);
+    window.for_each_cell([&](const auto &ijk) {
+      const unsigned int c = parts.cells.size();
+      parts.cells.push_back(neighbours.box_cell(ijk));
+      for (unsigned int a = 0; a < n_corners; ++a)
+        {
+          unsigned int place = 0, stride = 1;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              place += stride * (ijk[d] - window.first[d] + ((a >> d) & 1));
+              stride *= window.last[d] - window.first[d] + 2;
+            }
+          parts.places.push_back(place);
+        }
+      for (unsigned int p = 0; p < block.n_points; ++p)
+        {
+          const auto S     = local_functions.values(ijk, block.points[p]);
+          double    &share = parts.shares[p * n_cells + c];
+          share            = 1;
+          for (unsigned int d = 0; d < dim; ++d)
+            share *= S[d][0] + S[d][1];
+          for (unsigned int a = 0; a < n_corners; ++a)
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                double slope = ((a >> i) & 1 ? 1 : -1) * (S[i][0] + S[i][1]) /
+                               grid().cell_size[i];
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (d != i)
+                    slope *= S[d][(a >> d) & 1];
+                parts.gradients[(p * n_cells + c) * n_corners + a][i] = slope;
+              }
+        }
+    });
   }
 
 

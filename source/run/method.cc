@@ -82,6 +82,7 @@ namespace moraine
                                    "elements, whose points stay in their cells";
       method.largest_degree      = 2;
       method.can_fit_weights     = false;
+      method.can_average_volume  = true;
       method.can_split_domains   = false;
       method.must_split_domains  = false;
       method.make_seeder         = gauss_points<dim>;
@@ -103,6 +104,7 @@ namespace moraine
       method.mesh_after_step     = MeshAfterStep::reset;
       method.largest_degree      = 1;
       method.can_fit_weights     = true;
+      method.can_average_volume  = true;
       method.can_split_domains   = false;
       method.must_split_domains  = false;
       method.make_seeder         = material_points<dim>;
@@ -227,6 +229,7 @@ namespace moraine
       of.text                   = text;
       of.allowed_after_step     = "reset or keep with method '" + name + "'";
       of.has_own_internal_force = true;
+      of.can_average_volume     = false;
       of.make_internal_force = [name](const auto &space, const auto &points) {
         return std::make_unique<DoubleMapping<dim>>(space, points, name);
       };
@@ -369,6 +372,15 @@ namespace moraine
       "have moved. Best with 3 or more points per direction.",
       patterns::selection({"volumes", "fitted to cells"}));
     prm.add_parameter(
+      "Volumetric strain",
+      volumetric_strain,
+      "What changes the volume of points. pointwise: the strain of each; cells "
+      "lock, far too stiff, where the material hardly changes its volume (a "
+      "Poisson ratio near 0.5, plastic flow). cell mean: the mean over the "
+      "cell, by volume (B-bar, with finite strain F-bar), of which a box has "
+      "its share in each cell.",
+      patterns::selection({"pointwise", "cell mean"}));
+    prm.add_parameter(
       "Domain update",
       domain_update,
       "Of methods with boxes at finite strain, how the box of a point changes. frozen: not. "
@@ -483,6 +495,16 @@ namespace moraine
                names_where<dim>([](const auto &m) { return m.can_fit_weights; },
                                 "") +
                " with 'reset' fits");
+    if (volumetric() == VolumetricStrain::cell_mean &&
+        !(kind.can_average_volume && degree == 1))
+      reject("Method",
+             "Volumetric strain",
+             volumetric_strain,
+             "pointwise with method '" + method + "' and degree " +
+               std::to_string(degree) + "; " +
+               names_where<dim>(
+                 [](const auto &m) { return m.can_average_volume; }, "") +
+               " of degree 1 average");
     if (split_domains == "true" && !kind.can_split_domains)
       reject("Method",
              "Split domains",

@@ -122,7 +122,8 @@ namespace moraine
                                          materials,
                                          scene.method.after_step(),
                                          scene.method.strain_measure(),
-                                         scene.method.weights());
+                                         scene.method.weights(),
+                                         scene.method.volumetric());
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);

@@ -67,6 +67,12 @@ namespace moraine
                "Integrator",
                chosen.integrator,
                "another one with method '" + scene.method.method + "'");
+      if (chosen.integrator == "energy-momentum" &&
+          scene.method.volumetric() == VolumetricStrain::cell_mean)
+        reject(section,
+               "Integrator",
+               chosen.integrator,
+               "another one with 'Volumetric strain = cell mean'");
       for (const auto &entry : given)
         {
           if (entry.section != section)
@@ -111,6 +117,16 @@ namespace moraine
                          time_section(name),
                          stage.time.integrator,
                          given);
+      if (scene.method.volumetric() == VolumetricStrain::cell_mean)
+        for (const auto &[name, body] : scene.bodies)
+          if (body.damping.stiffness_factor > 0 || body.damping.ratio > 0)
+            reject("Bodies/" + name,
+                   body.damping.ratio > 0 ? "Damping ratio" :
+                                            "Stiffness damping",
+                   std::to_string(body.damping.ratio > 0 ?
+                                       body.damping.ratio :
+                                       body.damping.stiffness_factor),
+                   "0 with 'Volumetric strain = cell mean'");
       for (const auto &entry : given)
         {
           if (entry.key == "Initial velocity" && !scene.is_dynamic())

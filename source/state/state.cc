@@ -36,9 +36,10 @@ namespace moraine
                     PointSet<dim>                               &points,
                     Basis<dim>                                  &basis,
                     std::vector<std::shared_ptr<const Material>> materials_,
-                    const MeshAfterStep mesh_after_step,
-                    const StrainMeasure measure,
-                    const PointWeights  weights)
+                    const MeshAfterStep    mesh_after_step,
+                    const StrainMeasure    measure,
+                    const PointWeights     weights,
+                    const VolumetricStrain volumetric)
     : space(space)
     , points(points)
     , basis(basis)
@@ -48,6 +49,9 @@ namespace moraine
     , fitted_weights(weights == PointWeights::fitted_to_cells ?
                        std::make_optional<FittedWeights<dim>>(points) :
                        std::nullopt)
+    , cell_means(volumetric == VolumetricStrain::cell_mean ?
+                   std::make_optional<CellMeans<dim>>() :
+                   std::nullopt)
     , state_fields(find_fields(points, measure, materials))
     , recovery_field(points.fields().find(FieldNames<dim>::stress_of_recovery))
   {
@@ -165,7 +169,8 @@ namespace moraine
   bool
   State<dim>::begin_step()
   {
-    bool changed = false;
+    bool       changed = false;
+    const bool moved   = first_step || after_step != MeshAfterStep::keep;
     if (first_step || after_step == MeshAfterStep::reset)
       {
         std::vector<unsigned char> active(
@@ -177,8 +182,44 @@ namespace moraine
         if (fitted_weights)
           factors = fitted_weights->factors(space, points);
       }
+    if (cell_means && moved)
+      cell_means->update(space,
+                         basis,
+                         [this](const auto &block, const unsigned int i) {
+                           return volume_in_cell(block, i);
+                         });
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
+  }
+
+
+
+  template <int dim>
+  double
+  State<dim>::volume_in_cell(const StencilBlock<dim> &block,
+                             const unsigned int       i) const
+  {
+    const unsigned int p = block.points[i];
+    if (after_step != MeshAfterStep::follow_material ||
+        measure == StrainMeasure::small)
+      return integration_volume(p);
+    // What the quadrature has there now: volumes of points changed by means.
+    Tensor<2, dim> back = unit_symmetric_tensor<dim>(); // dX/dx
+    for (unsigned int a = 0; a < block.n_nodes; ++a)
+      back -=
+        outer_product(space.node_move(block.nodes[a]), block.grad_N(i)[a]);
+    return state_fields.v_0(points.values(p)) / determinant(back);
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::evaluate(const unsigned int batch, StencilBlock<dim> &block) const
+  {
+    basis.evaluate(batch, block);
+    if (cell_means)
+      cell_means->attach(batch, block);
   }
 
 
@@ -256,7 +297,10 @@ namespace moraine
     std::vector<Tensor<1, dim>> moves(points.n_local());
     std::vector<Tensor<2, dim>> gradients(points.n_local());
     const auto evaluate = [&](const Basis<dim> &of, const unsigned int g) {
-      of.evaluate(g, block);
+      if (&of == &basis)
+        this->evaluate(g, block);
+      else
+        of.evaluate(g, block);
       nodal.resize(block.n_nodes);
       for (unsigned int a = 0; a < block.n_nodes; ++a)
         nodal[a] = trial[block.nodes[a]];

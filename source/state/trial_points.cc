@@ -107,6 +107,9 @@ namespace moraine
     moved_gradients = nullptr;
     points.resize(end - begin);
     answers.resize(end - begin);
+    means.block = block.means.n_cells > 0 ? &block.means : nullptr;
+    if (means.block)
+      find_means(nodal_increments);
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const Tensor<1, dim> *grad = block.grad_N(begin + i);
@@ -116,6 +119,8 @@ namespace moraine
             for (unsigned int l = 0; l < dim; ++l)
               gradient[k][l] += nodal_increments[a][k] * grad[a][l];
         points[i].gradient = gradient;
+        if (means.block && measure == StrainMeasure::small)
+          take_mean_strain(begin, i);
       }
     const Material &material =
       state.material(state.material_points().body(block.points[begin]));
@@ -137,6 +142,80 @@ namespace moraine
     else
       ask_small(state, block, begin);
     answer(state, material);
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::find_means(const Tensor<1, dim> *nodal_increments)
+  {
+    constexpr unsigned int n = CellMeanBlock<dim>::n_corners;
+    means.changes.resize(means.block->n_cells);
+    means.gradients = means.block->gradients;
+    means.weights.resize(points.size() * means.block->n_cells);
+    for (unsigned int c = 0; c < means.block->n_cells; ++c)
+      {
+        Tensor<2, dim> A;
+        for (unsigned int a = c * n; a < (c + 1) * n; ++a)
+          A += outer_product(nodal_increments[means.block->places[a]],
+                             means.block->gradients[a]);
+        means.changes[c] = trace(A);
+        if (measure == StrainMeasure::small)
+          continue;
+        A += Tensor<2, dim>(unit_symmetric_tensor<dim>());
+        means.changes[c]             = determinant(A);
+        const Tensor<2, dim> inverse = invert(A);
+        for (unsigned int a = c * n; a < (c + 1) * n; ++a)
+          means.gradients[a] = means.block->gradients[a] * inverse;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::take_mean_strain(const unsigned int begin,
+                                     const unsigned int i)
+  {
+    double theta = 0;
+    for (unsigned int c = 0; c < means.block->n_cells; ++c)
+      {
+        const double share = means.block->share(begin + i, c);
+        means.weights[i * means.block->n_cells + c] = share;
+        theta += share * means.changes[c];
+      }
+    Tensor<2, dim> &gradient = points[i].gradient;
+    const double    change   = (theta - trace(gradient)) / dim;
+    for (unsigned int d = 0; d < dim; ++d)
+      gradient[d][d] += change;
+  }
+
+
+
+  template <int dim>
+  Tensor<2, dim>
+  TrialPoints<dim>::with_mean_volume(const Tensor<2, dim> &dF,
+                                     const unsigned int    begin,
+                                     const unsigned int    i)
+  {
+    double J            = 0;
+    bool   all_positive = true;
+    for (unsigned int c = 0; c < means.block->n_cells; ++c)
+      {
+        const double part = means.block->share(begin + i, c) * means.changes[c];
+        means.weights[i * means.block->n_cells + c] = part;
+        J += part;
+        all_positive = all_positive && part >= 0;
+      }
+    for (unsigned int c = 0; c < means.block->n_cells; ++c)
+      means.weights[i * means.block->n_cells + c] /= J;
+    TrialPoint          &at   = points[i];
+    const Tensor<2, dim> mean = std::pow(J / at.J_increment, 1. / dim) * dF;
+    if (!(J > 0) || !all_positive)
+      at.J_increment = -1;
+    at.gradient = mean - Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    return mean;
   }
 
 
@@ -207,7 +286,7 @@ namespace moraine
       moved[i * n_nodes + a] = gradients[a] * inverse;
     at.weight = block.share(begin + i) * state.integration_volume(p) /
                 state.volume_ratio(p);
-    return dF;
+    return means.block ? with_mean_volume(dF, begin, i) : dF;
   }
 
 

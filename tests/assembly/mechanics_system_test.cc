@@ -21,17 +21,20 @@ namespace
   /** A small system with one straight boundary that cuts cells. */
   struct System
   {
-    System(const bool          gimp,
-           const std::string  &enforcement,
-           const bool          roller,
-           const StrainMeasure measure = StrainMeasure::small)
+    System(const bool             gimp,
+           const std::string     &enforcement,
+           const bool             roller,
+           const StrainMeasure    measure    = StrainMeasure::small,
+           const VolumetricStrain volumetric = VolumetricStrain::pointwise)
       : scene(gimp, 2, measure)
       , state(scene.space,
               scene.points,
               *scene.basis,
               {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
               MeshAfterStep::reset,
-              measure)
+              measure,
+              PointWeights::volumes,
+              volumetric)
     {
       EnforcementParameters parameters;
       parameters.enforcement = enforcement;
@@ -89,7 +92,7 @@ namespace
 
 
 
-  using Case = std::tuple<bool, std::string, bool>;
+  using Case = std::tuple<bool, std::string, bool, VolumetricStrain>;
   class EveryEnforcement : public testing::TestWithParam<Case>
   {};
 
@@ -97,8 +100,8 @@ namespace
 
   TEST_P(EveryEnforcement, TangentIsTheDerivativeOfTheResidual)
   {
-    const auto [gimp, enforcement, roller] = GetParam();
-    System           s(gimp, enforcement, roller);
+    const auto [gimp, enforcement, roller, volumetric] = GetParam();
+    System s(gimp, enforcement, roller, StrainMeasure::small, volumetric);
     const LA::Vector x = s.field(0.1), v = s.field(-0.03);
     s.system->assemble(x, true);
     LA::Vector Kv = s.scene.space.vector();
@@ -120,8 +123,8 @@ namespace
 
   TEST_P(EveryEnforcement, TangentIsTheDerivativeAtFiniteStrain)
   {
-    const auto [gimp, enforcement, roller] = GetParam();
-    System           s(gimp, enforcement, roller, StrainMeasure::finite);
+    const auto [gimp, enforcement, roller, volumetric] = GetParam();
+    System s(gimp, enforcement, roller, StrainMeasure::finite, volumetric);
     const LA::Vector x = s.field(0.05), v = s.field(1e-6);
     s.system->assemble(x, true);
     LA::Vector Kv = s.scene.space.vector();
@@ -147,8 +150,8 @@ namespace
 
   TEST_P(EveryEnforcement, SymmetryIsReportedTruly)
   {
-    const auto [gimp, enforcement, roller] = GetParam();
-    System           s(gimp, enforcement, roller);
+    const auto [gimp, enforcement, roller, volumetric] = GetParam();
+    System s(gimp, enforcement, roller, StrainMeasure::small, volumetric);
     const LA::Vector x = s.field(0.1);
     LA::Vector       v = s.field(1.);
     v.scale(s.field(2.));
@@ -169,8 +172,8 @@ namespace
   TEST_P(EveryEnforcement, ReactionBalancesTheForcesOfTheNodes)
   {
     // Inner forces sum to zero, so what is left is reaction plus weight.
-    const auto [gimp, enforcement, roller] = GetParam();
-    System           s(gimp, enforcement, roller);
+    const auto [gimp, enforcement, roller, volumetric] = GetParam();
+    System s(gimp, enforcement, roller, StrainMeasure::small, volumetric);
     const LA::Vector x = s.field(0.1);
     s.system->assemble(x, false);
     Tensor<1, 2> sum;
@@ -198,7 +201,9 @@ namespace
                                      "symmetric Nitsche",
                                      "skew Nitsche",
                                      "penalty"),
-                     testing::Bool()));
+                     testing::Bool(),
+                     testing::Values(VolumetricStrain::pointwise,
+                                     VolumetricStrain::cell_mean)));
 
 
 

@@ -22,6 +22,7 @@ namespace
   enum class Method
   {
     material_point,
+    linear_elements,
     quadratic_elements,
     gimp,
     cpdi1,
@@ -73,17 +74,19 @@ namespace
       return layout;
     }
 
-    Box(const Method        method,
-        const bool          plastic,
-        const Forces        forces  = Forces::at_the_end,
-        const StrainMeasure measure = StrainMeasure::finite)
+    Box(const Method           method,
+        const bool             plastic,
+        const Forces           forces     = Forces::at_the_end,
+        const StrainMeasure    measure    = StrainMeasure::finite,
+        const VolumetricStrain volumetric = VolumetricStrain::pointwise)
       : law(material(plastic))
       , mesh(unit_cells<dim>(3), MPI_COMM_WORLD)
       , space(mesh, method == Method::quadratic_elements ? 2 : 1)
       , points(mesh, fields(method, law, measure))
     {
-      const bool            fe = method == Method::quadratic_elements;
-      const unsigned int    n  = fe ? 3 : 2;
+      const bool fe = method == Method::linear_elements ||
+                      method == Method::quadratic_elements;
+      const unsigned int    n = method == Method::quadratic_elements ? 3 : 2;
       const CellSeeder<dim> seeder(n,
                                    fe ? PointLayout::gauss :
                                         PointLayout::equal);
@@ -98,6 +101,7 @@ namespace
       switch (method)
         {
           case Method::material_point:
+          case Method::linear_elements:
             basis = std::make_unique<CellBasis<dim, 1>>(space, points);
             break;
           case Method::quadratic_elements:
@@ -122,7 +126,9 @@ namespace
                                            std::vector{law},
                                            fe ? MeshAfterStep::follow_material :
                                                 MeshAfterStep::reset,
-                                           measure);
+                                           measure,
+                                           PointWeights::volumes,
+                                           volumetric);
       system =
         std::make_unique<MechanicsSystem<dim>>(*state,
                                                make_terms(boundaries,
@@ -229,8 +235,12 @@ namespace
   name_of(const testing::TestParamInfo<TangentCase> &info)
   {
     const auto &[dim, method, plastic] = info.param;
-    const std::vector<std::string> names{
-      "MaterialPoint", "QuadraticElements", "Gimp", "Cpdi1", "Cpdi2"};
+    const std::vector<std::string> names{"MaterialPoint",
+                                         "LinearElements",
+                                         "QuadraticElements",
+                                         "Gimp",
+                                         "Cpdi1",
+                                         "Cpdi2"};
     return names[static_cast<int>(method)] + std::to_string(dim) + "D" +
            (plastic ? "Plastic" : "Elastic");
   }
@@ -247,6 +257,138 @@ namespace
       {
         Box<3> box(method, plastic);
         check_tangent(box);
+      }
+  }
+
+
+
+  /** @f$|v \cdot K w - w \cdot K v|@f$ over their size. */
+  template <int dim>
+  double
+  asymmetry(Box<dim> &box)
+  {
+    const LA::Vector x = box.displacements(0.03, 0.4);
+    box.system->assemble(x, false);
+    const LA::Vector v = box.displacements(1., 1.1),
+                     w = box.displacements(1., 2.3);
+    box.system->assemble(x, true);
+    LA::Vector Kv = box.space.vector(), Kw = box.space.vector();
+    box.system->tangent()->vmult(Kv, v);
+    box.system->tangent()->vmult(Kw, w);
+    return std::abs(v * Kw - w * Kv) / (v.l2_norm() * Kw.l2_norm());
+  }
+
+
+
+  /** Sum of forces, and of moments about the origin, over their size. */
+  template <int dim>
+  double
+  imbalance(const Box<dim> &box, const LA::Vector &f, const LA::Vector &x)
+  {
+    std::vector<Tensor<1, dim>> du, force;
+    box.space.node_values(x, du);
+    box.space.node_values(f, force);
+    Tensor<1, dim>              sum;
+    Tensor<1, dim == 2 ? 1 : 3> moment;
+    double                      size = 0;
+    for (unsigned int node = 0; node < box.space.n_nodes(); ++node)
+      if (box.space.locally_owned().is_element(box.space.node_dof(node)))
+        {
+          Tensor<1, dim> r(box.space.node_position(node));
+          if (box.state->strain_measure() == StrainMeasure::finite)
+            r += du[node];
+          sum += force[node];
+          if constexpr (dim == 2)
+            moment[0] += r[0] * force[node][1] - r[1] * force[node][0];
+          else
+            moment += cross_product_3d(r, force[node]);
+          size += force[node].norm();
+        }
+    return (Utilities::MPI::sum(sum, MPI_COMM_WORLD).norm() +
+            Utilities::MPI::sum(moment, MPI_COMM_WORLD).norm()) /
+           Utilities::MPI::sum(size, MPI_COMM_WORLD);
+  }
+
+
+
+  template <int dim>
+  void
+  check_cell_means(const Method        method,
+                   const bool          plastic,
+                   const StrainMeasure measure)
+  {
+    Box<dim> box(method,
+                 plastic,
+                 Forces::at_the_end,
+                 measure,
+                 VolumetricStrain::cell_mean);
+    check_tangent(box);
+    box.deform();
+    check_tangent(box);
+    EXPECT_LT(asymmetry(box), 1e-14);
+    const LA::Vector x = box.displacements(0.05, 1.7);
+    EXPECT_LT(imbalance(box, box.residual(x), x), 1e-13);
+  }
+
+
+
+  TEST(CellMeans, TangentIsTheSymmetricDerivativeOfForcesInBalance)
+  {
+    for (const auto method : {Method::material_point,
+                              Method::linear_elements,
+                              Method::gimp,
+                              Method::cpdi1,
+                              Method::cpdi2})
+      for (const bool plastic : {false, true})
+        for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+          {
+            SCOPED_TRACE(std::to_string(static_cast<int>(method)) +
+                         (plastic ? " plastic" : " elastic") +
+                         (measure == StrainMeasure::finite ? " finite" : ""));
+            check_cell_means<2>(method, plastic, measure);
+            check_cell_means<3>(method, plastic, measure);
+          }
+  }
+
+
+
+  /** The nodal forces that balance a uniform stress are those of the points'
+   * own gradients. */
+  template <int dim>
+  void
+  check_uniform_stress(const Method method)
+  {
+    LA::Vector f[2];
+    for (const auto volumetric :
+         {VolumetricStrain::pointwise, VolumetricStrain::cell_mean})
+      {
+        Box<dim> box(
+          method, false, Forces::at_the_end, StrainMeasure::small, volumetric);
+        SymmetricTensor<2, 3> stress;
+        stress[0][0] = -3;
+        stress[1][1] = 2;
+        stress[0][1] = 0.7;
+        for (unsigned int p = 0; p < box.points.n_local(); ++p)
+          box.state->set_initial_stress(p, stress);
+        box.begin_step(0);
+        f[volumetric == VolumetricStrain::cell_mean] =
+          box.residual(box.space.vector());
+      }
+    const double size = f[0].l2_norm();
+    EXPECT_GT(size, 0.5);
+    f[1] -= f[0];
+    EXPECT_LT(f[1].l2_norm(), 1e-14 * size);
+  }
+
+
+
+  TEST(CellMeans, CarryAUniformStressAsPointsDo)
+  {
+    for (const auto method :
+         {Method::material_point, Method::linear_elements, Method::gimp})
+      {
+        check_uniform_stress<2>(method);
+        check_uniform_stress<3>(method);
       }
   }
 

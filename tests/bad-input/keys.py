@@ -36,6 +36,14 @@ refused("key of an earlier version", settings={
 for key, value in (("Method/Put back", "0.1"), ("Method/Empty stiffness", "1e-6"),
                    ("Solver/Limit points", "jump")):
     refused("key of an earlier version", settings={key: value})
+MEAN = {"Method/Volumetric strain": "cell mean"}
+for name, settings in (
+        ("degree 2", {"Method/Method": "finite element", "Method/Degree": 2}),
+        ("double mapping", {"Method/Method": "DM-GC"}),
+        ("energy-momentum", {"Time/Integrator": "energy-momentum"}),
+        ("stiffness damping", {"Time/Integrator": "Newmark",
+                               "Bodies/block/Stiffness damping": 0.1})):
+    refused(f"cell means, {name}", settings={**MEAN, **settings})
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))

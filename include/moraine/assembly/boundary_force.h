@@ -13,8 +13,10 @@ namespace moraine
 {
   /**
    * The traction on the body at a point of an implicit boundary, t plus what
-   * the trial state adds; @p grad_du is the gradient of its increment there.
-   * See Enforcement for the weak form.
+   * the trial state adds; @p grad_du is the gradient of its increment there,
+   * and @p mean_grad_du that by which the volume changes, the mean over the
+   * cell where strains have one (CellMeans): the flux is that of the stress
+   * that points have. See Enforcement for the weak form.
    *
    * At finite strain the strain of the flux is that of the gradient with
    * respect to the middle of the step, @f$A (1 + A/2)^{-1}@f$ for
@@ -31,7 +33,8 @@ namespace moraine
                     const Enforcement            &enforcement,
                     const LameConstants          &stiffness,
                     const StrainMeasure           measure,
-                    const dealii::Tensor<2, dim> &grad_du);
+                    const dealii::Tensor<2, dim> &grad_du,
+                    const dealii::Tensor<2, dim> &mean_grad_du);
 
   /** Adds the force of such a point and, if asked, its derivative. @p fluxes
    * is scratch. */
@@ -44,7 +47,9 @@ namespace moraine
                      const StrainMeasure                  measure,
                      const double                        *N,
                      const dealii::Tensor<1, dim>        *grad_N,
+                     const dealii::Tensor<1, dim>        *mean_grad_N,
                      const dealii::Tensor<2, dim>        &grad_du,
+                     const dealii::Tensor<2, dim>        &mean_grad_du,
                      const bool                           tangent,
                      std::vector<dealii::Tensor<1, dim>> &fluxes,
                      LocalSystem<dim>                    &local);

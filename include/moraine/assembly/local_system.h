@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_local_system_h
 #define moraine_assembly_local_system_h
 
+#include <moraine/assembly/mean_dilatation.h>
 #include <moraine/state/state.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -29,6 +30,7 @@ namespace moraine
     /** Moments of gradients. */
     std::vector<double> moments;
     TrialPoints<dim>    trial_points;
+    MeanDilatation<dim> dilatation;
     /** Why a point has no stress, if one has none since it was made. */
     std::string failure;
 

@@ -15,6 +15,24 @@
 
 namespace moraine
 {
+  /** The parts of points that lie in one cell each. */
+  template <int dim>
+  struct CellParts
+  {
+    static constexpr unsigned int n_corners = 1u << dim;
+
+    /** By active_cell_index(). */
+    std::vector<unsigned int> cells;
+    /** Their corners among the nodes of a batch, cell major. */
+    std::vector<unsigned int> places;
+    /** The part of each point in each cell, point major; those of a point add
+     * up to 1. */
+    std::vector<double> shares;
+    /** Share times the mean of @f$\nabla N_a@f$ over the part, for points,
+     * cells and corners. */
+    std::vector<dealii::Tensor<1, dim>> gradients;
+  };
+
   /**
    * Turns a point into the nodes it touches with @f$N@f$ and @f$\nabla N@f$.
    * Points of a cell that touch the same cells, or some of them, form a batch;
@@ -72,6 +90,15 @@ namespace moraine
     /** Fill @p block with the stencils of batch @p batch. */
     virtual void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const = 0;
+
+    /**
+     * The parts of the points of a batch in each of its cells. @p block is that
+     * of evaluate(). Here each point lies in the cell of its batch.
+     */
+    virtual void
+    evaluate_parts(const unsigned int       batch,
+                   const StencilBlock<dim> &block,
+                   CellParts<dim>          &parts) const;
 
     /**
      * How the strain of points is found when a step is accepted: a basis for

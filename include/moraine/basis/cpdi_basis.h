@@ -47,6 +47,13 @@ namespace moraine
     void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
+    /** The mesh's gradients at places spread over each domain, where those of
+     * evaluate() are interpolated between its corners. */
+    void
+    evaluate_parts(const unsigned int       batch,
+                   const StencilBlock<dim> &block,
+                   CellParts<dim>          &parts) const override;
+
     bool
     has_domains() const override
     {
@@ -135,6 +142,13 @@ namespace moraine
     void
     append_batch(const CornerCells &cells);
 
+    /** Add the parts of the i-th point of a batch. */
+    void
+    add_parts_of(const unsigned int    point,
+                 const unsigned int    i,
+                 const CellPatch<dim> &patch,
+                 CellParts<dim>       &parts) const;
+
     const CellSeeder<dim>               seeder;
     const std::string                   name;
     std::vector<bool>                   is_seeded;
@@ -153,6 +167,9 @@ namespace moraine
     /** Where the nodes of the cells of a batch stand among its nodes. */
     std::vector<unsigned char> places_of_nodes;
     std::vector<unsigned int>  first_place; ///< of a batch
+    std::vector<CornerCells>   cells_of_batches;
+    /** That of the points, by active_cell_index(). */
+    std::vector<unsigned int> cell_of_batch;
   };
 } // namespace moraine
 

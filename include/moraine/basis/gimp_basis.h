@@ -102,6 +102,11 @@ namespace moraine
     void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
+    void
+    evaluate_parts(const unsigned int       batch,
+                   const StencilBlock<dim> &block,
+                   CellParts<dim>          &parts) const override;
+
     /** If corners are tracked: a half length would not be positive. */
     std::string
     failure_of(const std::vector<dealii::Tensor<1, dim>> &nodal_increments)
@@ -168,6 +173,7 @@ namespace moraine
     const HalfLength          half_length_field;
     const HalfLength          initial_half_length_field;
     const unsigned int        half_length_offset;
+    const LocalFunctions<dim> local_functions;
     std::vector<Window>       windows;
   };
 } // namespace moraine

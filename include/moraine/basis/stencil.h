@@ -11,6 +11,33 @@
 namespace moraine
 {
   /**
+   * The cells that a batch of points touches, and what is the same for all
+   * that is in a cell.
+   */
+  template <int dim>
+  struct CellMeanBlock
+  {
+    static constexpr unsigned int n_corners = 1u << dim;
+
+    /** None where strains have no part that is the same in a cell. */
+    unsigned int n_cells = 0;
+    /** The corners of the cells among the nodes of the block, cell major. */
+    const unsigned int *places = nullptr;
+    /** The parts of the points in each cell, point major; none if there is one
+     * cell. */
+    const double *shares = nullptr;
+    /** @f$b_{ca}@f$, means of gradients at the corners, cell major. */
+    std::vector<dealii::Tensor<1, dim>> gradients;
+
+    /** @f$s_{pc}@f$; its sum over cells is 1. */
+    double
+    share(const unsigned int p, const unsigned int c) const
+    {
+      return shares ? shares[p * n_cells + c] : 1.;
+    }
+  };
+
+  /**
    * How a batch of points that touch the same nodes sees the mesh:
    * @f$N_a(x_p)@f$ and @f$\nabla N_a(x_p)@f$ for each point and node. Assembly
    * sees nothing else of a method.
@@ -24,7 +51,8 @@ namespace moraine
     const unsigned int *nodes    = nullptr; ///< node numbers of the GridSpace
     /** The part of its volume with which each point counts; none if that is
      * all of it. A point may occur more than once then. */
-    const double *shares = nullptr;
+    const double      *shares = nullptr;
+    CellMeanBlock<dim> means;
 
     /** @f$N_a@f$ of the points, point major. */
     std::vector<double> values;
@@ -57,10 +85,11 @@ namespace moraine
            const unsigned int  nodes_in_block,
            const unsigned int *node_numbers)
     {
-      n_points = points_in_block;
-      points   = point_numbers;
-      n_nodes  = nodes_in_block;
-      nodes    = node_numbers;
+      n_points      = points_in_block;
+      points        = point_numbers;
+      n_nodes       = nodes_in_block;
+      nodes         = node_numbers;
+      means.n_cells = 0;
       if (values.size() < n_points * n_nodes)
         {
           values.resize(n_points * n_nodes);

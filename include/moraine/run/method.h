@@ -35,6 +35,7 @@ namespace moraine
     std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
     std::string  point_weights        = "volumes";
+    std::string  volumetric_strain    = "pointwise";
     double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";
@@ -60,6 +61,13 @@ namespace moraine
     {
       return point_weights == "volumes" ? PointWeights::volumes :
                                           PointWeights::fitted_to_cells;
+    }
+
+    VolumetricStrain
+    volumetric() const
+    {
+      return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
+                                                VolumetricStrain::cell_mean;
     }
 
     /** Boxes keep their size at small strain. */
@@ -103,6 +111,7 @@ namespace moraine
     std::string  allowed_after_step;
     unsigned int largest_degree;
     bool         can_fit_weights;
+    bool         can_average_volume;
     bool         can_split_domains;
     /** A domain beyond the limit ends the run. */
     bool must_split_domains;

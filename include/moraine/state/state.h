@@ -9,6 +9,7 @@
 #include <moraine/material/material.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
+#include <moraine/state/cell_means.h>
 #include <moraine/state/fitted_weights.h>
 #include <moraine/state/trial_points.h>
 
@@ -39,6 +40,15 @@ namespace moraine
     fitted_to_cells
   };
 
+  /** Of the strain of points, what changes the volume. */
+  enum class VolumetricStrain
+  {
+    /** Each point's own. */
+    pointwise,
+    /** The mean over the cell, CellMeans: B-bar, at finite strain F-bar. */
+    cell_mean
+  };
+
   /**
    * The state of a step. Committed values live at the points; the trial state
    * is the nodal increment @f$\Delta u@f$ alone, because trial stresses and
@@ -58,8 +68,9 @@ namespace moraine
           Basis<dim>                                  &basis,
           std::vector<std::shared_ptr<const Material>> materials,
           const MeshAfterStep                          mesh_after_step,
-          const StrainMeasure measure = StrainMeasure::small,
-          const PointWeights  weights = PointWeights::volumes);
+          const StrainMeasure    measure    = StrainMeasure::small,
+          const PointWeights     weights    = PointWeights::volumes,
+          const VolumetricStrain volumetric = VolumetricStrain::pointwise);
 
     /**
      * Bring cells, unknowns and batches up to date with the points.
@@ -145,6 +156,25 @@ namespace moraine
      */
     std::vector<dealii::Tensor<1, dim>>
     point_increments() const;
+
+    /** Fill @p block with batch @p batch, and with the means of its cells if
+     * strains have them. */
+    void
+    evaluate(const unsigned int batch, StencilBlock<dim> &block) const;
+
+    /** The gradients by which the volume of a cell changes, one for each of its
+     * corners; a null pointer if that is a matter of each point. */
+    const dealii::Tensor<1, dim> *
+    cell_mean(const unsigned int active_cell_index) const
+    {
+      return cell_means ? cell_means->of_cell(active_cell_index) : nullptr;
+    }
+
+    bool
+    has_cell_means() const
+    {
+      return cell_means.has_value();
+    }
 
     /**
      * The end of the run of points of one body that starts at @p begin of a
@@ -250,6 +280,11 @@ namespace moraine
     is_linear() const;
 
   private:
+    /** The volume with which the i-th point of a block counts in the mean over
+     * its cell. */
+    double
+    volume_in_cell(const StencilBlock<dim> &block, const unsigned int i) const;
+
     /** Write what the i-th trial point, @p p, carries at the end of the step.
      */
     void
@@ -273,6 +308,7 @@ namespace moraine
     const StrainMeasure                                measure;
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
+    std::optional<CellMeans<dim>>                      cell_means;
     const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
     StepTime                                             times;

@@ -68,6 +68,16 @@ namespace moraine
    * @f$\frac12\ln(\Delta F\, b^e_n\, \Delta F^T)@f$ gives Kirchhoff's stress
    * @f$\tau@f$; internal forces are
    * @f$\sum_p (v_n/J_n)\, \tau\, \Delta F^{-T} \nabla N_a@f$.
+   *
+   * If a block has means of its cells, b, the material feels their change of
+   * volume (B-bar, F-bar): at small strain
+   * @f$\hat\varepsilon = \varepsilon + \frac1n (\hat\theta - \theta) 1@f$
+   * with @f$\hat\theta = \sum_c s_{pc} \sum_a \Delta u_a \cdot b_{ca}@f$,
+   * at finite strain @f$\Delta\hat F = (\hat J/J)^{1/n} \Delta F@f$ with
+   * @f$\hat J = \sum_c s_{pc} \det A_c@f$,
+   * @f$A_c = 1 + \sum_a \Delta u_a \otimes b_{ca}@f$, n = dim: in plane strain
+   * in the plane (de Souza Neto et al. 1996, 2005). Unlike there, forces and
+   * tangent are derivatives of the stored energy, so that they are symmetric.
    */
   template <int dim>
   class TrialPoints
@@ -106,11 +116,48 @@ namespace moraine
                                &block_gradients[i * n_nodes];
     }
 
-    /** @f$\sum_a \Delta u_a \otimes \nabla N_a@f$ */
+    /** @f$\sum_a \Delta u_a \otimes \nabla N_a@f$, with what changes the
+     * volume as the material feels it. */
     const dealii::Tensor<2, dim> &
     increment_gradient(const unsigned int i) const
     {
       return points[i].gradient;
+    }
+
+    bool
+    is_finite() const
+    {
+      return measure == StrainMeasure::finite;
+    }
+
+    /** The cells of which means are part of the strain; none at first. */
+    unsigned int
+    n_means() const
+    {
+      return means.block ? means.block->n_cells : 0;
+    }
+
+    /** The means' gradients in the trial state at the corners of the c-th cell,
+     * @f$\bar g_{ca} = A_c^{-T} b_{ca}@f$ or @f$b_{ca}@f$. */
+    const dealii::Tensor<1, dim> *
+    mean_gradients(const unsigned int c) const
+    {
+      return &means.gradients[c * CellMeanBlock<dim>::n_corners];
+    }
+
+    /** Where the corners of the c-th cell are among the nodes. */
+    const unsigned int *
+    mean_places(const unsigned int c) const
+    {
+      return &means.block->places[c * CellMeanBlock<dim>::n_corners];
+    }
+
+    /** @f$\omega_{pc}@f$, how much of the change of volume of the i-th point
+     * is that of the c-th cell. */
+    double
+    mean_share(const unsigned int i, const unsigned int c) const
+    {
+      return means.weights[i * means.block->n_cells + c];
     }
 
     /** See moraine::spatial_tangent(). Not of linear materials at small strain,
@@ -218,6 +265,17 @@ namespace moraine
       dealii::Tensor<1, 3>          trial_strain;
     };
 
+    /** The cells of which means are part of the strain. */
+    struct MeansOfCells
+    {
+      const CellMeanBlock<dim> *block = nullptr; ///< none without means
+      /** @f$\sum_a \Delta u_a \cdot b_{ca}@f$, or at finite strain
+       * @f$\det A_c@f$. */
+      std::vector<double>                 changes;
+      std::vector<dealii::Tensor<1, dim>> gradients; ///< in the trial state
+      std::vector<double>                 weights;   ///< of points and cells
+    };
+
     /** What find_energies() finds. */
     struct EnergyPoint
     {
@@ -225,6 +283,21 @@ namespace moraine
       dealii::SymmetricTensor<2, 3> stress; ///< at the start of the step
       dealii::Tensor<2, 3> carried; ///< @f$\Delta F\,\tau_n\,\Delta F^{-1}@f$
     };
+
+    /** Change of volume and gradients of the cells in the trial state. */
+    void
+    find_means(const dealii::Tensor<1, dim> *nodal_increments);
+
+    /** The mean change of volume of the i-th point instead of its own, at small
+     * strain. */
+    void
+    take_mean_strain(const unsigned int begin, const unsigned int i);
+
+    /** @p dF with the mean change of volume instead of its own. */
+    dealii::Tensor<2, dim>
+    with_mean_volume(const dealii::Tensor<2, dim> &dF,
+                     const unsigned int            begin,
+                     const unsigned int            i);
 
     void
     find_small_energies(const State<dim>        &state,
@@ -282,6 +355,7 @@ namespace moraine
     unsigned int                        failure         = 0;
     const dealii::Tensor<1, dim>       *block_gradients = nullptr;
     const dealii::Tensor<1, dim>       *moved_gradients = nullptr;
+    MeansOfCells                        means;
     std::vector<dealii::Tensor<1, dim>> moved;
     std::vector<TrialPoint>             points;
     std::vector<PrincipalState>         answers;

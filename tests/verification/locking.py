@@ -1,0 +1,63 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Volume that hardly changes: Cook's membrane, and the bearing capacity of a strip
+footing, with the mean change of volume of each cell and without."""
+
+from math import pi
+
+# Of fine meshes; F-bar's at finite strain with G = 80.1938, K = 400942 (de Souza
+# Neto et al. 1996), number of cells: displacement.
+SMALL = {1 / 3: 32.3007, 0.4999: 27.755}
+PUBLISHED = {15: 6.8242, 20: 6.8589, 30: 6.8914}
+PLATEAU = 2 + pi
+MEAN, POINT = "cell mean", "pointwise"
+
+
+FE, GIMP = "prm/hard-cases/cook-fe.prm", "prm/hard-cases/cook-gimp.prm"
+
+
+def tip(scene, settings, on_ranks=None):
+    return run(scene, settings, on_ranks=on_ranks).history()[-1]["u_y at tip"]
+
+
+for title, scene in (("fe", FE), ("gimp", GIMP)):
+    for nu, exact in SMALL.items():
+        for how in (MEAN, POINT):
+            u = tip(scene, {"Materials/panel/Poisson ratio": nu,
+                            "Method/Volumetric strain": how})
+            name = f"Cook, {title}, nu = {nu:.4f}, {how}"
+            number(f"{name}: tip over exact - 1", u / exact - 1, 2)
+            if how == MEAN:
+                bound(f"{name}: tip", u / exact - 1, 1e-2)
+for method in ("CPDI1", "material point", "finite element"):
+    u = tip(GIMP, {"Method/Method": method}, on_ranks=1)
+    bound(f"Cook, unfitted, {method}", u / SMALL[0.4999] - 1, 1.2e-2)
+
+finite = {"Method/Strain": "finite", "Method/Mesh after step": "default",
+          "Materials/panel/Young modulus": 240.565, "Time/Steps": 24,
+          "Loads/shear/Curve": "t"}
+for refinements, published in (
+        (4, PUBLISHED[15] + (PUBLISHED[20] - PUBLISHED[15]) / 5),
+        (5, PUBLISHED[30])):
+    result = run(FE,
+                 {**finite, "Mesh/Refinements": refinements},
+                 on_ranks=None if refinements == 4 else 1)
+    u = result.history()[-1]["u_y at tip"]
+    name = f"Cook, finite strain, {2 ** refinements} cells"
+    number(f"{name}: tip", u, 4)
+    bound(f"{name}: over published - 1", u / published - 1, 1.5e-2)
+    number(f"{name}: Newton iterations of a step",
+           result.summary["newton_iterations"] / 24, 2)
+
+for title, scene, allowed in (
+        ("fe", "prm/hard-cases/bearing-fe.prm", 6e-2),
+        ("gimp", "prm/hard-cases/bearing-gimp.prm", 2e-2),
+        ("cpdi1", "prm/hard-cases/bearing-cpdi1.prm", 2e-2)):
+    rows = run(scene).history()
+    force = [-row["reaction_y of footing"] for row in rows]
+    number(f"bearing, {title}: plateau over (2 + pi) k - 1",
+           force[-1] / PLATEAU - 1, 2)
+    bound(f"bearing, {title}: plateau", force[-1] / PLATEAU - 1, allowed)
+    bound(f"bearing, {title}: rise in the last tenth of the way",
+          force[-1] / force[-3] - 1, 2e-2)
