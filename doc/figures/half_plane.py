@@ -63,6 +63,7 @@ print("u_y at one, elastic, 0.625 s after the start: %.2f mm"
       % (-1e3 * field(0.01, 1.01)[1][time.searchsorted(0.625 - 1e-9)]))
 
 # t + c v + u k / r_b = 0 in the mean of squares over boundary and time.
+radii = []
 for end in (0.4, 0.5, 0.6, 0.65):
     now = time < end + STEP / 2
     t, rest, pull = ([] for _ in range(3))
@@ -73,7 +74,9 @@ for end in (0.4, 0.5, 0.6, 0.65):
         pull.append(spring * u[:, now].ravel())
     t, rest, pull = map(np.concatenate, (t, rest, pull))
     radius = -(pull @ pull) / (pull @ rest)
+    radii.append(radius)
     print(f"{end} s of load: r_b = {radius:.2f} m; of the traction is left",
           ", ".join(f"{name}: {np.linalg.norm(rest + pull / r) / np.linalg.norm(t):.3f}"
-                    for name, r in (("no springs", np.inf), ("4 m", 4), ("10 m", 10),
+                    for name, r in (("no springs", np.inf), ("4 m", 4), ("10.3 m", 10.3),
                                     ("this", radius))))
+print(f"mean: r_b = {np.mean(radii):.2f} m")
