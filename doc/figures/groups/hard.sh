@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+#
+# Volume that hardly changes: mean stress below a strip footing, load over way.
+
+for how in pointwise "cell mean"; do
+  run "bearing-${how% *}" hard-cases/bearing-gimp "Method/Volumetric strain = $how"
+  run "fe-${how% *}" hard-cases/bearing-fe "Method/Volumetric strain = $how"
+done
+
+render bearing-stress "$(last bearing-pointwise/points)" "$(last bearing-cell/points)" \
+  --columns 2 --label "pointwise" "cell mean" --field mean_stress --range -6 2 \
+  --heading "Mean stress (kPa) at a settlement of 0.01, GIMP, h = 1/8, Poisson's ratio 0.49"
+
+plot bearing-load <<'GP'
+set title 'Strip footing, half width 1, h = 1/8, ν = 0.49'
+set xlabel 'settlement'
+set ylabel 'reaction per half width over k'
+plot 'bearing-pointwise/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 1 title 'GIMP, pointwise', \
+     'fe-pointwise/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 8 title 'FE, pointwise', \
+     'bearing-cell/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 3 title 'GIMP, cell mean', \
+     'fe-cell/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 4 title 'FE, cell mean', \
+     2 + pi w l lt 9 title '2 + π'
+GP
