@@ -57,7 +57,7 @@ namespace moraine
                    const unsigned int    cell,
                    const Tensor<1, dim> *grad_N)
     {
-      const Tensor<1, dim> *mean = state.cell_mean(cell);
+      const Tensor<1, dim> *mean = state.mean_gradients(cell);
       return mean ? mean : grad_N;
     }
 

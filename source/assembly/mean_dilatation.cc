@@ -3,6 +3,8 @@
 
 #include <moraine/assembly/mean_dilatation.h>
 
+#include <array>
+
 namespace moraine
 {
   using namespace dealii;
@@ -30,7 +32,7 @@ namespace moraine
     SymmetricTensor<2, 3> stress = trial->stress(i);
     const double          w_p    = trial->weight(i) * take_mean<dim>(stress);
     for (unsigned int c = 0; c < P.size(); ++c)
-      P[c] += w_p * trial->mean_share(i, c);
+      P[c] += w_p * trial->mean_weight(i, c);
     return stress;
   }
 
@@ -78,12 +80,12 @@ namespace moraine
       {
         const Tensor<1, dim> T_g = w * (T * g[a]);
         for (unsigned int c_ = 0; c_ < m; ++c_)
-          Q[c_ * n_nodes + a] += trial->mean_share(i, c_) * T_g;
+          Q[c_ * n_nodes + a] += trial->mean_weight(i, c_) * T_g;
       }
     for (unsigned int c_ = 0; c_ < m; ++c_)
       for (unsigned int d = 0; d < m; ++d)
         k[c_ * m + d] +=
-          w * modulus * trial->mean_share(i, c_) * trial->mean_share(i, d);
+          w * modulus * trial->mean_weight(i, c_) * trial->mean_weight(i, d);
     return rest;
   }
 
@@ -97,8 +99,8 @@ namespace moraine
     for (unsigned int i = 0; i < trial->n_points(); ++i)
       for (unsigned int c = 0; c < m; ++c)
         for (unsigned int d = 0; d < m; ++d)
-          k[c * m + d] += trial->weight(i) * modulus * trial->mean_share(i, c) *
-                          trial->mean_share(i, d);
+          k[c * m + d] += trial->weight(i) * modulus *
+                          trial->mean_weight(i, c) * trial->mean_weight(i, d);
   }
 
 

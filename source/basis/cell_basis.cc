@@ -31,7 +31,8 @@ namespace moraine
     parts.places.resize(block.n_nodes);
     std::iota(parts.places.begin(), parts.places.end(), 0u);
     parts.shares.assign(block.n_points, 1.);
-    parts.gradients.assign(block.grad_N(0), block.grad_N(block.n_points));
+    parts.gradients.assign(block.grad_N(0),
+                           block.grad_N(0) + block.n_points * block.n_nodes);
   }
 
 

@@ -271,66 +271,75 @@ namespace moraine
                                const CellPatch<dim> &patch,
                                CellParts<dim>       &parts) const
   {
-    // Of a domain in one cell the gradients alone are looked for.
-    const unsigned int    m = parts.cells.size();
-    const QMidpoint<1>    middle;
-    const Quadrature<dim> rule(
-      QIterated<dim>(middle, cells_of(point).n == 1 ? 2 : 4));
-    const auto         corners = this->domain_corners(point);
-    const CellMap<dim> map(corners);
-    double             sum = 0;
+    static const QIterated<dim> of_one_cell(QMidpoint<1>(), 2),
+      of_many(QMidpoint<1>(), 4);
+    const CornerCells      own     = cells_of(point);
+    const Quadrature<dim> &rule    = own.n == 1 ? of_one_cell : of_many;
+    const auto             corners = this->domain_corners(point);
+    const CellMap<dim>     map(corners);
+    double                 sum = 0;
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
         unsigned int cell = GridSpace<dim>::no_cell;
         double       N[n_corners];
-        if (!patch.locate(
-              this->points.position(point), map.place(rule.point(q)), cell, N))
+        const bool   found = patch.locate(this->points.position(point),
+                                        map.place(rule.point(q)),
+                                        cell,
+                                        N);
+        const auto   end   = own.cells.begin() + own.n;
+        if (!found || std::find(own.cells.begin(), end, cell) == end)
           continue;
-        const auto found =
-          std::find(parts.cells.begin(), parts.cells.end(), cell);
-        if (found == parts.cells.end())
-          continue;
-        const unsigned int c = found - parts.cells.begin();
-        Point<dim>         X[n_corners], xi;
+        Point<dim> xi;
         for (unsigned int a = 0; a < n_corners; ++a)
-          {
-            X[a] = this->space.node_position(this->space.cell_nodes(cell)[a]);
-            for (unsigned int d = 0; d < dim; ++d)
-              xi[d] += (a >> d) & 1 ? N[a] : 0.;
-          }
-        for (unsigned int d = 0; d < dim; ++d)
-          xi[d] = std::clamp(xi[d], 0., 1.);
-        Tensor<1, dim> gradients[n_corners];
-        CellShapes<dim, 1>::evaluate(xi, X, N, gradients);
+          for (unsigned int d = 0; d < dim; ++d)
+            xi[d] += (a >> d) & 1 ? N[a] : 0.;
         const double w =
           rule.weight(q) * std::abs(determinant(map.jacobian(rule.point(q))));
         sum += w;
-        parts.shares[i * m + c] += w;
-        for (unsigned int a = 0; a < n_corners; ++a)
-          parts.gradients[(i * m + c) * n_corners + a] += w * gradients[a];
+        add_part(i, cell, xi, w, parts);
       }
     if (sum == 0)
       {
-        // None of the places is in a cell of a corner: take one of those.
-        Point<dim> X[n_corners], middle_of_cell;
-        for (unsigned int a = 0; a < n_corners; ++a)
-          X[a] = this->space.node_position(
-            this->space.cell_nodes(parts.cells[0])[a]);
+        Point<dim> middle;
         for (unsigned int d = 0; d < dim; ++d)
-          middle_of_cell[d] = 0.5;
-        double N[n_corners];
-        CellShapes<dim, 1>::evaluate(middle_of_cell,
-                                     X,
-                                     N,
-                                     &parts.gradients[i * m * n_corners]);
-        parts.shares[i * m] = sum = 1;
+          middle[d] = 0.5;
+        sum = 1;
+        add_part(i, own.cells[0], middle, sum, parts);
       }
+    const unsigned int m = parts.cells.size();
     for (unsigned int c = i * m; c < (i + 1) * m; ++c)
       {
         parts.shares[c] /= sum;
         for (unsigned int a = c * n_corners; a < (c + 1) * n_corners; ++a)
           parts.gradients[a] /= sum;
       }
+  }
+
+
+
+  template <int dim>
+  void
+  CpdiBasis<dim>::add_part(const unsigned int i,
+                           const unsigned int cell,
+                           Point<dim>         xi,
+                           const double       weight,
+                           CellParts<dim>    &parts) const
+  {
+    const unsigned int m = parts.cells.size();
+    const unsigned int c =
+      i * m + (std::find(parts.cells.begin(), parts.cells.end(), cell) -
+               parts.cells.begin());
+    Point<dim>     X[n_corners];
+    double         N[n_corners];
+    Tensor<1, dim> gradients[n_corners];
+    for (unsigned int a = 0; a < n_corners; ++a)
+      X[a] = this->space.node_position(this->space.cell_nodes(cell)[a]);
+    for (unsigned int d = 0; d < dim; ++d)
+      xi[d] = std::clamp(xi[d], 0., 1.);
+    CellShapes<dim, 1>::evaluate(xi, X, N, gradients);
+    parts.shares[c] += weight;
+    for (unsigned int a = 0; a < n_corners; ++a)
+      parts.gradients[c * n_corners + a] += weight * gradients[a];
   }
 
 

@@ -322,6 +322,15 @@ namespace moraine
               }
         }
     });
+    // Cells touched with next to no overlap are not among those of a window.
+    for (unsigned int p = 0; p < block.n_points; ++p)
+      {
+        double sum = 0;
+        for (unsigned int c = p * n_cells; c < (p + 1) * n_cells; ++c)
+          sum += parts.shares[c];
+        for (unsigned int c = p * n_cells; c < (p + 1) * n_cells; ++c)
+          parts.shares[c] /= sum;
+      }
   }
 
 

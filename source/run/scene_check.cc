@@ -118,15 +118,12 @@ namespace moraine
                          stage.time.integrator,
                          given);
       if (scene.method.volumetric() == VolumetricStrain::cell_mean)
-        for (const auto &[name, body] : scene.bodies)
-          if (body.damping.stiffness_factor > 0 || body.damping.ratio > 0)
-            reject("Bodies/" + name,
-                   body.damping.ratio > 0 ? "Damping ratio" :
-                                            "Stiffness damping",
-                   std::to_string(body.damping.ratio > 0 ?
-                                       body.damping.ratio :
-                                       body.damping.stiffness_factor),
-                   "0 with 'Volumetric strain = cell mean'");
+        for (const auto &entry : given)
+          if (contains({"Stiffness damping", "Damping ratio"}, entry.key))
+            reject(entry.section,
+                   entry.key,
+                   entry.value,
+                   "nothing with 'Volumetric strain = cell mean'");
       for (const auto &entry : given)
         {
           if (entry.key == "Initial velocity" && !scene.is_dynamic())

@@ -52,6 +52,8 @@ namespace moraine
                        const std::vector<LA::Vector> &near_null_space,
                        const unsigned int             dim)
     {
+      if (near_null_space.size() < dim)
+        return false;
       constexpr double least_share = 0.02, most_nodes = 0.9;
       LA::Vector       diagonal(near_null_space[0]), forces(diagonal);
       matrix.trilinos_matrix().ExtractDiagonalCopy(

@@ -16,14 +16,14 @@ namespace moraine
   unsigned int
   CellMeans<dim>::number_of(const unsigned int cell)
   {
-    if (places[cell] == numbers::invalid_unsigned_int)
+    if (numbers_of[cell] == numbers::invalid_unsigned_int)
       {
-        places[cell] = cells.size();
+        numbers_of[cell] = cells.size();
         cells.push_back(cell);
         volumes.push_back(0.);
         gradients.resize(gradients.size() + n_corners);
       }
-    return places[cell];
+    return numbers_of[cell];
   }
 
 
@@ -37,8 +37,8 @@ namespace moraine
     cells.clear();
     volumes.clear();
     gradients.clear();
-    places.assign(space.mesh().triangulation().n_active_cells(),
-                  numbers::invalid_unsigned_int);
+    numbers_of.assign(space.mesh().triangulation().n_active_cells(),
+                      numbers::invalid_unsigned_int);
     batches.clear();
     cells_of_batches.clear();
     corners_of_batches.clear();
@@ -87,7 +87,7 @@ namespace moraine
     std::map<unsigned int, std::pair<Cells, Values>> messages;
     const auto append = [&](std::pair<Cells, Values> &message,
                             const unsigned int        cell) {
-      const unsigned int k = places[cell];
+      const unsigned int k = numbers_of[cell];
       message.first.push_back(cell);
       message.second.push_back(volumes[k]);
       for (unsigned int a = 0; a < n_corners; ++a)
@@ -98,8 +98,8 @@ namespace moraine
     // Owners add; then all who have a part get the sum.
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
-      if (!cell->is_locally_owned() &&
-          places[cell->active_cell_index()] != numbers::invalid_unsigned_int)
+      if (!cell->is_locally_owned() && numbers_of[cell->active_cell_index()] !=
+                                         numbers::invalid_unsigned_int)
         append(messages[cell->subdomain_id()], cell->active_cell_index());
     const auto received = Utilities::MPI::some_to_some(communicator, messages);
     for (const auto &[rank, message] : received)
@@ -120,7 +120,7 @@ namespace moraine
          Utilities::MPI::some_to_some(communicator, messages))
       for (unsigned int i = 0; i < message.first.size(); ++i)
         {
-          const unsigned int k      = places[message.first[i]];
+          const unsigned int k      = numbers_of[message.first[i]];
           const double      *values = &message.second[n * i];
           volumes[k]                = values[0];
           for (unsigned int a = 0; a < n_corners; ++a)
@@ -165,9 +165,10 @@ namespace moraine
     means.shares = g.n_cells > 1 ? &shares_of_batches[g.first_share] : nullptr;
     means.gradients.resize(g.n_cells * n_corners);
     for (unsigned int c = 0; c < g.n_cells; ++c)
-      std::copy_n(of_cell(cells_of_batches[g.first_cell + c]),
-                  n_corners,
-                  &means.gradients[c * n_corners]);
+      std::copy_n(
+        &gradients[numbers_of[cells_of_batches[g.first_cell + c]] * n_corners],
+        n_corners,
+        &means.gradients[c * n_corners]);
   }
 
 
@@ -176,9 +177,10 @@ namespace moraine
   const Tensor<1, dim> *
   CellMeans<dim>::of_cell(const unsigned int cell) const
   {
-    return places[cell] == numbers::invalid_unsigned_int ?
+    const unsigned int k = numbers_of[cell];
+    return k == numbers::invalid_unsigned_int || !(volumes[k] > 0) ?
              nullptr :
-             &gradients[places[cell] * n_corners];
+             &gradients[k * n_corners];
   }
 
 

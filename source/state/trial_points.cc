@@ -164,7 +164,10 @@ namespace moraine
         if (measure == StrainMeasure::small)
           continue;
         A += Tensor<2, dim>(unit_symmetric_tensor<dim>());
-        means.changes[c]             = determinant(A);
+        means.changes[c] = determinant(A);
+        // Else the points in it have no stress.
+        if (!(means.changes[c] > 0))
+          continue;
         const Tensor<2, dim> inverse = invert(A);
         for (unsigned int a = c * n; a < (c + 1) * n; ++a)
           means.gradients[a] = means.block->gradients[a] * inverse;
@@ -199,21 +202,25 @@ namespace moraine
                                      const unsigned int    begin,
                                      const unsigned int    i)
   {
-    double J            = 0;
-    bool   all_positive = true;
-    for (unsigned int c = 0; c < means.block->n_cells; ++c)
+    const unsigned int m         = means.block->n_cells;
+    double            *weights   = &means.weights[i * m];
+    TrialPoint        &at        = points[i];
+    double             J         = 0;
+    bool               has_means = at.J_increment > 0;
+    for (unsigned int c = 0; c < m; ++c)
       {
-        const double part = means.block->share(begin + i, c) * means.changes[c];
-        means.weights[i * means.block->n_cells + c] = part;
-        J += part;
-        all_positive = all_positive && part >= 0;
+        weights[c] = means.block->share(begin + i, c) * means.changes[c];
+        J += weights[c];
+        has_means = has_means && weights[c] >= 0;
       }
-    for (unsigned int c = 0; c < means.block->n_cells; ++c)
-      means.weights[i * means.block->n_cells + c] /= J;
-    TrialPoint          &at   = points[i];
+    if (!has_means || !(J > 0))
+      {
+        at.J_increment = -1;
+        return dF;
+      }
+    for (unsigned int c = 0; c < m; ++c)
+      weights[c] /= J;
     const Tensor<2, dim> mean = std::pow(J / at.J_increment, 1. / dim) * dF;
-    if (!(J > 0) || !all_positive)
-      at.J_increment = -1;
     at.gradient = mean - Tensor<2, dim>(unit_symmetric_tensor<dim>());
     return mean;
   }

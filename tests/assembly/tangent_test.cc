@@ -352,6 +352,29 @@ namespace
 
 
 
+  TEST(CellMeans, APointTurnedInsideOutIsNamed)
+  {
+    Box<3>     box(Method::material_point,
+               false,
+               Forces::at_the_end,
+               StrainMeasure::finite,
+               VolumetricStrain::cell_mean);
+    LA::Vector x = box.space.vector();
+    // All points near a node go through their cell, others stay.
+    for (unsigned int node = 0; node < box.space.n_nodes(); ++node)
+      if (box.space.node_position(node).distance(Point<3>(1, 1, 1)) < 0.1 &&
+          box.space.locally_owned().is_element(box.space.node_dof(node)))
+        x(box.space.node_dof(node)) = 3;
+    x.compress(VectorOperation::insert);
+    box.system->assemble(x, true);
+    EXPECT_FALSE(std::isfinite(box.system->residual().l2_norm()) &&
+                 box.system->failure().empty());
+    EXPECT_NE(box.system->failure().find("inside out"), std::string::npos)
+      << box.system->failure();
+  }
+
+
+
   /** The nodal forces that balance a uniform stress are those of the points'
    * own gradients. */
   template <int dim>

@@ -23,6 +23,15 @@ SCENES = {
     "ring, gmres": ("prm/boundaries/ring.prm", {"Solver/Solver": "gmres"}),
     "ring on a roller": ("prm/boundaries/ring-roller.prm", {}),
     "column": ("prm/verification/column.prm", {}),
+    # Boxes and domains come to lie across cells of two ranks.
+    **{f"cell means, {method}": (
+        "prm/hard-cases/bearing-gimp.prm",
+        {"Method/Method": method, "Method/Strain": "finite",
+         "Mesh/Cell size": 0.25, "Mesh/Upper corner": "5, 0.25",
+         "Grid conditions/footing/Displacement": "0; -0.2 * t",
+         "Time/Steps": 4}) for method in ("GIMP", "CPDI1")},
+    "cell means, ring": ("prm/boundaries/ring.prm",
+                         {"Method/Volumetric strain": "cell mean"}),
     "hollow sphere": ("prm/boundaries/hollow-sphere.prm",
                       {"Mesh/Cells": "5, 5, 5"}),
 }

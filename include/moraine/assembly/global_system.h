@@ -37,6 +37,7 @@ namespace moraine
     clear()
     {
       sum_of_matrices.reset();
+      ghost_rows.clear();
     }
 
     /** Make a matrix with the pattern of @p couplings. Forces are measured for

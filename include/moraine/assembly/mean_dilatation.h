@@ -39,6 +39,8 @@ namespace moraine
   class MeanDilatation
   {
   public:
+    /** For a run of points that @p trial has evaluated, until it evaluates
+     * others; their block has @p n_nodes. */
     void
     begin(const TrialPoints<dim> &trial, const unsigned int n_nodes);
 
@@ -52,7 +54,7 @@ namespace moraine
     VoigtMatrix<dim>
     take_volumetric(const unsigned int i, const VoigtMatrix<dim> &c);
 
-    /** A modulus of all points, @f$\lambda + 2\mu/n@f$. */
+    /** A modulus of all points, @f$\lambda + 2\mu/n@f$ [stress]. */
     void
     add_modulus(const double modulus);
 

@@ -28,8 +28,8 @@ namespace moraine
     /** The part of each point in each cell, point major; those of a point add
      * up to 1. */
     std::vector<double> shares;
-    /** Share times the mean of @f$\nabla N_a@f$ over the part, for points,
-     * cells and corners. */
+    /** Share times the mean of @f$\nabla N_a@f$ over the part [1/length], for
+     * points, cells and corners. */
     std::vector<dealii::Tensor<1, dim>> gradients;
   };
 

@@ -48,7 +48,8 @@ namespace moraine
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
     /** The mesh's gradients at places spread over each domain, where those of
-     * evaluate() are interpolated between its corners. */
+     * evaluate() are interpolated between its corners. What lies in cells
+     * without a corner is left out, and the rest stands for it. */
     void
     evaluate_parts(const unsigned int       batch,
                    const StencilBlock<dim> &block,
@@ -142,12 +143,20 @@ namespace moraine
     void
     append_batch(const CornerCells &cells);
 
-    /** Add the parts of the i-th point of a batch. */
+    /** Add the parts of a point, the i-th of its batch. */
     void
     add_parts_of(const unsigned int    point,
                  const unsigned int    i,
                  const CellPatch<dim> &patch,
                  CellParts<dim>       &parts) const;
+
+    /** Add a place in a cell with a weight. */
+    void
+    add_part(const unsigned int i,
+             const unsigned int cell,
+             dealii::Point<dim> xi,
+             const double       weight,
+             CellParts<dim>    &parts) const;
 
     const CellSeeder<dim>               seeder;
     const std::string                   name;

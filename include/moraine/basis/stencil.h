@@ -26,7 +26,8 @@ namespace moraine
     /** The parts of the points in each cell, point major; none if there is one
      * cell. */
     const double *shares = nullptr;
-    /** @f$b_{ca}@f$, means of gradients at the corners, cell major. */
+    /** @f$b_{ca}@f$, means of gradients at the corners [1/length], cell major.
+     */
     std::vector<dealii::Tensor<1, dim>> gradients;
 
     /** @f$s_{pc}@f$; its sum over cells is 1. */
@@ -51,7 +52,8 @@ namespace moraine
     const unsigned int *nodes    = nullptr; ///< node numbers of the GridSpace
     /** The part of its volume with which each point counts; none if that is
      * all of it. A point may occur more than once then. */
-    const double      *shares = nullptr;
+    const double *shares = nullptr;
+    /** Of State::evaluate(); reinit() takes them away. */
     CellMeanBlock<dim> means;
 
     /** @f$N_a@f$ of the points, point major. */

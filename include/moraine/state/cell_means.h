@@ -27,7 +27,7 @@ namespace moraine
   public:
     static constexpr unsigned int n_corners = CellMeanBlock<dim>::n_corners;
 
-    /** The volume of the i-th point of a block. */
+    /** The volume of the i-th point of a block [length^dim]. */
     using Volume =
       std::function<double(const StencilBlock<dim> &, const unsigned int i)>;
 
@@ -37,12 +37,12 @@ namespace moraine
            const Basis<dim>     &basis,
            const Volume         &volume);
 
-    /** Give a block of the batch @p batch its means. */
+    /** Give a block of the batch @p batch, as it was in update(), its means. */
     void
     attach(const unsigned int batch, StencilBlock<dim> &block) const;
 
-    /** @f$b_{ca}@f$ of the corners of a cell that has points and that this rank
-     * owns or touches; else a null pointer. */
+    /** @f$b_{ca}@f$ [1/length] of the corners of a cell that this rank owns or
+     * touches and in which a part of a point lies; else a null pointer. */
     const dealii::Tensor<1, dim> *
     of_cell(const unsigned int active_cell_index) const;
 
@@ -70,8 +70,8 @@ namespace moraine
     std::vector<unsigned int>           cells_of_batches;
     std::vector<unsigned int>           corners_of_batches;
     std::vector<double>                 shares_of_batches;
-    std::vector<unsigned int>           cells;  ///< active_cell_index()
-    std::vector<unsigned int>           places; ///< by active_cell_index()
+    std::vector<unsigned int>           cells;      ///< active_cell_index()
+    std::vector<unsigned int>           numbers_of; ///< by active_cell_index()
     std::vector<double>                 volumes;
     std::vector<dealii::Tensor<1, dim>> gradients;
   };

@@ -165,15 +165,9 @@ namespace moraine
     /** The gradients by which the volume of a cell changes, one for each of its
      * corners; a null pointer if that is a matter of each point. */
     const dealii::Tensor<1, dim> *
-    cell_mean(const unsigned int active_cell_index) const
+    mean_gradients(const unsigned int active_cell_index) const
     {
       return cell_means ? cell_means->of_cell(active_cell_index) : nullptr;
-    }
-
-    bool
-    has_cell_means() const
-    {
-      return cell_means.has_value();
     }
 
     /**

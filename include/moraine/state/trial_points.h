@@ -155,7 +155,7 @@ namespace moraine
     /** @f$\omega_{pc}@f$, how much of the change of volume of the i-th point
      * is that of the c-th cell. */
     double
-    mean_share(const unsigned int i, const unsigned int c) const
+    mean_weight(const unsigned int i, const unsigned int c) const
     {
       return means.weights[i * means.block->n_cells + c];
     }
