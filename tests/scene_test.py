@@ -18,15 +18,19 @@ The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
 Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """
 
+import base64
 import csv
 import itertools
 import json
 import os
 import pathlib
+import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 sys.dont_write_bytecode = True  # in a folder of sources
 from fork_server import Starter
@@ -63,6 +67,26 @@ class Run:
                 {key.split(" [")[0]: float(value) for key, value in row.items()}
                 for row in csv.DictReader(file)
             ]
+
+    def points(self, *names):
+        """Fields of the points in the last VTU file, a tuple for each point;
+        'position' is where they are, vectors have three numbers."""
+        text = sorted((self.folder / "points").glob("*.vtu"))[-1].read_text()
+        columns = []
+        for name in names:
+            label = r"<Points>\s*<DataArray" if name == "position" else \
+                f'Name="{name}"'
+            values = []
+            for tag, data in re.findall(
+                    label + r"([^>]*)>\s*(?:<Info.*?</InformationKey>)?"
+                    r"\s*(\S+)\s*<", text):  # of each rank
+                n = re.search(r'NumberOfComponents="(\d)"', tag)
+                size = struct.unpack("<4I", base64.b64decode(data[:24]))[1]
+                raw = zlib.decompress(base64.b64decode(data[24:]))
+                found = struct.unpack(f"<{size // 4}f", raw)
+                values += zip(*[iter(found)] * int(n[1])) if n else found
+            columns.append(values)
+        return list(zip(*columns))
 
 
 def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
