@@ -6,6 +6,8 @@ footing, with the mean change of volume of each cell and without."""
 
 from math import pi
 
+from mean_stress import alternating
+
 # Of fine meshes; F-bar's at finite strain with G = 80.1938, K = 400942 (de Souza
 # Neto et al. 1996), number of cells: displacement.
 SMALL = {1 / 3: 32.3007, 0.4999: 27.755}
@@ -54,10 +56,18 @@ for title, scene, allowed in (
         ("fe", "prm/hard-cases/bearing-fe.prm", 6e-2),
         ("gimp", "prm/hard-cases/bearing-gimp.prm", 2e-2),
         ("cpdi1", "prm/hard-cases/bearing-cpdi1.prm", 2e-2)):
-    rows = run(scene).history()
+    result = run(scene)
+    rows = result.history()
     force = [-row["reaction_y of footing"] for row in rows]
     number(f"bearing, {title}: plateau over (2 + pi) k - 1",
            force[-1] / PLATEAU - 1, 2)
     bound(f"bearing, {title}: plateau", force[-1] / PLATEAU - 1, allowed)
     bound(f"bearing, {title}: rise in the last tenth of the way",
           force[-1] / force[-3] - 1, 2e-2)
+    for name, (low, high, usual, largest) in alternating(result, 0.125).items():
+        if name == "nodes":
+            bound(f"bearing, {title}: mean stress smoothed over nodes, what "
+                  "alternates over the range", largest, 5e-2)
+        else:
+            number(f"bearing, {title}: mean stress of {name}, root of the mean "
+                   "square of what alternates over the range", usual, 2)
