@@ -145,8 +145,8 @@ namespace moraine
           of_held.push_back(held[k][d]);
         }
     carried.write(archive, group());
-    archive.write(group() + "/extension", of_extensions, dim);
-    archive.write(group() + "/held traction", of_held, dim);
+    archive.write(group() + "/extension", of_extensions, dim, "length");
+    archive.write(group() + "/held traction", of_held, dim, "stress");
     archive.write(group() + "/is_placed", placed ? 1u : 0u);
   }
 

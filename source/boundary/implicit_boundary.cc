@@ -301,17 +301,19 @@ namespace moraine
   {
     // Of all ranks, because a moving surface takes its points from rank to
     // rank.
-    std::vector<Point<dim>>        places;
     std::vector<CarriedPlace<dim>> all;
     for (const auto &of_one_rank :
          Utilities::MPI::all_gather(communicator, carried))
-      for (const auto &entry : of_one_rank)
-        {
-          places.emplace_back(entry.place);
-          all.push_back(entry);
-        }
+      all.insert(all.end(), of_one_rank.begin(), of_one_rank.end());
     if (all.empty())
       return;
+    // Of two as near, the same one whatever rank had it.
+    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+      return a.id < b.id;
+    });
+    std::vector<Point<dim>> places;
+    for (const auto &entry : all)
+      places.emplace_back(entry.place);
     const auto tree = pack_rtree_of_indices(places);
     for (auto &point : boundary_points)
       {
@@ -457,11 +459,11 @@ namespace moraine
       }
     const std::string group = "boundaries/" + boundary_name;
     archive.write(group + "/is_placed", placed ? 1u : 0u);
-    archive.write(group + "/t_placed", t_placed);
+    archive.write(group + "/t_placed", t_placed, "time");
     archive.distribute(group + "/carried", ids, 2);
-    archive.write(group + "/carried/place", places, dim);
-    archive.write(group + "/carried/multiplier", multipliers, dim);
-    archive.write(group + "/carried/violation", violations, dim);
+    archive.write(group + "/carried/place", places, dim, "length");
+    archive.write(group + "/carried/multiplier", multipliers, dim, "stress");
+    archive.write(group + "/carried/violation", violations, dim, "length");
   }
 
 

@@ -144,10 +144,11 @@ namespace moraine
   void
   Archive::write(const std::string  &name,
                  std::vector<double> values,
-                 const unsigned int  n_components)
+                 const unsigned int  n_components,
+                 const std::string  &unit)
   {
     AssertThrow(values.size() % n_components == 0, ExcInternalError());
-    add(name, {std::move(values), n_components});
+    add(name, {std::move(values), n_components, unit});
   }
 
 
@@ -158,15 +159,17 @@ namespace moraine
                  const unsigned int        n_components)
   {
     AssertThrow(values.size() % n_components == 0, ExcInternalError());
-    add(name, {std::move(values), n_components});
+    add(name, {std::move(values), n_components, ""});
   }
 
 
 
   void
-  Archive::write(const std::string &name, const double value)
+  Archive::write(const std::string &name,
+                 const double       value,
+                 const std::string &unit)
   {
-    write(name, std::vector<double>{value});
+    write(name, std::vector<double>{value}, 1, unit);
   }
 
 
@@ -182,7 +185,7 @@ namespace moraine
   void
   Archive::write_text(const std::string &name, const std::string &text)
   {
-    add(name, {text, 1});
+    add(name, {text, 1, ""});
   }
 
 
@@ -299,8 +302,10 @@ namespace moraine
 
 
 
-  Archive
-  Archive::gathered(const MPI_Comm &communicator) const
+  void
+  Archive::gather_each(
+    const MPI_Comm                                          &communicator,
+    const std::function<void(const std::string &, DataSet)> &take) const
   {
     const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
     std::map<std::string, std::vector<unsigned int>> orders;
@@ -311,31 +316,42 @@ namespace moraine
                           communicator),
                    set.n_components);
 
-    Archive whole;
     for (const auto &[name, set] : sets)
       {
-        DataSet copy{{}, set.n_components};
+        DataSet whole{{}, set.n_components, set.unit};
         std::visit(
           [&, &name = name, &set = set](const auto &values) {
             using T = std::decay_t<decltype(values)>;
-            if constexpr (std::is_same_v<T, std::string>)
-              copy.values = values;
-            else if (is_distributed(name))
-              {
-                const auto  all   = gather(values, communicator);
-                const auto &order = orders[group_of(name)];
-                AssertThrow(!is_root ||
-                              all.size() == order.size() * set.n_components,
-                            ExcMessage("One row for each id: " + name));
-                copy.values = ordered(all, set.n_components, order);
-              }
-            else
-              copy.values = values;
+            if constexpr (!std::is_same_v<T, std::string>)
+              if (is_distributed(name))
+                {
+                  const auto  all   = gather(values, communicator);
+                  const auto &order = orders[group_of(name)];
+                  AssertThrow(!is_root ||
+                                all.size() == order.size() * set.n_components,
+                              ExcMessage("One row for each id: " + name));
+                  whole.values = ordered(all, set.n_components, order);
+                  return;
+                }
+            if (is_root)
+              whole.values = values;
           },
           set.values);
-        if (is_root)
-          whole.add(name, std::move(copy));
+        take(name, std::move(whole));
       }
+  }
+
+
+
+  Archive
+  Archive::gathered(const MPI_Comm &communicator) const
+  {
+    const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    Archive    whole;
+    gather_each(communicator, [&](const std::string &name, DataSet set) {
+      if (is_root)
+        whole.add(name, std::move(set));
+    });
     return whole;
   }
 
@@ -364,7 +380,7 @@ namespace moraine
           }
         shape = Utilities::MPI::broadcast(communicator, shape);
         if (!is_root)
-          set = {empty_values(shape[0]), shape[1]};
+          set = {empty_values(shape[0]), shape[1], ""};
         std::visit(
           [&](auto &values) {
             using T = std::decay_t<decltype(values)>;

@@ -13,7 +13,18 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <fstream>
 #include <functional>
+#include <memory>
+#include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #ifdef DEAL_II_WITH_HDF5
 #  include <hdf5.h>
@@ -108,6 +119,43 @@ namespace moraine
 
 
 
+    /** Of the bytes of @p size values; any change of one of them shows. */
+    std::string
+    checksum_of(const void *values, const std::size_t size)
+    {
+      constexpr std::uint64_t prime = 0x9e3779b97f4a7c15;
+      std::uint64_t           sum = size, word = 0;
+      const auto             *bytes = static_cast<const char *>(values);
+      for (std::size_t i = 0; i < size; i += sizeof(word), word = 0)
+        {
+          std::memcpy(&word, bytes + i, std::min(sizeof(word), size - i));
+          sum = (sum ^ word) * prime;
+          sum ^= sum >> 32;
+        }
+      std::ostringstream text;
+      text << std::hex << sum;
+      return text.str();
+    }
+
+
+
+    std::string
+    checksum_of(const std::string &text)
+    {
+      return checksum_of(text.data(), text.size());
+    }
+
+
+
+    template <class T>
+    std::string
+    checksum_of(const std::vector<T> &values)
+    {
+      return checksum_of(values.data(), values.size() * sizeof(T));
+    }
+
+
+
     hid_t
     type_of(const std::vector<double> &)
     {
@@ -124,12 +172,54 @@ namespace moraine
 
 
 
+    /** HDF5 has no texts of length 0: all end with a zero. */
+    hid_t
+    type_of(const std::string &text)
+    {
+      const hid_t type = check(H5Tcopy(H5T_C_S1));
+      check(H5Tset_size(type, text.size() + 1));
+      check(H5Tset_cset(type, H5T_CSET_UTF8));
+      return type;
+    }
+
+
+
+    void
+    write_attribute(const hid_t        set,
+                    const std::string &name,
+                    const std::string &text)
+    {
+      const Handle type(type_of(text), H5Tclose);
+      const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+      const Handle attribute(
+        H5Acreate2(set, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+      check(H5Awrite(attribute, type, text.c_str()));
+    }
+
+
+
+    std::string
+    read_attribute(const hid_t set, const std::string &name)
+    {
+      const Handle attribute(H5Aopen(set, name.c_str(), H5P_DEFAULT), H5Aclose);
+      const Handle type(H5Aget_type(attribute), H5Tclose);
+      std::string  text(H5Tget_size(type), '\0');
+      check(H5Aread(attribute, type, &text[0]));
+      text.pop_back();
+      return text;
+    }
+
+
+
     void
     write_array(const hid_t                 file,
                 const std::string          &name,
                 const hid_t                 type,
                 const std::vector<hsize_t> &size,
-                const void                 *values)
+                const void                 *values,
+                const std::string          &unit,
+                const std::string          &checksum)
     {
       const Handle make_groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
       check(H5Pset_create_intermediate_group(make_groups, 1));
@@ -144,6 +234,9 @@ namespace moraine
                                   H5P_DEFAULT),
                        H5Dclose);
       check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+      if (!unit.empty())
+        write_attribute(set, "unit", unit);
+      write_attribute(set, "checksum", checksum);
     }
 
 
@@ -155,11 +248,9 @@ namespace moraine
     {
       if (const auto *text = std::get_if<std::string>(&set.values))
         {
-          // HDF5 has no texts of length 0.
-          const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-          check(H5Tset_size(type, text->size() + 1));
-          check(H5Tset_cset(type, H5T_CSET_UTF8));
-          write_array(file, name, type, {1}, text->c_str());
+          const Handle type(type_of(*text), H5Tclose);
+          write_array(
+            file, name, type, {1}, text->c_str(), set.unit, checksum_of(*text));
           return;
         }
       const auto write = [&](const auto &values) {
@@ -167,7 +258,9 @@ namespace moraine
                     name,
                     type_of(values),
                     {values.size() / set.n_components, set.n_components},
-                    values.data());
+                    values.data(),
+                    set.unit,
+                    checksum_of(values));
       };
       if (const auto *numbers = std::get_if<std::vector<double>>(&set.values))
         write(*numbers);
@@ -177,23 +270,43 @@ namespace moraine
 
 
 
-    /** The bytes of the file. HDF5 does not recover if a disk is full while it
-     * writes, so it writes to memory. */
-    std::vector<char>
-    file_of(const Archive &archive)
+    /** A file in memory: HDF5 does not recover if a disk is full while it
+     * writes. */
+    class FileInMemory
     {
-      const Silence silence;
-      const Handle  in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-      check(H5Pset_fapl_core(in_memory, 1 << 20, 0));
-      const Handle file(
-        H5Fcreate("archive", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose);
-      for (const auto &[name, set] : archive.data_sets())
+    public:
+      FileInMemory()
+        : access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose)
+        , file(create(access), H5Fclose)
+      {}
+
+      void
+      add(const std::string &name, const Archive::DataSet &set)
+      {
         write_set(file, name, set);
-      check(H5Fflush(file, H5F_SCOPE_GLOBAL));
-      std::vector<char> bytes(check(H5Fget_file_image(file, nullptr, 0)));
-      check(H5Fget_file_image(file, bytes.data(), bytes.size()));
-      return bytes;
-    }
+      }
+
+      void
+      write(std::ostream &out) const
+      {
+        check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+        std::vector<char> bytes(check(H5Fget_file_image(file, nullptr, 0)));
+        check(H5Fget_file_image(file, bytes.data(), bytes.size()));
+        out.write(bytes.data(), bytes.size());
+      }
+
+    private:
+      static hid_t
+      create(const hid_t access)
+      {
+        constexpr std::size_t growth = 1 << 24;
+        check(H5Pset_fapl_core(access, growth, 0));
+        return H5Fcreate("archive", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+      }
+
+      const Silence silence;
+      const Handle  access, file;
+    };
 
 
 
@@ -209,33 +322,64 @@ namespace moraine
 
 
 
-    void
-    read_set(const hid_t file, const std::string &name, Archive &archive)
+    /** @throws InputError unless @p values are those that were written. */
+    template <class Values>
+    Values
+    intact(const hid_t set, const std::string &name, Values values)
+    {
+      if (read_attribute(set, "checksum") != checksum_of(values))
+        throw InputError("the data set '" + name +
+                         "' is damaged: its checksum is another");
+      return values;
+    }
+
+
+
+    Archive::DataSet
+    read_set(const hid_t file, const std::string &name)
     {
       const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
       const Handle type(H5Dget_type(set), H5Tclose);
       const Handle space(H5Dget_space(set), H5Sclose);
       const H5T_class_t kind = H5Tget_class(type);
+      const std::string unit = check(H5Aexists(set, "unit")) > 0 ?
+                                 read_attribute(set, "unit") :
+                                 std::string();
       if (kind == H5T_STRING)
         {
           std::string text(H5Tget_size(type), '\0');
           check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &text[0]));
           text.pop_back();
-          archive.write_text(name, text);
-          return;
+          return {intact(set, name, std::move(text)), 1, unit};
         }
       hsize_t size[2];
       if (H5Sget_simple_extent_ndims(space) != 2)
         throw InputError("the data set '" + name + "' is not a table");
       check(H5Sget_simple_extent_dims(space, size, nullptr));
+      const std::size_t  n            = size[0] * size[1];
+      const unsigned int n_components = size[1];
       if (kind == H5T_FLOAT)
-        archive.write(name,
-                      read_array<double>(set, size[0] * size[1]),
-                      size[1]);
-      else
-        archive.write(name,
-                      read_array<unsigned int>(set, size[0] * size[1]),
-                      size[1]);
+        return {intact(set, name, read_array<double>(set, n)),
+                n_components,
+                unit};
+      return {intact(set, name, read_array<unsigned int>(set, n)),
+              n_components,
+              unit};
+    }
+
+
+
+    /** @throws InputError with the cause if there is no HDF5 file. */
+    hid_t
+    open_file(const std::string &path)
+    {
+      errno            = 0;
+      const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      if (file >= 0)
+        return file;
+      if (!std::ifstream(path))
+        throw InputError(std::strerror(errno));
+      throw InputError("it is no HDF5 file or not all of it");
     }
 
 
@@ -250,34 +394,85 @@ namespace moraine
 
 
 
-    Archive
-    read_whole(const std::string &path)
+    /** Take the data sets of the file whose names begin with @p start. */
+    template <class Take>
+    void
+    read_sets(const std::string &path,
+              const std::string &start,
+              const Take        &take)
     {
-      const Silence silence;
-      const Handle  file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
-                        H5Fclose);
+      const Silence            silence;
+      const Handle             file(open_file(path), H5Fclose);
       std::vector<std::string> names;
       check(H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, &note_set, &names));
-      Archive archive;
       for (const std::string &name : names)
-        read_set(file, name, archive);
-      return archive;
+        if (name.compare(0, start.size(), start) == 0)
+          take(name, read_set(file, name));
     }
 #else
-    std::vector<char>
-    file_of(const Archive &)
+    class FileInMemory
     {
-      throw InputError("deal.II was built without HDF5");
-    }
+    public:
+      FileInMemory()
+      {
+        throw InputError("deal.II was built without HDF5");
+      }
+
+      void
+      add(const std::string &, const Archive::DataSet &)
+      {}
+
+      void
+      write(std::ostream &) const
+      {}
+    };
 
 
 
-    Archive
-    read_whole(const std::string &)
+    template <class Take>
+    void
+    read_sets(const std::string &, const std::string &, const Take &)
     {
       throw InputError("deal.II was built without HDF5");
     }
 #endif
+
+
+
+    /** Add what read_sets() finds, or say why that cannot be. */
+    Archive
+    read_whole(const std::string &path, const std::string &start)
+    {
+      Archive archive;
+      try
+        {
+          read_sets(path,
+                    start,
+                    [&](const std::string &name, Archive::DataSet set) {
+                      archive.add(name, std::move(set));
+                    });
+        }
+      catch (const std::exception &error)
+        {
+          throw InputError("cannot read '" + path + "': " + error.what());
+        }
+      return archive;
+    }
+
+
+
+    /** Bring the closed file @p path to the disk and see that it is good. */
+    void
+    verify(const std::string &path)
+    {
+      const int  file    = open(path.c_str(), O_RDONLY);
+      const bool on_disk = file >= 0 && fsync(file) == 0;
+      if (file >= 0)
+        close(file);
+      if (!on_disk)
+        throw InputError(path + ": cannot be brought to the disk");
+      read_sets(path, "", [](const std::string &, const Archive::DataSet &) {});
+    }
   } // namespace
 
 
@@ -287,12 +482,30 @@ namespace moraine
              const std::string &path,
              const MPI_Comm    &communicator)
   {
-    const Archive whole = archive.gathered(communicator);
+    std::unique_ptr<FileInMemory> in_memory;
+    on_first_rank(communicator,
+                  [&]() { in_memory = std::make_unique<FileInMemory>(); });
+    // All ranks take part to the end, whatever fails on the first.
+    std::exception_ptr failure;
+    archive.gather_each(communicator,
+                        [&](const std::string &name, Archive::DataSet set) {
+                          try
+                            {
+                              if (in_memory && !failure)
+                                in_memory->add(name, set);
+                            }
+                          catch (...)
+                            {
+                              failure = std::current_exception();
+                            }
+                        });
     on_first_rank(communicator, [&]() {
-      const std::vector<char> bytes = file_of(whole);
-      AtomicFile              file(path);
-      file.stream().write(bytes.data(), bytes.size());
-      file.commit();
+      if (failure)
+        std::rethrow_exception(failure);
+      AtomicFile file(path);
+      in_memory->write(file.stream());
+      in_memory.reset();
+      file.commit(&verify);
     });
   }
 
@@ -302,16 +515,15 @@ namespace moraine
   read_file(const std::string &path, const MPI_Comm &communicator)
   {
     Archive whole;
-    on_first_rank(communicator, [&]() {
-      try
-        {
-          whole = read_whole(path);
-        }
-      catch (const std::exception &error)
-        {
-          throw InputError("cannot read '" + path + "': " + error.what());
-        }
-    });
+    on_first_rank(communicator, [&]() { whole = read_whole(path, ""); });
     return whole.scattered(communicator);
+  }
+
+
+
+  Archive
+  read_group(const std::string &path, const std::string &group)
+  {
+    return read_whole(path, group + "/");
   }
 } // namespace moraine

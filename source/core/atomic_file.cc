@@ -42,11 +42,15 @@ namespace moraine
 
 
   void
-  AtomicFile::commit()
+  AtomicFile::commit(const std::function<void(const std::string &)> &verify)
   {
     errno = 0;
     file.close(); // flushes, and fails if an earlier write did
-    if (!file || std::rename(temporary.c_str(), path.c_str()) != 0)
+    if (!file)
+      fail();
+    if (verify)
+      verify(temporary);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0)
       fail();
     committed = true;
   }

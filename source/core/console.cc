@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <streambuf>
@@ -129,6 +130,37 @@ namespace moraine
     tee->log << tee->before_log << std::flush;
     tee->before_log.clear();
     tee->keep = false;
+  }
+
+
+
+  void
+  Console::continue_log(const std::string &path, const std::size_t size)
+  {
+    if (!tee)
+      return;
+    namespace fs = std::filesystem;
+    log_path     = path;
+    std::error_code error;
+    if (fs::file_size(path, error) > size && !error)
+      fs::resize_file(path, size, error);
+    errno = 0;
+    tee->log.open(path, std::ios::app);
+    if (!tee->log)
+      throw InputError(path + ": cannot be written: " + std::strerror(errno));
+    tee->before_log.clear();
+    tee->keep = false;
+  }
+
+
+
+  std::size_t
+  Console::log_size()
+  {
+    if (!tee || !tee->log.is_open())
+      return 0;
+    tee->log.flush();
+    return static_cast<std::size_t>(tee->log.tellp());
   }
 
 

@@ -178,8 +178,8 @@ namespace moraine
           }
         weights.push_back(place.weight);
       }
-    archive.write(group + "/place", x, dim);
-    archive.write(group + "/place in mesh", in_mesh, dim);
+    archive.write(group + "/place", x, dim, "length");
+    archive.write(group + "/place in mesh", in_mesh, dim, "length");
     archive.write(group + "/normal", normals, dim);
     archive.write(group + "/weight", weights);
   }

@@ -20,7 +20,7 @@ namespace moraine
     std::vector<double> places;
     for (const Point<dim> &vertex : tria.get_vertices())
       places.insert(places.end(), vertex.begin_raw(), vertex.end_raw());
-    archive.write("mesh/vertex_position", std::move(places), dim);
+    archive.write("mesh/vertex_position", std::move(places), dim, "length");
     std::vector<double> grid;
     if (box)
       {
@@ -29,7 +29,10 @@ namespace moraine
                     box->cell_size.begin_raw(),
                     box->cell_size.end_raw());
       }
-    archive.write("mesh/box_corner_and_cell_size", std::move(grid), dim);
+    archive.write("mesh/box_corner_and_cell_size",
+                  std::move(grid),
+                  dim,
+                  "length");
   }
 
 
@@ -65,6 +68,7 @@ namespace moraine
   void
   GridSpace<dim>::write_node_values(const std::vector<Tensor<1, dim>> &values,
                                     const std::string                 &group,
+                                    const std::string                 &unit,
                                     Archive &archive) const
   {
     std::vector<unsigned int> ids;
@@ -79,7 +83,7 @@ namespace moraine
             rows.insert(rows.end(), value.begin_raw(), value.end_raw());
           }
     archive.distribute(group, std::move(ids), 2);
-    archive.write(group + "/value", std::move(rows), dim);
+    archive.write(group + "/value", std::move(rows), dim, unit);
   }
 
 
@@ -117,7 +121,7 @@ namespace moraine
   void
   GridSpace<dim>::write(Archive &archive) const
   {
-    write_node_values(moves, "nodes/move", archive);
+    write_node_values(moves, "nodes/move", "length", archive);
   }
 
 
@@ -150,9 +154,11 @@ namespace moraine
   template void
   GridSpace<2>::write_node_values(const std::vector<Tensor<1, 2>> &,
                                   const std::string &,
+                                  const std::string &,
                                   Archive &) const;
   template void
   GridSpace<3>::write_node_values(const std::vector<Tensor<1, 3>> &,
+                                  const std::string &,
                                   const std::string &,
                                   Archive &) const;
   template void

@@ -28,11 +28,16 @@ namespace moraine
                                             "mesh.pvd",
                                             "domains.pvd"};
     /** What a run has that fails before. */
-    constexpr const char *other_names[]  = {"summary.json",
-                                            "log.txt",
-                                            "parameters.prm",
-                                            "original.prm"};
-    constexpr const char *series_names[] = {"points", "mesh", "domains"};
+    constexpr const char *other_names[]      = {"summary.json",
+                                                "log.txt",
+                                                "parameters.prm",
+                                                "original.prm"};
+    constexpr const char *series_names[]     = {"points", "mesh", "domains"};
+    constexpr const char *checkpoint_names[] = {"last",
+                                                "a.h5",
+                                                "b.h5",
+                                                "a.xdmf",
+                                                "b.xdmf"};
 
     /** Whether a file name is of the kind OutputDirectory::vtu_name() gives. */
     bool
@@ -58,6 +63,9 @@ namespace moraine
           for (const auto &entry : fs::directory_iterator(folder / series))
             if (is_numbered_vtu(entry.path()))
               results.push_back(entry.path());
+      for (const char *name : checkpoint_names)
+        if (fs::exists(folder / "checkpoints" / name))
+          results.push_back(folder / "checkpoints" / name);
       return results;
     }
 
@@ -122,6 +130,16 @@ namespace moraine
 
 
 
+  OutputDirectory::OutputDirectory(const std::string &path,
+                                   const MPI_Comm    &communicator)
+    : path(path)
+    , communicator(communicator)
+  {
+    on_root(communicator, [&]() { check_writable(path); });
+  }
+
+
+
   bool
   OutputDirectory::holds_results(const std::string &path,
                                  const MPI_Comm    &communicator)
@@ -151,6 +169,18 @@ namespace moraine
 
 
   void
+  OutputDirectory::remove_vtu_from(const unsigned int number) const
+  {
+    on_root(communicator, [&]() {
+      for (const char *series : series_names)
+        for (unsigned int n = number; fs::remove(file(vtu_name(series, n)));)
+          ++n;
+    });
+  }
+
+
+
+  void
   OutputDirectory::write_parameter_files(
     const std::string              &original_text,
     const dealii::ParameterHandler &prm) const
@@ -159,6 +189,16 @@ namespace moraine
       AtomicFile original(file("original.prm"));
       original.stream() << original_text;
       original.commit();
+    });
+    write_parameters(prm);
+  }
+
+
+
+  void
+  OutputDirectory::write_parameters(const dealii::ParameterHandler &prm) const
+  {
+    on_root(communicator, [&]() {
       AtomicFile parameters(file("parameters.prm"));
       // Bodies and boundaries keep their order, which their results show.
       prm.print_parameters(parameters.stream(),

@@ -391,7 +391,10 @@ namespace moraine
       }
     archive.write("probes/point", std::move(ids));
     archive.write("probes/has_left", std::move(left));
-    archive.write("probes/displacement", std::move(displacements), 3 * dim);
+    archive.write("probes/displacement",
+                  std::move(displacements),
+                  3 * dim,
+                  "length");
   }
 
 

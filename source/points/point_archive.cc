@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace moraine
 {
@@ -21,13 +22,18 @@ namespace moraine
     const std::string position  = group + "/position";
     const std::string reference = group + "/reference_position";
     const std::string cell      = group + "/cell";
+    /** Of the point in the memory of its rank: sums go in this order. */
+    const std::string order = group + "/order";
     /** How many points each rank returned to the mesh. */
     const std::string returned = "points_returned";
+    /** Whether bodies have come or gone. */
+    const std::string changed = "bodies/have_changed";
 
     /** Points on their way to another rank. */
     struct Rows
     {
       std::vector<unsigned int> ids;
+      std::vector<unsigned int> orders;
       std::vector<unsigned int> cells;
       std::vector<double>       values;
 
@@ -35,7 +41,7 @@ namespace moraine
       void
       serialize(Serializer &serializer, const unsigned int)
       {
-        serializer &ids &cells &values;
+        serializer &ids &orders &cells &values;
       }
     };
   } // namespace
@@ -74,18 +80,23 @@ namespace moraine
       }
 
     archive.distribute(group, std::move(ids));
+    std::vector<unsigned int> orders(n);
+    std::iota(orders.begin(), orders.end(), 0u);
+    archive.write(order, std::move(orders));
     archive.write(moraine::cell, std::move(cells));
-    archive.write(moraine::position, std::move(places), dim);
+    archive.write(moraine::position, std::move(places), dim, "length");
     archive.write(reference, std::move(reference_places), dim);
     for (unsigned int f = 0; f < columns.size(); ++f)
       archive.write(group + "/" + layout.fields()[f].name,
                     std::move(columns[f]),
-                    layout.fields()[f].n_components);
+                    layout.fields()[f].n_components,
+                    layout.fields()[f].unit);
     archive.distribute(returned,
                        {Utilities::MPI::this_mpi_process(
                          background.triangulation().get_communicator())});
     archive.write(returned + "/count",
                   std::vector<unsigned int>{returned_points});
+    archive.write(changed, was_exchanged ? 1u : 0u);
   }
 
 
@@ -96,6 +107,7 @@ namespace moraine
   {
     const auto &tria             = background.triangulation();
     const auto &ids              = archive.integers(group + "/id");
+    const auto &orders           = archive.integers(order);
     const auto &cells            = archive.integers(moraine::cell);
     const auto &places           = archive.numbers(moraine::position, dim);
     const auto &reference_places = archive.numbers(reference, dim);
@@ -114,6 +126,7 @@ namespace moraine
       {
         Rows &rows = to_ranks[cell_of_index.at(cells[p])->subdomain_id()];
         rows.ids.push_back(ids[p]);
+        rows.orders.push_back(orders[p]);
         rows.cells.push_back(cells[p]);
         const auto add = [&](const std::vector<double> &from,
                              const unsigned int         n) {
@@ -127,26 +140,45 @@ namespace moraine
           add(*columns[f], layout.fields()[f].n_components);
       }
 
-    handler.clear_particles();
-    for (const auto &[rank, rows] :
-         Utilities::MPI::some_to_some(tria.get_communicator(), to_ranks))
+    // A file has them in the order of ids.
+    struct Place
+    {
+      unsigned int order, id;
+      const Rows  *rows;
+      unsigned int row;
+    };
+    const auto of_ranks =
+      Utilities::MPI::some_to_some(tria.get_communicator(), to_ranks);
+    std::vector<Place> in_order;
+    for (const auto &[rank, rows] : of_ranks)
       for (unsigned int p = 0; p < rows.ids.size(); ++p)
-        {
-          const double *row = &rows.values[p * (2 * dim + n_values)];
-          Point<dim>    x, x_reference;
-          std::copy_n(row, dim, x.begin_raw());
-          std::copy_n(row + dim, dim, x_reference.begin_raw());
-          handler.insert_particle(x,
-                                  x_reference,
-                                  rows.ids[p],
-                                  cell_of_index[rows.cells[p]],
-                                  ArrayView<const double>(row + 2 * dim,
-                                                          n_values));
-        }
+        in_order.push_back({rows.orders[p], rows.ids[p], &rows, p});
+    std::sort(in_order.begin(),
+              in_order.end(),
+              [](const auto &a, const auto &b) {
+                return std::tie(a.order, a.id) < std::tie(b.order, b.id);
+              });
+
+    handler.clear_particles();
+    for (const Place &place : in_order)
+      {
+        const Rows   &rows = *place.rows;
+        const double *row  = &rows.values[place.row * (2 * dim + n_values)];
+        Point<dim>    x, x_reference;
+        std::copy_n(row, dim, x.begin_raw());
+        std::copy_n(row + dim, dim, x_reference.begin_raw());
+        handler.insert_particle(x,
+                                x_reference,
+                                place.id,
+                                cell_of_index[rows.cells[place.row]],
+                                ArrayView<const double>(row + 2 * dim,
+                                                        n_values));
+      }
     handler.update_cached_numbers();
     lost_points.clear();
     const auto &counts = archive.integers(returned + "/count");
     returned_points    = std::accumulate(counts.begin(), counts.end(), 0u);
+    was_exchanged      = archive.integer(changed) != 0;
     number_points();
   }
 

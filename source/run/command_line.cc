@@ -11,6 +11,7 @@
 #include <moraine/core/words.h>
 #include <moraine/run/located.h>
 #include <moraine/run/parameter_reference.h>
+#include <moraine/run/resume.h>
 #include <moraine/run/scene.h>
 #include <moraine/run/simulation.h>
 #include <moraine/run/study.h>
@@ -71,6 +72,10 @@ namespace moraine
          "FILE.prm",
          "simulate a scene",
          {"--set", "--output", "--overwrite", "--quiet", "--verbose"}},
+        {"resume",
+         "OUTPUT",
+         "go on with a run from its last checkpoint",
+         {"--from", "--set", "--quiet", "--verbose"}},
         {"check",
          "FILE.prm",
          "read, cross-check, say what will be simulated; compute nothing",
@@ -106,6 +111,9 @@ namespace moraine
         {"--set",
          "\"Section/Key = value\"",
          "change the scene; may be repeated"},
+        {"--from",
+         "N|T",
+         "the checkpoint after step N, or at time T as in 0.5"},
         {"--output", "DIR", "folder for the results"},
         {"--overwrite", "", "replace the results of an earlier run in it"},
         {"--quiet", "", "show only how the run ends, and errors"},
@@ -165,6 +173,7 @@ namespace moraine
       std::string              command;
       std::string              file;
       std::vector<std::string> settings;
+      std::string              from;
       RunOptions               options;
       unsigned int             dimension = 2;
       bool                     help      = false;
@@ -218,6 +227,8 @@ namespace moraine
       check_option(option, arguments.command);
       if (option == "--set")
         arguments.settings.push_back(value());
+      else if (option == "--from")
+        arguments.from = value();
       else if (option == "--output")
         arguments.options.output_directory = value();
       else if (option == "--overwrite")
@@ -306,6 +317,50 @@ namespace moraine
 
 
 
+    /** @return the exit code. */
+    template <int dim>
+    int
+    run_with(const InputFile &input, const RunOptions &options)
+    {
+      Console console(MPI_COMM_WORLD);
+      console.set_quiet(options.verbosity == Verbosity::quiet);
+      const InterruptHandler handler(
+        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+      const Summary summary =
+        simulate<dim>(input, options, MPI_COMM_WORLD, console);
+      return summary.status == "ok" ? done : not_converged;
+    }
+
+
+
+    int
+    resume(const Arguments &arguments)
+    {
+      if (arguments.file.empty())
+        throw InputError("'moraine resume' needs the folder of a run\n" +
+                         usage_of(find_command(arguments.command)));
+      const SavedRun saved =
+        read_checkpoint(arguments.file, arguments.from, MPI_COMM_WORLD);
+      InputFile input =
+        InputFile::from_text(saved.path, saved.label.parameters);
+      for (const std::string &setting : arguments.settings)
+        input.apply_override(setting);
+      RunOptions options       = arguments.options;
+      options.output_directory = arguments.file;
+      options.saved            = &saved;
+      try
+        {
+          return saved.label.dimension == 2 ? run_with<2>(input, options) :
+                                              run_with<3>(input, options);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(located(input, error));
+        }
+    }
+
+
+
     int
     run_study(const Arguments &arguments, const InputFile &input)
     {
@@ -327,9 +382,9 @@ namespace moraine
     int
     run_scene(const Arguments &arguments, const InputFile &input)
     {
-      Console console(MPI_COMM_WORLD);
       if (arguments.command == "check")
         {
+          Console console(MPI_COMM_WORLD);
           describe<dim>(input, MPI_COMM_WORLD, console);
           console << "  nothing wrong was found" << std::endl;
           return done;
@@ -337,12 +392,7 @@ namespace moraine
       RunOptions options = arguments.options;
       options.output_directory =
         output_directory(arguments, input.get("Output", "Directory", ""));
-      console.set_quiet(options.verbosity == Verbosity::quiet);
-      const InterruptHandler handler(
-        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-      const Summary summary =
-        simulate<dim>(input, options, MPI_COMM_WORLD, console);
-      return summary.status == "ok" ? done : not_converged;
+      return run_with<dim>(input, options);
     }
 
 
@@ -377,6 +427,8 @@ namespace moraine
           return dimension_of(input) == 2 ? run_scene<2>(arguments, input) :
                                             run_scene<3>(arguments, input);
         });
+      if (arguments.command == "resume")
+        return resume(arguments);
       if (arguments.command == "study")
         return with_input(arguments, [&](const InputFile &input) {
           return run_study(arguments, input);

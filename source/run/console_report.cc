@@ -4,11 +4,13 @@
 #include <moraine/run/console_report.h>
 
 #include <moraine/core/version.h>
+#include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
@@ -77,13 +79,14 @@ namespace moraine
     , model(model)
     , options(options)
     , console(console)
+    , t_begun(scene.start_time())
   {}
 
 
 
   template <int dim>
   void
-  ConsoleReport<dim>::describe(const std::vector<std::string> &notes)
+  ConsoleReport<dim>::introduce()
   {
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(model.space->communicator());
@@ -91,6 +94,15 @@ namespace moraine
             << (n_ranks == 1 ? " process\n" : " processes\n");
     if (!scene.title.empty())
       console << scene.title << '\n';
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::describe(const std::vector<std::string> &notes)
+  {
+    introduce();
     describe_method();
     describe_bodies();
     describe_conditions();
@@ -204,6 +216,51 @@ namespace moraine
 
   template <int dim>
   void
+  ConsoleReport<dim>::run_resumes(const TimeControl &time)
+  {
+    t_begun = time.time();
+    std::ostringstream text;
+    text << "goes on after step " << time.n_accepted()
+         << ", t = " << std::setprecision(6) << time.time() << ", on "
+         << Utilities::MPI::n_mpi_processes(model.space->communicator())
+         << " process(es)";
+    note(text.str());
+    since_start.restart();
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::write(Archive &archive) const
+  {
+    const unsigned int size =
+      Utilities::MPI::broadcast(model.space->communicator(),
+                                static_cast<unsigned int>(console.log_size()));
+    archive.write("console/bytes_of_log", size);
+    archive.write("console/points_returned", n_returned);
+    archive.write("console/told_of_far_domains", has_far_domains ? 1u : 0u);
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::read(const Archive &archive)
+  {
+    n_returned      = archive.integer("console/points_returned");
+    has_far_domains = archive.integer("console/told_of_far_domains") != 0;
+    on_root(model.space->communicator(), [&]() {
+      console.continue_log(
+        (std::filesystem::path(options.output_directory) / "log.txt").string(),
+        archive.integer("console/bytes_of_log"));
+    });
+  }
+
+
+
+  template <int dim>
+  void
   ConsoleReport<dim>::step_accepted(const AcceptedStep<dim> &step)
   {
     if (step.pseudo_transient)
@@ -254,8 +311,7 @@ namespace moraine
   std::string
   ConsoleReport<dim>::time_left(const double t) const
   {
-    const double done =
-      (t - scene.start_time()) / (scene.end_time() - scene.start_time());
+    const double done = (t - t_begun) / (scene.end_time() - t_begun);
     if (!(done > 0))
       return "";
     const double       seconds = since_start.wall_time() * (1 - done) / done;

@@ -95,7 +95,7 @@ namespace moraine
 
   template <int dim>
   void
-  ResultFiles<dim>::run_begins()
+  ResultFiles<dim>::prepare_domains()
   {
     if (scene.output.points && model.basis->has_domains())
       {
@@ -104,6 +104,15 @@ namespace moraine
         });
         domains_pvd.emplace(directory.file("domains.pvd"), communicator);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::run_begins()
+  {
+    prepare_domains();
     write_vtu(t_written, Increments(model.space->n_nodes()));
   }
 
@@ -114,8 +123,8 @@ namespace moraine
   ResultFiles<dim>::write(Archive &archive) const
   {
     archive.write("output/n_vtu_written", n_vtu_written);
-    archive.write("output/t_written", t_written);
-    archive.write("output/t_accepted", t_accepted);
+    archive.write("output/t_written", t_written, "time");
+    archive.write("output/t_accepted", t_accepted, "time");
     history.write(archive);
     points_pvd.write(archive);
     mesh_pvd.write(archive);
@@ -129,13 +138,15 @@ namespace moraine
   void
   ResultFiles<dim>::read(const Archive &archive)
   {
+    prepare_domains();
     n_vtu_written = archive.integer("output/n_vtu_written");
-    t_written     = archive.number("output/t_written");
-    t_accepted    = archive.number("output/t_accepted");
+    directory.remove_vtu_from(n_vtu_written);
+    t_written  = archive.number("output/t_written");
+    t_accepted = archive.number("output/t_accepted");
     history.read(archive);
     points_pvd.read(archive);
     mesh_pvd.read(archive);
-    if (domains_pvd)
+    if (domains_pvd && archive.contains("output/domains.pvd/time"))
       domains_pvd->read(archive);
   }
 

@@ -215,6 +215,7 @@ namespace moraine
       for (const char *key : {"Lower corner", "Upper corner"})
         input.require("Mesh", key);
     mesh.check();
+    CheckpointTimes::from_text(output.times.checkpoint_every);
     check_dynamics(*this, given);
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
       reject("Mesh motion",

@@ -7,10 +7,12 @@
 #include <moraine/core/memory.h>
 #include <moraine/core/version.h>
 #include <moraine/output/on_root.h>
+#include <moraine/run/checkpoints.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/console_report.h>
 #include <moraine/run/located.h>
 #include <moraine/run/result_files.h>
+#include <moraine/run/resume.h>
 #include <moraine/run/step_driver.h>
 
 #include <deal.II/base/mpi.h>
@@ -146,6 +148,30 @@ namespace moraine
 
 
 
+    /** What checkpoints of a run say of it but for their time. */
+    template <int dim>
+    CheckpointLabel
+    label_of(const InputFile  &input,
+             Scene<dim>       &scene,
+             const RunOptions &options,
+             const MPI_Comm   &communicator)
+    {
+      CheckpointLabel label;
+      label.version  = version;
+      label.revision = revision;
+      label.scene = options.saved ? options.saved->label.scene : input.name();
+      label.dimension = dim;
+      label.ranks     = Utilities::MPI::n_mpi_processes(communicator);
+      std::ostringstream parameters;
+      scene.parameters().print_parameters(
+        parameters,
+        ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
+      label.parameters = parameters.str();
+      return label;
+    }
+
+
+
     /** Where a run writes, and what it leaves there if it fails early. */
     struct RunFolder
     {
@@ -154,11 +180,13 @@ namespace moraine
         , communicator(communicator)
       {}
 
-      /** Remove what an earlier run left. */
+      /** Remove what an earlier run left, unless this one goes on with it. */
       void
       prepare()
       {
-        if (options.write_output)
+        if (options.saved)
+          directory.emplace(options.output_directory, communicator);
+        else if (options.write_output)
           directory.emplace(options.output_directory,
                             options.overwrite,
                             communicator);
@@ -169,7 +197,7 @@ namespace moraine
                  const ParameterHandler &parameters,
                  Console                &console) const
       {
-        if (!directory)
+        if (!directory || options.saved)
           return;
         directory->write_parameter_files(input.text(), parameters);
         on_root(communicator,
@@ -183,6 +211,8 @@ namespace moraine
                     const unsigned int dim)
       {
         end_if_alone(code, what);
+        if (options.saved)
+          return;
         try
           {
             if (!directory && options.write_output && options.overwrite &&
@@ -223,7 +253,8 @@ namespace moraine
               const Model<dim>                      &model,
               StepDriver<dim>                       &driver,
               const std::vector<RunObserver<dim> *> &observers,
-              const RunTimes                        &times)
+              const RunTimes                        &times,
+              Checkpoints<dim>                      *checkpoints)
     {
       const auto fail = [&](const ExitCode code, const std::string &what) {
         end_if_alone(code, what);
@@ -237,10 +268,16 @@ namespace moraine
       std::string status = "ok", message;
       try
         {
-          if (!with_memory([&]() { return driver.run(); }))
+          const auto after_step = [&]() {
+            if (checkpoints)
+              checkpoints->after_step(driver);
+          };
+          if (!with_memory([&]() { return driver.run(after_step); }))
             {
               status  = "interrupted";
               message = "stopped by the user after the last accepted step";
+              if (checkpoints && checkpoints->write(driver))
+                message += "; 'moraine resume' goes on from there";
             }
         }
       catch (const InputError &error)
@@ -284,10 +321,17 @@ namespace moraine
     std::unique_ptr<Scene<dim>>         scene;
     std::unique_ptr<Model<dim>>         model;
     std::unique_ptr<ConsoleReport<dim>> report;
+    std::optional<ResultFiles<dim>>     files;
+    std::unique_ptr<StepDriver<dim>>    driver;
+    std::vector<RunObserver<dim> *>     observers;
+    CheckpointLabel                     label;
     try
       {
         with_memory([&]() {
           scene = std::make_unique<Scene<dim>>(input);
+          label = label_of(input, *scene, options, communicator);
+          if (options.saved)
+            check_changes(*options.saved, *scene, label.parameters);
           folder.prepare();
           folder.keep_input(input, scene->parameters(), console);
           model =
@@ -296,7 +340,20 @@ namespace moraine
                                                         *model,
                                                         options,
                                                         console);
-          report->describe(begin_first_step(*scene, *model));
+          if (options.saved)
+            report->introduce();
+          else
+            report->describe(begin_first_step(*scene, *model));
+          if (folder.directory)
+            observers.push_back(
+              &files.emplace(*scene, *model, *folder.directory, times.parts));
+          observers.push_back(report.get());
+          driver = std::make_unique<StepDriver<dim>>(*scene, *model, observers);
+          if (options.saved)
+            {
+              driver->read(options.saved->state);
+              folder.directory->write_parameters(scene->parameters());
+            }
         });
       }
     catch (const InputError &error)
@@ -316,15 +373,24 @@ namespace moraine
         throw;
       }
 
-    std::optional<ResultFiles<dim>> files;
-    std::vector<RunObserver<dim> *> observers;
+    std::optional<Checkpoints<dim>> checkpoints;
     if (folder.directory)
-      observers.push_back(
-        &files.emplace(*scene, *model, *folder.directory, times.parts));
-    observers.push_back(report.get());
-    StepDriver<dim> driver(*scene, *model, observers);
-    const Summary   summary =
-      run_steps(*scene, input, *model, driver, observers, times);
+      checkpoints.emplace(CheckpointTimes::from_text(
+                            scene->output.times.checkpoint_every),
+                          options.output_directory,
+                          label,
+                          *model,
+                          *report,
+                          times.parts);
+    if (options.saved)
+      checkpoints->go_on(*options.saved);
+    const Summary summary = run_steps(*scene,
+                                      input,
+                                      *model,
+                                      *driver,
+                                      observers,
+                                      times,
+                                      checkpoints ? &*checkpoints : nullptr);
     on_root(communicator, [&]() { console.close_log(); });
     return summary;
   }

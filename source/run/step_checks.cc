@@ -166,6 +166,36 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  StepChecks<dim>::write(Archive &archive) const
+  {
+    archive.write("checks/parts_of_bodies", n_parts);
+    std::string names;
+    for (const std::string &name : missed)
+      names += name + "\n";
+    archive.write_text("checks/missed_boundaries", names);
+    archive.write("checks/share_of_energy_made", share_made);
+    archive.write("checks/told_of_energy", told_of_energy ? 1u : 0u);
+  }
+
+
+
+  template <int dim>
+  void
+  StepChecks<dim>::read(const Archive &archive)
+  {
+    n_parts = archive.integers("checks/parts_of_bodies");
+    std::istringstream names(archive.text("checks/missed_boundaries"));
+    missed.clear();
+    for (std::string name; std::getline(names, name);)
+      missed.insert(name);
+    share_made     = archive.number("checks/share_of_energy_made");
+    told_of_energy = archive.integer("checks/told_of_energy") != 0;
+  }
+
+
+
   template class StepChecks<2>;
   template class StepChecks<3>;
 } // namespace moraine

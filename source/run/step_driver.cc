@@ -86,19 +86,24 @@ namespace moraine
 
   template <int dim>
   bool
-  StepDriver<dim>::run()
+  StepDriver<dim>::run(const std::function<void()> &after_step)
   {
     newton.watch([this](const NewtonIteration &iteration) {
       for (RunObserver<dim> *observer : observers)
         observer->newton_iteration(iteration, time_control);
     });
     for (RunObserver<dim> *observer : observers)
-      observer->run_begins();
+      if (time_control.n_accepted() == 0)
+        observer->run_begins();
+      else
+        observer->run_resumes(time_control);
     while (!time_control.finished())
       {
         if (interrupted(communicator))
           return false;
         advance();
+        if (after_step)
+          after_step();
       }
     return true;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace moraine
 {
@@ -101,5 +102,35 @@ namespace moraine
     usual        = 0;
     wasted       = 0;
     spent        = 0;
+  }
+
+
+
+  void
+  SolverChoice::write(Archive &archive) const
+  {
+    archive.write("solver/choice",
+                  std::vector<double>{factorisation,
+                                      spent,
+                                      usual,
+                                      stays_direct ? 1. : 0.,
+                                      failed ? 1. : 0.,
+                                      patience,
+                                      wasted});
+  }
+
+
+
+  void
+  SolverChoice::read(const Archive &archive)
+  {
+    const std::vector<double> &values = archive.numbers("solver/choice");
+    factorisation                     = values.at(0);
+    spent                             = values.at(1);
+    usual                             = values.at(2);
+    stays_direct                      = values.at(3) != 0;
+    failed                            = values.at(4) != 0;
+    patience                          = values.at(5);
+    wasted                            = values.at(6);
   }
 } // namespace moraine

@@ -15,20 +15,29 @@ namespace moraine
   void
   Motion<dim>::write(Archive &archive) const
   {
+    const std::string energy = "force length";
     archive.write("motion/works",
                   std::vector<double>(std::begin(done.of_forces),
-                                      std::end(done.of_forces)));
-    archive.write("motion/lost_in_transfer", done.lost_in_transfer);
-    archive.write("motion/kinetic_at_start", done.kinetic_at_start);
-    archive.write("motion/kinetic", done.kinetic);
-    archive.write("motion/stored_at_start", done.stored_at_start);
-    archive.write("motion/stored", done.stored);
-    archive.write("motion/dissipated", done.dissipated);
+                                      std::end(done.of_forces)),
+                  1,
+                  energy);
+    archive.write("motion/lost_in_transfer", done.lost_in_transfer, energy);
+    archive.write("motion/kinetic_at_start", done.kinetic_at_start, energy);
+    archive.write("motion/kinetic", done.kinetic, energy);
+    archive.write("motion/stored_at_start", done.stored_at_start, energy);
+    archive.write("motion/stored", done.stored, energy);
+    archive.write("motion/dissipated", done.dissipated, energy);
     archive.write("motion/begun", done.begun ? 1u : 0u);
     if (points_carry())
       return;
-    state.grid().write_node_values(v, "motion/velocity", archive);
-    state.grid().write_node_values(a, "motion/acceleration", archive);
+    state.grid().write_node_values(v,
+                                   "motion/velocity",
+                                   "length/time",
+                                   archive);
+    state.grid().write_node_values(a,
+                                   "motion/acceleration",
+                                   "length/time^2",
+                                   archive);
   }
 
 

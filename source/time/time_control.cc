@@ -166,11 +166,9 @@ namespace moraine
   void
   TimeControl::write(Archive &archive) const
   {
-    archive.write("time/time", current);
-    archive.write("time/step_size", accepted_size);
-    archive.write("time/next_stop", next_stop);
+    archive.write("time/time", current, "time");
+    archive.write("time/step_size", accepted_size, "time");
     archive.write("time/at_step_end", on_step_end ? 1u : 0u);
-    archive.write("time/completed_steps", completed_steps);
     archive.write("time/accepted", accepted);
     archive.write("time/rejected", rejected_before);
     archive.write("time/in_a_row", in_a_row);
@@ -181,11 +179,16 @@ namespace moraine
   void
   TimeControl::read(const Archive &archive)
   {
-    current         = archive.number("time/time");
-    accepted_size   = archive.number("time/step_size");
-    next_stop       = archive.integer("time/next_stop");
-    on_step_end     = archive.integer("time/at_step_end") != 0;
-    completed_steps = archive.integer("time/completed_steps");
+    current       = archive.number("time/time");
+    accepted_size = archive.number("time/step_size");
+    on_step_end   = archive.integer("time/at_step_end") != 0;
+    // There may be other stops from here on.
+    next_stop = completed_steps = 0;
+    while (!finished() &&
+           stops[next_stop].time - current <= same_time * one_step())
+      completed_steps += stops[next_stop++].ends_step ? 1 : 0;
+    accepted_size =
+      std::min(accepted_size, one_step() * parameters().largest_step);
     accepted        = archive.integer("time/accepted");
     rejected        = archive.integer("time/rejected");
     rejected_before = rejected;
@@ -383,6 +386,40 @@ namespace moraine
                       every,
                       "with Write = steps: every n-th step, and the last",
                       Patterns::Integer(1));
+    prm.add_parameter(
+      "Checkpoint every",
+      checkpoint_every,
+      "10 steps: after every tenth accepted step and the last one, the whole "
+      "state goes into the folder checkpoints, from which 'moraine resume' goes "
+      "on; 30 minutes: after so much wall time; never. Ctrl-C and SIGTERM "
+      "write one in any case.");
+  }
+
+
+
+  CheckpointTimes
+  CheckpointTimes::from_text(const std::string &text)
+  {
+    CheckpointTimes    times;
+    std::istringstream words(text);
+    double             number = 0;
+    std::string        unit, more;
+    if (text == "never")
+      return times;
+    const bool is_number = static_cast<bool>(words >> number >> unit) &&
+                           !(words >> more) && number > 0 && number < 1e9;
+    const bool steps   = unit == "steps" || unit == "step";
+    const bool minutes = unit == "minutes" || unit == "minute";
+    if (!is_number || !(minutes || (steps && number == std::floor(number))))
+      throw InputError("section 'Output', key 'Checkpoint every': found '" +
+                       text +
+                       "', allowed: never, a number of steps as in '10 steps', "
+                       "or of minutes as in '30 minutes'");
+    if (steps)
+      times.steps = static_cast<unsigned int>(number);
+    else
+      times.minutes = number;
+    return times;
   }
 
 

@@ -190,14 +190,73 @@ TEST(ArchiveFile, FailuresAreSaid)
       [&]() { write_file(Archive(), "no/such/folder/a.h5", comm); }),
     "no/such/folder/a.h5: cannot be written: No such file or directory");
   EXPECT_EQ(message_of<InputError>([&]() { read_file("nothing.h5", comm); }),
-            "cannot read 'nothing.h5': HDF5 reports a failure");
+            "cannot read 'nothing.h5': No such file or directory");
 
   const TemporaryFile file;
   if (own_rank() == 0)
     std::ofstream(file.path) << "no HDF5";
   MPI_Barrier(comm);
   EXPECT_EQ(message_of<InputError>([&]() { read_file(file.path, comm); }),
-            "cannot read '" + file.path + "': HDF5 reports a failure");
+            "cannot read '" + file.path +
+              "': it is no HDF5 file or not all of it");
+}
+
+
+
+TEST(ArchiveFile, DamageIsFoundAndNamed)
+{
+  const TemporaryFile file;
+  Archive             archive;
+  archive.write("a/b", std::vector<double>(100, 0.1), 4, "length");
+  write_file(archive, file.path, comm);
+  EXPECT_EQ(read_file(file.path, comm).data_sets().at("a/b").unit, "length");
+  if (own_rank() == 0)
+    {
+      std::string bytes;
+      {
+        std::ifstream in(file.path, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+      }
+      // One bit of one number.
+      const double      value = 0.1;
+      const std::string number(reinterpret_cast<const char *>(&value),
+                               sizeof(value));
+      const auto        place = bytes.find(number + number);
+      ASSERT_NE(place, std::string::npos);
+      bytes[place] = static_cast<char>(bytes[place] ^ 1);
+      std::ofstream(file.path, std::ios::binary) << bytes;
+    }
+  MPI_Barrier(comm);
+  EXPECT_EQ(message_of<InputError>([&]() { read_file(file.path, comm); }),
+            "cannot read '" + file.path +
+              "': the data set 'a/b' is damaged: its checksum is another");
+}
+
+
+
+TEST(ArchiveFile, ATruncatedFileIsRefused)
+{
+  const TemporaryFile file;
+  write_file(make_archive(), file.path, comm);
+  if (own_rank() == 0)
+    std::filesystem::resize_file(file.path,
+                                 std::filesystem::file_size(file.path) - 100);
+  MPI_Barrier(comm);
+  EXPECT_EQ(message_of<InputError>([&]() { read_file(file.path, comm); }),
+            "cannot read '" + file.path +
+              "': it is no HDF5 file or not all of it");
+}
+
+
+
+TEST(ArchiveFile, AGroupCanBeReadAlone)
+{
+  const TemporaryFile file;
+  write_file(make_archive(), file.path, comm);
+  const Archive group = read_group(file.path, "time");
+  EXPECT_TRUE(group.contains("time/current"));
+  EXPECT_FALSE(group.contains("points/id"));
+  MPI_Barrier(comm);
 }
 
 

@@ -59,6 +59,13 @@ namespace moraine
     void
     set_terms(Terms<dim> terms);
 
+    /** Let the next begin_step() find all couplings, as the first does. */
+    void
+    forget_couplings()
+    {
+      sums.clear();
+    }
+
     /** The forces by which the constraint @p name holds the nodes in the
      * committed state, in a step that has begun. Collective. */
     LA::Vector

@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <variant>
@@ -22,7 +23,8 @@ namespace moraine
    * tells them apart. A row is n_components consecutive values.
    *
    * write_file() makes an HDF5 file of it, in which rows are ordered by their
-   * ids, so that the file does not depend on the number of ranks.
+   * ids, so that the file does not depend on the number of ranks. Every data
+   * set has its unit and a checksum there, by which damage is found.
    */
   class Archive
   {
@@ -32,13 +34,15 @@ namespace moraine
       std::variant<std::vector<double>, std::vector<unsigned int>, std::string>
                    values;
       unsigned int n_components = 1;
+      std::string  unit; ///< for who reads the file; "": none
     };
 
     /** Write a data set. A name can be written once. */
     void
     write(const std::string  &name,
           std::vector<double> values,
-          const unsigned int  n_components = 1);
+          const unsigned int  n_components = 1,
+          const std::string  &unit         = "");
 
     void
     write(const std::string        &name,
@@ -46,13 +50,19 @@ namespace moraine
           const unsigned int        n_components = 1);
 
     void
-    write(const std::string &name, const double value);
+    write(const std::string &name,
+          const double       value,
+          const std::string &unit = "");
 
     void
     write(const std::string &name, const unsigned int value);
 
     void
     write_text(const std::string &name, const std::string &text);
+
+    /** The same as from another archive. */
+    void
+    add(const std::string &name, DataSet set);
 
     /**
      * Let each rank hold rows of its own in @p group. @p ids, with
@@ -119,6 +129,16 @@ namespace moraine
     gathered(const MPI_Comm &communicator) const;
 
     /**
+     * Hand over the data sets of gathered() one by one, in the order of their
+     * names, so that no more than one of them is there twice; on all ranks,
+     * those of others than rank 0 are empty. Collective.
+     */
+    void
+    gather_each(const MPI_Comm &communicator,
+                const std::function<void(const std::string &name, DataSet set)>
+                  &take) const;
+
+    /**
      * The reverse of gathered(): rank 0's data on all ranks, the rows of
      * distributed groups in equal shares. Collective.
      */
@@ -126,9 +146,6 @@ namespace moraine
     scattered(const MPI_Comm &communicator) const;
 
   private:
-    void
-    add(const std::string &name, DataSet set);
-
     template <class T>
     const T &
     find(const std::string &name, const unsigned int n_components) const;
@@ -137,7 +154,8 @@ namespace moraine
   };
 
   /**
-   * Write an HDF5 file that appears complete or not at all. Collective.
+   * Write an HDF5 file that appears complete or not at all: it is on the disk
+   * and was read back before it takes its name. Collective.
    * @throws InputError on every rank if it cannot be written.
    */
   void
@@ -147,11 +165,16 @@ namespace moraine
 
   /**
    * Read what write_file() wrote, on any number of ranks. Collective.
-   * @throws InputError on every rank if there is no such file or it is none of
-   * write_file().
+   * @throws InputError on every rank if there is no such file, if it is none of
+   * write_file(), or damaged.
    */
   Archive
   read_file(const std::string &path, const MPI_Comm &communicator);
+
+  /** The same for the data sets of one @p group alone, and on this rank alone.
+   */
+  Archive
+  read_group(const std::string &path, const std::string &group);
 } // namespace moraine
 
 #endif

@@ -5,6 +5,7 @@
 #define moraine_core_atomic_file_h
 
 #include <fstream>
+#include <functional>
 #include <string>
 
 namespace moraine
@@ -30,11 +31,12 @@ namespace moraine
     stream();
 
     /**
-     * Flush, close and rename.
+     * Flush, close and rename. Before that, @p verify may look at the closed
+     * file, whose name it is given, and throw.
      * @throw InputError naming the file if any write failed (disk full).
      */
     void
-    commit();
+    commit(const std::function<void(const std::string &)> &verify = {});
 
   private:
     [[noreturn]] void

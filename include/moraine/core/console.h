@@ -37,6 +37,18 @@ namespace moraine
     open_log(const std::string &path);
 
     /**
+     * Go on with the log in @p path after its first @p size bytes. What was
+     * said before is not in it.
+     * @throw InputError on rank 0 if the file cannot be opened.
+     */
+    void
+    continue_log(const std::string &path, const std::size_t size);
+
+    /** Bytes in the log so far; 0 on ranks without it. */
+    std::size_t
+    log_size();
+
+    /**
      * Close the log.
      * @throw InputError on rank 0 if a write to it failed (disk full).
      */

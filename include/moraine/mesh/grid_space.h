@@ -164,12 +164,13 @@ namespace moraine
     }
 
     /**
-     * Write @p values of nodes, none or one for each, into the data sets
-     * "value" and "id" of @p group.
+     * Write @p values of nodes, none or one for each, in @p unit into the data
+     * sets "value" and "id" of @p group.
      */
     void
     write_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
                       const std::string                         &group,
+                      const std::string                         &unit,
                       Archive                                   &archive) const;
 
     /** What write_node_values() wrote. Nodes of cells that were not active by

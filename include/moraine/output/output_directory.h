@@ -16,7 +16,8 @@ namespace moraine
    * The folder a run writes into, and the names of what it writes:
    *
    * original.prm, parameters.prm, log.txt, history.csv, summary.json,
-   * points.pvd with points/00000.vtu, ..., mesh.pvd with mesh/00000.vtu, ...
+   * points.pvd with points/00000.vtu, ..., mesh.pvd with mesh/00000.vtu, ...,
+   * checkpoints/last, a.h5, b.h5, a.xdmf, b.xdmf
    */
   class OutputDirectory
   {
@@ -36,6 +37,9 @@ namespace moraine
                     const bool         overwrite,
                     const MPI_Comm    &communicator);
 
+    /** The folder of a run that goes on. */
+    OutputDirectory(const std::string &path, const MPI_Comm &communicator);
+
     /** Whether folder @p path holds results of an earlier run. Collective. */
     static bool
     holds_results(const std::string &path, const MPI_Comm &communicator);
@@ -47,6 +51,18 @@ namespace moraine
     /** "points/00012.vtu": name of a VTU file relative to the folder. */
     static std::string
     vtu_name(const std::string &series, const unsigned int number);
+
+    /** Remove VTU files with this number and later ones. Collective. */
+    void
+    remove_vtu_from(const unsigned int number) const;
+
+    /**
+     * Write parameters.prm: every parameter with its value and text.
+     * Collective.
+     * @throws InputError naming the file if it cannot be written.
+     */
+    void
+    write_parameters(const dealii::ParameterHandler &prm) const;
 
     /**
      * Write original.prm, the file as given, and parameters.prm, every

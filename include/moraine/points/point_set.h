@@ -147,7 +147,7 @@ namespace moraine
 
     /**
      * Data sets "points/position", "points/cell" and so on, one for each field.
-     * The order of points in memory is kept only by an archive in memory.
+     * The order of points in memory is kept on the same number of ranks.
      */
     void
     write(Archive &archive) const override;

@@ -28,8 +28,8 @@ namespace moraine
   end_if_alone(const ExitCode code, const std::string &what);
 
   /**
-   * The program behind `moraine`: run, check, study, parameters. Errors are
-   * shown once, on rank 0, and become the exit code.
+   * The program behind `moraine`: run, resume, check, study, parameters. Errors
+   * are shown once, on rank 0, and become the exit code.
    */
   int
   main_program(const std::vector<std::string> &arguments);

@@ -17,7 +17,7 @@ namespace moraine
 {
   /** Tells on the console what is simulated, each step, and where time went. */
   template <int dim>
-  class ConsoleReport : public RunObserver<dim>
+  class ConsoleReport : public RunObserver<dim>, public StatePart
   {
   public:
     /** The folder of the results is empty if there are none. */
@@ -26,12 +26,34 @@ namespace moraine
                   const RunOptions &options,
                   Console          &console);
 
+    /** The program and the title of the scene. */
+    void
+    introduce();
+
     /** What will be simulated, and what the user should know of it. */
     void
     describe(const std::vector<std::string> &notes);
 
+    StatePart *
+    record() override
+    {
+      return this;
+    }
+
+    /** Data sets "console/...": what was told, and where the log ends.
+     * Collective. */
+    void
+    write(Archive &archive) const override;
+
+    /** Goes on with the log after what it had. */
+    void
+    read(const Archive &archive) override;
+
     void
     run_begins() override;
+
+    void
+    run_resumes(const TimeControl &time) override;
 
     void
     step_accepted(const AcceptedStep<dim> &step) override;
@@ -89,6 +111,7 @@ namespace moraine
     const RunOptions  options;
     Console          &console;
     dealii::Timer     since_start;
+    double            t_begun;
     unsigned int      n_returned      = 0;
     bool              has_far_domains = false;
   };

@@ -39,7 +39,8 @@ namespace moraine
     void
     write(Archive &archive) const override;
 
-    /** Writes the lists of files and the history of the archive. Collective. */
+    /** Writes the lists of files and the history of the archive. What was
+     * written after it goes. Collective. */
     void
     read(const Archive &archive) override;
 
@@ -56,6 +57,10 @@ namespace moraine
     run_fails(const Summary &summary) override;
 
   private:
+    /** Make the list of domains, if there are any. */
+    void
+    prepare_domains();
+
     /** Columns of conditions that turn. */
     void
     add_moments(const std::vector<BoundaryReport<dim>> &reports,

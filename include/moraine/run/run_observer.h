@@ -68,6 +68,12 @@ namespace moraine
     run_begins()
     {}
 
+    /** In place of run_begins(), after record() was read: it goes on from @p
+     * time. */
+    virtual void
+    run_resumes(const TimeControl & /*time*/)
+    {}
+
     virtual void
     step_accepted(const AcceptedStep<dim> &)
     {}

@@ -20,20 +20,26 @@ namespace moraine
     verbose
   };
 
-  /** How `moraine run` was called. */
+  struct SavedRun;
+
+  /** How `moraine run` or `moraine resume` was called. */
   struct RunOptions
   {
     std::string output_directory; ///< overrides the scene's
     bool        overwrite    = false;
     bool        write_output = true; ///< studies keep the summary only
     Verbosity   verbosity    = Verbosity::normal;
+    /** What the run in the output directory goes on from; nullptr: it begins.
+     */
+    const SavedRun *saved = nullptr;
   };
 
   /**
    * Read a scene, set it up, step to the end and write the results. Whatever
    * fails, nothing of an earlier run in the output directory is left once the
    * directory may be written over: before anything is computed its files are
-   * removed, and a run that fails leaves a summary.json that says so.
+   * removed, and a run that fails leaves a summary.json that says so. A run
+   * that goes on removes what it wrote after the checkpoint.
    *
    * @return the summary, also when the run ended early; its status says so.
    * @throws InputError for mistakes, also those that show only in the set-up:

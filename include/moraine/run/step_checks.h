@@ -18,7 +18,7 @@ namespace moraine
    * accepted, and says it once, where it begins. All functions are collective.
    */
   template <int dim>
-  class StepChecks
+  class StepChecks : public StatePart
   {
   public:
     StepChecks(const Scene<dim> &scene, const Model<dim> &model);
@@ -46,6 +46,13 @@ namespace moraine
     of_step(const double                            t,
             const std::vector<BoundaryReport<dim>> &reports,
             const double                            largest_motion);
+
+    /** Data sets "checks/...": what was told, and what it is told by. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
 
   private:
     std::string

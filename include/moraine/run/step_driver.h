@@ -9,6 +9,7 @@
 #include <moraine/run/run_observer.h>
 #include <moraine/run/step_checks.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,13 @@ namespace moraine
                const std::vector<RunObserver<dim> *> &observers);
 
     /**
-     * Step to the end.
+     * Step to the end, and call @p after_step when a step was accepted and the
+     * observers know.
      * @return whether it was reached; not if the user interrupted the run.
      * @throws ComputationError where no smaller step helps.
      */
     bool
-    run();
+    run(const std::function<void()> &after_step = {});
 
     /** Go back to the last accepted step after run() threw. Collective. */
     void
@@ -48,6 +50,18 @@ namespace moraine
     {
       lasting.write(archive);
     }
+
+    /** Counts, reports and what else the next steps or the summary need. */
+    void
+    write_progress(Archive &archive) const;
+
+    /**
+     * Go on after the last accepted step of what write() and write_progress()
+     * wrote, in place of begin_first_step(). The model is as it was made.
+     * Collective.
+     */
+    void
+    read(const Archive &archive);
 
     const TimeControl &
     time() const

@@ -5,6 +5,7 @@
 #define moraine_solver_linear_solver_h
 
 #include <moraine/core/linear_algebra.h>
+#include <moraine/core/simulation_state.h>
 
 #include <moraine/solver/linear_report.h>
 
@@ -58,7 +59,7 @@ namespace moraine
    * residual is always recomputed from the solution, and an answer that is not
    * finite or does not satisfy the equations is never called converged.
    */
-  class LinearSolver
+  class LinearSolver : public StatePart
   {
   public:
     /**
@@ -67,7 +68,7 @@ namespace moraine
     LinearSolver(const LinearSolverParameters &parameters,
                  const unsigned int            dim);
 
-    ~LinearSolver();
+    ~LinearSolver() override;
 
     /**
      * Factorise @p matrix or build its preconditioner. A matrix that is set up
@@ -116,6 +117,15 @@ namespace moraine
     /** Forget what set_up() built, and the matrix. */
     void
     clear();
+
+    /** Data sets "solver/...": what auto goes by, and what it chose so far.
+     * What set_up() built is not among them. */
+    void
+    write(Archive &archive) const override;
+
+    /** The same, and clear(). */
+    void
+    read(const Archive &archive) override;
 
     /**
      * What solved first, and each change that auto made, with its reason.

@@ -4,8 +4,9 @@
 #ifndef moraine_solver_solver_choice_h
 #define moraine_solver_solver_choice_h
 
+#include <moraine/core/archive.h>
+
 #include <string>
-#include <vector>
 
 namespace moraine
 {
@@ -48,6 +49,13 @@ namespace moraine
      */
     bool
     too_expensive() const;
+
+    /** Data set "solver/choice". */
+    void
+    write(Archive &archive) const;
+
+    void
+    read(const Archive &archive);
 
     /**
      * What a factorisation of @p n unknowns costs: measured, for 4000 to

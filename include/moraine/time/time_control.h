@@ -119,7 +119,8 @@ namespace moraine
     void
     write(Archive &archive) const override;
 
-    /** The parameters must be those of the time of writing. */
+    /** Steps from here on may be others than at the time of writing, and end
+     * elsewhere. */
     void
     read(const Archive &archive) override;
 
@@ -213,6 +214,28 @@ namespace moraine
 
 
 
+  /** After which accepted steps checkpoints are written. */
+  struct CheckpointTimes
+  {
+    unsigned int steps   = 0; ///< after every so many, unless 0
+    double       minutes = 0; ///< of wall time, unless 0
+
+    bool
+    never() const
+    {
+      return steps == 0 && minutes == 0;
+    }
+
+    /**
+     * From "10 steps", "30 minutes" or "never".
+     * @throws InputError naming the key for anything else.
+     */
+    static CheckpointTimes
+    from_text(const std::string &text);
+  };
+
+
+
   /**
    * Keys that say after which accepted steps results are written.
    */
@@ -223,6 +246,9 @@ namespace moraine
 
     /** With steps: after every n-th of the user's steps, and at the end. */
     unsigned int every = 1;
+
+    /** As CheckpointTimes::from_text() reads it. */
+    std::string checkpoint_every = "never";
 
     void
     add_parameters(dealii::ParameterHandler &prm);

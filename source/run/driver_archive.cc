@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// The part of StepDriver that goes on from an archive.
+
+#include <moraine/run/step_driver.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    as_lines(const std::vector<std::string> &texts)
+    {
+      std::string lines;
+      for (const std::string &text : texts)
+        lines += text + "\n";
+      return lines;
+    }
+
+
+
+    std::vector<std::string>
+    lines_of(const std::string &text)
+    {
+      std::istringstream       in(text);
+      std::vector<std::string> lines;
+      for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
+      return lines;
+    }
+
+
+
+    void
+    write_counts(const RunCounts &counts, Archive &archive)
+    {
+      archive.write("run/newton_iterations", counts.newton_iterations);
+      archive.write("run/linear_iterations", counts.linear_iterations);
+      archive.write("run/pseudo_transient", counts.n_pseudo_transient);
+      std::vector<double> condition;
+      if (counts.condition_number)
+        condition.push_back(*counts.condition_number);
+      archive.write("run/condition_number", condition);
+      archive.write_text("run/linear_solver", counts.linear_solver);
+      archive.write("run/tried_stiffness_of_empty_parts",
+                    counts.n_fictitious_stiffness);
+      archive.write_text("run/warnings", as_lines(counts.warnings));
+    }
+
+
+
+    RunCounts
+    read_counts(const Archive &archive)
+    {
+      RunCounts counts;
+      counts.newton_iterations  = archive.integer("run/newton_iterations");
+      counts.linear_iterations  = archive.integer("run/linear_iterations");
+      counts.n_pseudo_transient = archive.integer("run/pseudo_transient");
+      const auto &condition     = archive.numbers("run/condition_number");
+      if (!condition.empty())
+        counts.condition_number = condition[0];
+      counts.linear_solver = archive.text("run/linear_solver");
+      counts.n_fictitious_stiffness =
+        archive.integer("run/tried_stiffness_of_empty_parts");
+      counts.warnings = lines_of(archive.text("run/warnings"));
+      return counts;
+    }
+
+
+
+    template <int dim>
+    void
+    write_reports(const std::vector<BoundaryReport<dim>> &reports,
+                  Archive                                &archive)
+    {
+      std::vector<std::string> names;
+      std::vector<double>      reactions, lengths, moments, forces;
+      for (const auto &report : reports)
+        {
+          names.push_back(report.name);
+          reactions.insert(reactions.end(),
+                           report.reaction.begin_raw(),
+                           report.reaction.end_raw());
+          lengths.insert(lengths.end(), {report.violation, report.penetration});
+          moments.push_back(report.moment);
+          forces.push_back(report.force_magnitude);
+        }
+      archive.write_text("reports/name", as_lines(names));
+      archive.write("reports/reaction", reactions, dim, "force");
+      archive.write("reports/violation_and_penetration", lengths, 2, "length");
+      archive.write("reports/moment", moments, 1, "force length");
+      archive.write("reports/force_magnitude", forces, 1, "force");
+    }
+
+
+
+    template <int dim>
+    std::vector<BoundaryReport<dim>>
+    read_reports(const Archive &archive)
+    {
+      const auto &reactions = archive.numbers("reports/reaction", dim);
+      const auto &lengths =
+        archive.numbers("reports/violation_and_penetration", 2);
+      const auto &moments = archive.numbers("reports/moment");
+      const auto &forces  = archive.numbers("reports/force_magnitude");
+      std::vector<BoundaryReport<dim>> reports;
+      for (const std::string &name : lines_of(archive.text("reports/name")))
+        {
+          const unsigned int k = reports.size();
+          Tensor<1, dim>     reaction;
+          std::copy_n(reactions.begin() + dim * k, dim, reaction.begin_raw());
+          reports.push_back({name,
+                             reaction,
+                             lengths[2 * k],
+                             lengths[2 * k + 1],
+                             moments[k],
+                             forces[k]});
+        }
+      return reports;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::write_progress(Archive &archive) const
+  {
+    archive.write("run/stage", stage);
+    archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
+    archive.write("run/stiffness_of_empty_parts", accepted_fraction);
+    write_counts(sums, archive);
+    write_reports(last_reports, archive);
+    checks.write(archive);
+    model.linear_solver->write(archive);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::read(const Archive &archive)
+  {
+    first_step = false;
+    stage      = archive.integer("run/stage");
+    if (stage > 0)
+      model.set_stage(scene, stage);
+    // Nodes that move with the material are found before their moves are read.
+    if (model.state->mesh_after_step() != MeshAfterStep::reset)
+      model.state->begin_step();
+    lasting.read(archive);
+    accepted_fraction = archive.number("run/stiffness_of_empty_parts");
+    if (archive.integer("run/empty_parts_have_stiffness") != 0)
+      {
+        auto term =
+          std::make_unique<FictitiousStiffness<dim>>(accepted_fraction);
+        support = term.get();
+        model.system->add(std::move(term));
+      }
+    sums         = read_counts(archive);
+    last_reports = read_reports<dim>(archive);
+    checks.read(archive);
+    model.linear_solver->read(archive);
+  }
+
+
+
+  template void
+  StepDriver<2>::write_progress(Archive &) const;
+  template void
+  StepDriver<3>::write_progress(Archive &) const;
+  template void
+  StepDriver<2>::read(const Archive &);
+  template void
+  StepDriver<3>::read(const Archive &);
+} // namespace moraine
