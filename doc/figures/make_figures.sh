@@ -6,9 +6,9 @@
 # doc/figures/ from their results:
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
-# groups/ without its ending (all but 'studies' if left out). Needs what ./moraine
-# test installs. The other pictures of doc/studies/ show wall times, too, and come
-# from moraine study itself.
+# groups/ without its ending (all but 'studies' and 'locking' if left out). Needs
+# what ./moraine test installs. The other pictures of doc/studies/ show wall times,
+# too, and come from moraine study itself.
 
 set -euo pipefail
 figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
