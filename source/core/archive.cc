@@ -66,14 +66,43 @@ namespace moraine
 
 
 
-    /** The values of all ranks on rank 0, one rank after the other. */
+    /** Where the values of each rank begin, for MPI. */
+    std::vector<int>
+    beginnings(const std::vector<int> &counts)
+    {
+      std::vector<int> first(counts.size(), 0);
+      std::partial_sum(counts.begin(), counts.end() - 1, first.begin() + 1);
+      return first;
+    }
+
+
+
+    /** The values of all ranks on rank 0, one rank after the other. deal.II's
+     * function packs, which takes longer than to write them to a disk. */
     template <class T>
     std::vector<T>
     gather(const std::vector<T> &values, const MPI_Comm &communicator)
     {
-      std::vector<T> result;
-      for (const auto &of_rank : Utilities::MPI::gather(communicator, values))
-        result.insert(result.end(), of_rank.begin(), of_rank.end());
+      const std::vector<int> counts =
+        Utilities::MPI::all_gather(communicator,
+                                   static_cast<int>(values.size()));
+      if (counts.size() == 1)
+        return values;
+      const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
+      const auto n =
+        std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+      std::vector<T>         result(is_root ? n : 0);
+      const std::vector<int> first = beginnings(counts);
+      const auto             type  = Utilities::MPI::mpi_type_id_for_type<T>;
+      MPI_Gatherv(values.data(),
+                  values.size(),
+                  type,
+                  result.data(),
+                  counts.data(),
+                  first.data(),
+                  type,
+                  0,
+                  communicator);
       return result;
     }
 
@@ -107,14 +136,36 @@ namespace moraine
             const bool         shared_out,
             const MPI_Comm    &communicator)
     {
-      values = Utilities::MPI::broadcast(communicator, values);
-      if (!shared_out)
-        return values;
       const std::size_t rank  = Utilities::MPI::this_mpi_process(communicator);
       const std::size_t ranks = Utilities::MPI::n_mpi_processes(communicator);
-      const std::size_t rows  = values.size() / n_components;
-      return {values.begin() + rank * rows / ranks * n_components,
-              values.begin() + (rank + 1) * rows / ranks * n_components};
+      if (ranks == 1)
+        return values;
+      const std::size_t size =
+        Utilities::MPI::broadcast(communicator, values.size());
+      const auto type = Utilities::MPI::mpi_type_id_for_type<T>;
+      if (!shared_out)
+        {
+          values.resize(size);
+          MPI_Bcast(values.data(), size, type, 0, communicator);
+          return values;
+        }
+      const std::size_t rows = size / n_components;
+      std::vector<int>  counts;
+      for (std::size_t r = 0; r < ranks; ++r)
+        counts.push_back(((r + 1) * rows / ranks - r * rows / ranks) *
+                         n_components);
+      const std::vector<int> first = beginnings(counts);
+      std::vector<T>         share(counts[rank]);
+      MPI_Scatterv(values.data(),
+                   counts.data(),
+                   first.data(),
+                   type,
+                   share.data(),
+                   share.size(),
+                   type,
+                   0,
+                   communicator);
+      return share;
     }
 
 
