@@ -339,7 +339,7 @@ namespace moraine
       if (arguments.file.empty())
         throw InputError("'moraine resume' needs the folder of a run\n" +
                          usage_of(find_command(arguments.command)));
-      const SavedRun saved =
+      SavedRun saved =
         read_checkpoint(arguments.file, arguments.from, MPI_COMM_WORLD);
       InputFile input =
         InputFile::from_text(saved.path, saved.label.parameters);

@@ -352,6 +352,7 @@ namespace moraine
           if (options.saved)
             {
               driver->read(options.saved->state);
+              options.saved->state = Archive();
               folder.directory->write_parameters(scene->parameters());
             }
         });

@@ -402,6 +402,38 @@ end
 
 
 
+  TEST(StepDriver, one_that_reads_what_another_wrote_goes_on_like_it)
+  {
+    const auto input = InputFile::from_text("scene.prm", carrying_scene_text);
+    RunOfScene undisturbed(input);
+    Archive    saved;
+    undisturbed.driver.run([&]() {
+      if (undisturbed.driver.time().n_accepted() != 2)
+        return;
+      undisturbed.driver.write(saved);
+      undisturbed.driver.write_progress(saved);
+      undisturbed.model.system->forget_couplings();
+    });
+
+    RunOfScene resumed(input);
+    resumed.driver.read(
+      saved.gathered(MPI_COMM_WORLD).scattered(MPI_COMM_WORLD));
+    EXPECT_EQ(resumed.driver.time().n_accepted(), 2u);
+    EXPECT_EQ(resumed.driver.reports()[0].name, "left");
+    resumed.driver.run();
+    EXPECT_EQ(resumed.listener.t_start.front(), 0.5);
+    EXPECT_EQ(resumed.listener.u.size(), 2u);
+    EXPECT_EQ(differences(resumed.archive(), undisturbed.archive()), "");
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+      {
+        EXPECT_TRUE(resumed.archive() == undisturbed.archive());
+      }
+    EXPECT_EQ(resumed.driver.counts().newton_iterations,
+              undisturbed.driver.counts().newton_iterations);
+  }
+
+
+
   TEST(Methods, one_list_of_different_names)
   {
     std::vector<std::string> names;

@@ -239,6 +239,50 @@ TEST(TimeControl, GoesOnFromAnArchive)
   EXPECT_TRUE(resumed.finished());
 }
 
+TEST(TimeControl, GoesOnWithOtherStepsToAnotherEnd)
+{
+  TimeControl time(steps(4));
+  step(time);
+  step(time);
+  moraine::Archive archive;
+  time.write(archive);
+
+  TimeParameters other;
+  other.end_time = 2.;
+  other.n_steps  = 20;
+  TimeControl resumed(other);
+  resumed.read(archive);
+  EXPECT_EQ(resumed.time(), 0.5);
+  EXPECT_EQ(resumed.n_completed_steps(), 5u);
+  step(resumed);
+  EXPECT_DOUBLE_EQ(resumed.time(), 0.6);
+  EXPECT_TRUE(resumed.at_step_end());
+  while (!resumed.finished())
+    step(resumed);
+  EXPECT_EQ(resumed.time(), 2.);
+  EXPECT_EQ(resumed.n_accepted(), 2u + 15u);
+}
+
+TEST(CheckpointTimes, WhatIsAllowed)
+{
+  using moraine::CheckpointTimes;
+  EXPECT_TRUE(CheckpointTimes::from_text("never").never());
+  EXPECT_EQ(CheckpointTimes::from_text("10 steps").steps, 10u);
+  EXPECT_EQ(CheckpointTimes::from_text("1 step").steps, 1u);
+  EXPECT_EQ(CheckpointTimes::from_text("0.5 minutes").minutes, 0.5);
+  EXPECT_EQ(CheckpointTimes::from_text("0.5 minutes").steps, 0u);
+  for (const char *text : {"",
+                           "10",
+                           "steps",
+                           "0 steps",
+                           "1.5 steps",
+                           "1 h",
+                           "-1 minutes",
+                           "10 steps more",
+                           "nan minutes"})
+    EXPECT_THROW(CheckpointTimes::from_text(text), moraine::InputError) << text;
+}
+
 TEST(TimeControl, UndoLeavesTheLastAcceptedStep)
 {
   const auto archive_of = [](const TimeControl &time) {

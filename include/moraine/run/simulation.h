@@ -30,8 +30,8 @@ namespace moraine
     bool        write_output = true; ///< studies keep the summary only
     Verbosity   verbosity    = Verbosity::normal;
     /** What the run in the output directory goes on from; nullptr: it begins.
-     */
-    const SavedRun *saved = nullptr;
+     * Its state is gone when it was read. */
+    SavedRun *saved = nullptr;
   };
 
   /**
