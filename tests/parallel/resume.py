@@ -23,7 +23,7 @@ SCENES = {
     "plastic CPDI collapse": (
         "prm/large-deformation/collapse.prm", {"Method/Method": "CPDI1"}, 1),
     "twist on a moving mesh": (
-        "prm/wang-2018/twist-10-cpdi1.prm", {}, 1),
+        "prm/wang-2018/twist-80-cpdi1.prm", {}, 1),
     "implicit cantilever": (
         "prm/cortis-2017/cantilever-45.prm", {"Time/Steps": 12}, 1),
     "dynamics with absorbing boundaries": (
