@@ -9,6 +9,27 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Add the forces of the unknowns of @p tied to those they are tied to. */
+    template <class Lines>
+    void
+    add_to_others(const Lines &tied, LA::Vector &force)
+    {
+      const LA::Vector before(force);
+      for (const auto &line : tied)
+        if (before.in_local_range(line.index))
+          for (const auto &[dof, weight] : line.entries)
+            {
+              const double f = weight * before(line.index);
+              force.add(1, &dof, &f);
+            }
+      force.compress(VectorOperation::add);
+    }
+  } // namespace
+
+
+
   void
   ConstraintTable::reinit(const IndexSet &relevant,
                           const MPI_Comm &communicator,
@@ -18,15 +39,11 @@ namespace moraine
     lines.reinit(relevant);
     set_values(add_lines);
     lines.copy_from(lines_with_values);
-    bool ties = false;
     for (const auto &line : lines_with_values.get_lines())
-      {
-        lines.set_inhomogeneity(line.index, 0.);
-        ties = ties || !line.entries.empty();
-      }
+      lines.set_inhomogeneity(line.index, 0.);
     has_lines =
       Utilities::MPI::logical_or(lines.n_constraints() > 0, communicator);
-    has_ties = Utilities::MPI::logical_or(ties, communicator);
+    has_ties = Utilities::MPI::logical_or(!ties.empty(), communicator);
   }
 
 
@@ -38,6 +55,10 @@ namespace moraine
     lines_with_values.clear();
     lines_with_values.reinit(relevant);
     add_lines(lines_with_values);
+    ties.clear();
+    for (const auto &line : lines_with_values.get_lines())
+      if (!line.entries.empty())
+        ties.push_back(line);
     lines_with_values.close();
   }
 
@@ -67,17 +88,21 @@ namespace moraine
   ConstraintTable::condense(LA::Vector &force) const
   {
     if (has_ties)
-      {
-        const LA::Vector uncondensed(force);
-        for (const auto &line : lines.get_lines())
-          if (uncondensed.in_local_range(line.index))
-            for (const auto &[dof, weight] : line.entries)
-              {
-                const double f = weight * uncondensed(line.index);
-                force.add(1, &dof, &f);
-              }
-        force.compress(VectorOperation::add);
-      }
+      add_to_others(lines.get_lines(), force);
     lines.set_zero(force);
+  }
+
+
+
+  void
+  ConstraintTable::hand_over_ties(LA::Vector &force) const
+  {
+    if (!has_ties)
+      return;
+    add_to_others(ties, force);
+    for (const auto &line : ties)
+      if (force.in_local_range(line.index))
+        force(line.index) = 0.;
+    force.compress(VectorOperation::insert);
   }
 } // namespace moraine

@@ -38,6 +38,7 @@ namespace moraine
     LA::Vector result = state.grid().vector();
     set_target(context.t_start);
     assemble(result, false);
+    constraints.hand_over_ties(unbalanced);
     sums.begin(false);
     for (const auto &term : terms)
       term->add_constraint_forces(context, name, unbalanced, sums);

@@ -502,6 +502,7 @@ namespace moraine
     typename Motion<dim>::StepWorks works;
     if (context.motion)
       works = works_of_step(x);
+    constraints.hand_over_ties(unbalanced);
     for (const auto &term : terms)
       term->prepare(context, unbalanced);
     {

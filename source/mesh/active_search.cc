@@ -101,7 +101,7 @@ namespace moraine
         if (space.is_active(neighbour) &&
             distance_to(neighbour->bounding_box(), x) < nearest)
           {
-            const double distance = distance_to(vertices_of<dim>(neighbour), x);
+            const double distance = distance_to_cell<dim>(neighbour, x);
             if (distance < nearest - 1e-9 * search_tolerance)
               {
                 nearest = distance;
@@ -109,6 +109,16 @@ namespace moraine
               }
           }
     return owner;
+  }
+
+
+
+  template <int dim>
+  double
+  distance_to_cell(const typename GridSpace<dim>::CellIterator &cell,
+                   const Point<dim>                            &x)
+  {
+    return distance_to(vertices_of<dim>(cell), x);
   }
 
 
@@ -129,17 +139,19 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                     \
-  template GridSpace<dim>::CellIterator nearest_active_cell( \
-    const GridSpace<dim> &,                                  \
-    const GridSpace<dim>::CellIterator &,                    \
-    const Point<dim> &,                                      \
-    const double);                                           \
-  template void evaluate_shapes(const GridSpace<dim> &,      \
-                                const unsigned int,          \
-                                const Point<dim> &,          \
-                                double *,                    \
-                                Tensor<1, dim> *);
+#define INSTANTIATE(dim)                                                      \
+  template GridSpace<dim>::CellIterator nearest_active_cell(                  \
+    const GridSpace<dim> &,                                                   \
+    const GridSpace<dim>::CellIterator &,                                     \
+    const Point<dim> &,                                                       \
+    const double);                                                            \
+  template double distance_to_cell<dim>(const GridSpace<dim>::CellIterator &, \
+                                        const Point<dim> &);                  \
+  template void   evaluate_shapes(const GridSpace<dim> &,                     \
+                                  const unsigned int,                         \
+                                  const Point<dim> &,                         \
+                                  double *,                                   \
+                                  Tensor<1, dim> *);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

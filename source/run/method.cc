@@ -410,6 +410,14 @@ namespace moraine
       "outside ends the run. For coarse meshes that turn with a curved wall.",
       patterns::non_negative());
     prm.add_parameter(
+      "Aggregate below",
+      aggregate_below,
+      "Nodes only of cells of which points fill less than this part follow the "
+      "functions of the nearest cell that they fill more of, so that small "
+      "cuts are not felt (aggregation). 0: they are free. 0.5 is a good "
+      "choice.",
+      Patterns::Double(0., 1.));
+    prm.add_parameter(
       "Fictitious stiffness",
       fictitious_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "

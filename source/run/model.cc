@@ -4,6 +4,7 @@
 #include <moraine/run/model.h>
 
 #include <moraine/assembly/absorbing_term.h>
+#include <moraine/assembly/aggregation.h>
 #include <moraine/assembly/load_terms.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
@@ -116,7 +117,7 @@ namespace moraine
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies);
     make_points(scene);
-    state                = std::make_unique<State<dim>>(*space,
+    state = std::make_unique<State<dim>>(*space,
                                          *points,
                                          *basis,
                                          materials,
@@ -124,6 +125,8 @@ namespace moraine
                                          scene.method.strain_measure(),
                                          scene.method.weights(),
                                          scene.method.volumetric());
+    if (scene.method.aggregate_below > 0)
+      state->aggregate_below(scene.method.aggregate_below);
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);
@@ -198,6 +201,8 @@ namespace moraine
             }))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
+    if (state->aggregates())
+      terms.push_back(std::make_unique<Aggregation<dim>>());
     const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
     if (integrator.dynamic() &&
         std::any_of(damping.begin(), damping.end(), [](const auto &factors) {

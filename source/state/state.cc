@@ -176,7 +176,9 @@ namespace moraine
         std::vector<unsigned char> active(
           space.mesh().triangulation().n_active_cells(), 0);
         basis.mark_cells(active);
-        changed    = space.set_active_cells(std::move(active));
+        changed = space.set_active_cells(active);
+        if (cell_aggregates)
+          changed = tie_nodes(std::move(active)) || changed;
         changed    = basis.batch_points() || changed;
         first_step = false;
         if (fitted_weights)
@@ -190,6 +192,20 @@ namespace moraine
                          });
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
+  }
+
+
+
+  template <int dim>
+  bool
+  State<dim>::tie_nodes(std::vector<unsigned char> active)
+  {
+    // Where cells go with their points, they are filled as at the start.
+    const auto volume = [this](const unsigned int p) {
+      return after_step == MeshAfterStep::reset ? points.volume(p) :
+                                                  initial_volume(p);
+    };
+    return cell_aggregates->tie_nodes(space, points, volume, std::move(active));
   }
 
 

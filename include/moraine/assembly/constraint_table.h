@@ -76,11 +76,19 @@ namespace moraine
     void
     condense(LA::Vector &force) const;
 
+    /** Give the forces of tied unknowns to those they are tied to, which may be
+     * prescribed: reactions are read there. Collective. */
+    void
+    hand_over_ties(LA::Vector &force) const;
+
   private:
     dealii::AffineConstraints<double> lines;
     dealii::AffineConstraints<double> lines_with_values;
-    bool                              has_lines = false;
-    bool                              has_ties  = false;
+    /** Those to other unknowns, as terms added them: some of the others may be
+     * prescribed. */
+    std::vector<dealii::AffineConstraints<double>::ConstraintLine> ties;
+    bool has_lines = false;
+    bool has_ties  = false;
   };
 } // namespace moraine
 

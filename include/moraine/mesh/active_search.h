@@ -22,6 +22,12 @@ namespace moraine
                       const dealii::Point<dim>                    &x,
                       const double search_tolerance);
 
+  /** How far @p x is from a cell of the mesh as it was built; 0 in it. */
+  template <int dim>
+  double
+  distance_to_cell(const typename GridSpace<dim>::CellIterator &cell,
+                   const dealii::Point<dim>                    &x);
+
   /**
    * Shape functions of an active cell this rank knows at the place @p x, also
    * outside of the cell. Arrays hold space.nodes_per_cell() entries.

@@ -7,6 +7,7 @@
 #include <moraine/core/linear_algebra.h>
 #include <moraine/mesh/background_mesh.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -100,6 +101,14 @@ namespace moraine
     node_dof(const unsigned int node) const
     {
       return first_dof[node];
+    }
+
+    /** The vertices of the mesh in whose middle the node is. */
+    dealii::ArrayView<const unsigned int>
+    node_vertices(const unsigned int node) const
+    {
+      return {&vertices_of_nodes[first_vertex[node]],
+              first_vertex[node + 1] - first_vertex[node]};
     }
 
     /**

@@ -36,6 +36,7 @@ namespace moraine
     std::string  mesh_after_step      = "default";
     std::string  point_weights        = "volumes";
     std::string  volumetric_strain    = "pointwise";
+    double       aggregate_below      = 0.;
     double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";

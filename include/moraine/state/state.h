@@ -9,6 +9,7 @@
 #include <moraine/material/material.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
+#include <moraine/state/aggregates.h>
 #include <moraine/state/cell_means.h>
 #include <moraine/state/fitted_weights.h>
 #include <moraine/state/trial_points.h>
@@ -71,6 +72,14 @@ namespace moraine
           const StrainMeasure    measure    = StrainMeasure::small,
           const PointWeights     weights    = PointWeights::volumes,
           const VolumetricStrain volumetric = VolumetricStrain::pointwise);
+
+    /** Before the first step: tie nodes without a cell of which points fill at
+     * least the part @p fill, 0 < @p fill <= 1, to the nearest one. */
+    void
+    aggregate_below(const double fill)
+    {
+      cell_aggregates.emplace(fill);
+    }
 
     /**
      * Bring cells, unknowns and batches up to date with the points.
@@ -177,6 +186,13 @@ namespace moraine
     unsigned int
     end_of_body(const StencilBlock<dim> &block, const unsigned int begin) const;
 
+    /** The ties of nodes in cut cells; a null pointer if they are free. */
+    const Aggregates<dim> *
+    aggregates() const
+    {
+      return cell_aggregates ? &*cell_aggregates : nullptr;
+    }
+
     const GridSpace<dim> &
     grid() const
     {
@@ -274,6 +290,10 @@ namespace moraine
     is_linear() const;
 
   private:
+    /** Tie the nodes of cut cells; @p active are the cells of this rank. */
+    bool
+    tie_nodes(std::vector<unsigned char> active);
+
     /** The volume with which the i-th point of a block counts in the mean over
      * its cell. */
     double
@@ -303,6 +323,7 @@ namespace moraine
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
     std::optional<CellMeans<dim>>                      cell_means;
+    std::optional<Aggregates<dim>>                     cell_aggregates;
     const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
     StepTime                                             times;

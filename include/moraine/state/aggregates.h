@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_state_aggregates_h
+#define moraine_state_aggregates_h
+
+#include <moraine/mesh/grid_space.h>
+#include <moraine/points/point_set.h>
+
+#include <functional>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Which nodes have too little material around to be free, and which cells
+   * they follow: the aggregates of Badia, Verdugo, Martin 2018
+   * (doi:10.1016/j.cma.2018.03.022). A cell is *filled* if its points fill at
+   * least a given part of it. A node of active cells none of which is filled
+   * follows its *root*, the nearest filled cell: its value is that of the
+   * root's functions, continued to the node. We tie nodes one by one to the
+   * cell nearest to each, not cells to cells.
+   *
+   * Roots are sought over active cells only, so that nothing is tied across a
+   * gap, and at most three cells away, because continued functions grow with
+   * the distance. Nodes of parts without a filled cell near stay free.
+   */
+  template <int dim>
+  class Aggregates
+  {
+  public:
+    struct Tie
+    {
+      unsigned int node; ///< of this rank
+      unsigned int root; ///< active_cell_index() of a cell this rank knows
+
+      bool
+      operator==(const Tie &other) const
+      {
+        return node == other.node && root == other.root;
+      }
+    };
+
+    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1. */
+    explicit Aggregates(const double fill);
+
+    /**
+     * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
+     * cell that holds it. Roots that this rank does not know are asked for
+     * beside @p active, its own cells.
+     * @return whether ties or nodes of this rank changed. Collective.
+     */
+    bool
+    tie_nodes(GridSpace<dim>                                  &space,
+              const PointSet<dim>                             &points,
+              const std::function<double(const unsigned int)> &volume,
+              std::vector<unsigned char>                       active);
+
+    /** Of all nodes this rank knows, in their order. */
+    const std::vector<Tie> &
+    ties() const
+    {
+      return tied;
+    }
+
+    /** Nodes of this rank that have neither a filled cell nor a root. */
+    const std::vector<unsigned int> &
+    nodes_without_root() const
+    {
+      return rootless;
+    }
+
+  private:
+    using CellIterator = typename GridSpace<dim>::CellIterator;
+
+    enum class Part : unsigned char
+    {
+      none,  ///< not active
+      cut,   ///< points fill too little of it
+      filled ///< its nodes are free
+    };
+
+    void
+    find_parts(const GridSpace<dim>                            &space,
+               const PointSet<dim>                             &points,
+               const std::function<double(const unsigned int)> &volume);
+
+    void
+    find_ties(const GridSpace<dim> &space);
+
+    Part
+    part(const CellIterator &cell) const
+    {
+      return parts[cell->active_cell_index()];
+    }
+
+    /** The nearest filled cell around the cut cells of a node, which all meet
+     * at it; no_cell if there is none. */
+    unsigned int
+    find_root(const GridSpace<dim>            &space,
+              const std::vector<CellIterator> &cells_of_node,
+              const dealii::Point<dim>        &x) const;
+
+    const double              fill;
+    std::vector<Part>         parts; ///< of all cells, the same on all ranks
+    std::vector<Tie>          tied;
+    std::vector<unsigned int> rootless;
+  };
+} // namespace moraine
+
+#endif

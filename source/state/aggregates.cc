@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/state/aggregates.h>
+
+#include <moraine/mesh/active_search.h>
+
+#include <algorithm>
+#include <set>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int largest_distance = 3; ///< of a root, in cells
+
+
+
+    template <int dim>
+    bool
+    has_vertex(const typename GridSpace<dim>::CellIterator &cell,
+               const unsigned int                           vertex)
+    {
+      for (const unsigned int v : cell->vertex_indices())
+        if (cell->vertex_index(v) == vertex)
+          return true;
+      return false;
+    }
+
+
+
+    /** The active cells that a node belongs to: those with all its vertices. */
+    template <int dim>
+    std::vector<typename GridSpace<dim>::CellIterator>
+    cells_of_node(const GridSpace<dim> &space, const unsigned int node)
+    {
+      const auto &cells_at_vertex =
+        space.mesh().search_cache().get_vertex_to_cell_map();
+      const ArrayView<const unsigned int> vertices = space.node_vertices(node);
+      std::vector<typename GridSpace<dim>::CellIterator> cells;
+      for (const auto &cell : cells_at_vertex[vertices[0]])
+        if (space.is_active(cell) &&
+            std::all_of(vertices.begin(), vertices.end(), [&](const auto v) {
+              return has_vertex<dim>(cell, v);
+            }))
+          cells.push_back(cell);
+      return cells;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Aggregates<dim>::Aggregates(const double fill)
+    : fill(fill)
+  {
+    Assert(fill > 0 && fill <= 1, ExcInternalError());
+  }
+
+
+
+  template <int dim>
+  bool
+  Aggregates<dim>::tie_nodes(
+    GridSpace<dim>                                  &space,
+    const PointSet<dim>                             &points,
+    const std::function<double(const unsigned int)> &volume,
+    std::vector<unsigned char>                       active)
+  {
+    find_parts(space, points, volume);
+    const std::vector<Tie> before = std::move(tied);
+    find_ties(space);
+    for (const Tie &tie : tied)
+      active[tie.root] = 1;
+    const bool new_nodes = space.set_active_cells(std::move(active));
+    if (new_nodes)
+      find_ties(space);
+    return new_nodes || !(tied == before);
+  }
+
+
+
+  template <int dim>
+  void
+  Aggregates<dim>::find_parts(
+    const GridSpace<dim>                            &space,
+    const PointSet<dim>                             &points,
+    const std::function<double(const unsigned int)> &volume)
+  {
+    const auto         &tria = space.mesh().triangulation();
+    std::vector<double> filled(tria.n_active_cells(), 0.);
+    for (const auto &in_cell : points.cells())
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        filled[in_cell.cell->active_cell_index()] += volume(p);
+    Utilities::MPI::sum(filled, space.communicator(), filled);
+    parts.assign(filled.size(), Part::none);
+    // Sums of the points of a half-filled cell may differ in the last digit.
+    const double enough = (1 - 1e-9) * fill;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (space.is_active(cell))
+        {
+          const unsigned int c = cell->active_cell_index();
+          parts[c] =
+            filled[c] < enough * cell->measure() ? Part::cut : Part::filled;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  Aggregates<dim>::find_ties(const GridSpace<dim> &space)
+  {
+    tied.clear();
+    rootless.clear();
+    if (std::find(parts.begin(), parts.end(), Part::cut) == parts.end())
+      return;
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      {
+        const auto cells = cells_of_node(space, node);
+        if (std::any_of(cells.begin(), cells.end(), [this](const auto &cell) {
+              return part(cell) == Part::filled;
+            }))
+          continue;
+        const unsigned int root =
+          find_root(space,
+                    cells,
+                    space.node_position(node) - space.node_move(node));
+        if (root != GridSpace<dim>::no_cell)
+          tied.push_back({node, root});
+        else if (space.locally_owned().is_element(space.node_dof(node)))
+          rootless.push_back(node);
+      }
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Aggregates<dim>::find_root(const GridSpace<dim>            &space,
+                             const std::vector<CellIterator> &cells_of_node,
+                             const Point<dim>                &x) const
+  {
+    const auto &cells_at_vertex =
+      space.mesh().search_cache().get_vertex_to_cell_map();
+    std::set<CellIterator>    seen(cells_of_node.begin(), cells_of_node.end());
+    std::vector<CellIterator> layer = cells_of_node;
+    for (unsigned int distance = 1; distance <= largest_distance; ++distance)
+      {
+        std::vector<CellIterator> next;
+        for (const auto &cell : layer)
+          for (const unsigned int v : cell->vertex_indices())
+            for (const auto &neighbour : cells_at_vertex[cell->vertex_index(v)])
+              if (part(neighbour) != Part::none &&
+                  seen.insert(neighbour).second)
+                next.push_back(neighbour);
+        unsigned int root    = GridSpace<dim>::no_cell;
+        double       nearest = std::numeric_limits<double>::max();
+        for (const auto &cell : next)
+          if (part(cell) == Part::filled)
+            {
+              const double gap = distance_to_cell<dim>(cell, x);
+              const double eps = 1e-9 * cell->diameter();
+              // Of equally near ones that with the lowest index, on all ranks.
+              if (gap < nearest - eps ||
+                  (gap < nearest + eps && cell->active_cell_index() < root))
+                {
+                  nearest = gap;
+                  root    = cell->active_cell_index();
+                }
+            }
+        if (root != GridSpace<dim>::no_cell)
+          return root;
+        layer = std::move(next);
+      }
+    return GridSpace<dim>::no_cell;
+  }
+
+
+
+  template class Aggregates<2>;
+  template class Aggregates<3>;
+} // namespace moraine
