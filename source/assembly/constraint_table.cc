@@ -11,20 +11,28 @@ namespace moraine
 
   namespace
   {
-    /** Add the forces of the unknowns of @p tied to those they are tied to. */
+    /** Add the forces of the unknowns of @p tied to those they are tied to,
+     * which are @p relevant. */
     template <class Lines>
     void
-    add_to_others(const Lines &tied, LA::Vector &force)
+    add_to_others(const Lines    &tied,
+                  const IndexSet &relevant,
+                  LA::Vector     &force)
     {
-      const LA::Vector before(force);
+      LA::Vector sums;
+      sums.reinit(force.locally_owned_elements(),
+                  relevant,
+                  force.get_mpi_communicator(),
+                  true);
       for (const auto &line : tied)
-        if (before.in_local_range(line.index))
+        if (force.in_local_range(line.index))
           for (const auto &[dof, weight] : line.entries)
             {
-              const double f = weight * before(line.index);
-              force.add(1, &dof, &f);
+              const double f = weight * force(line.index);
+              sums.add(1, &dof, &f);
             }
-      force.compress(VectorOperation::add);
+      sums.compress(VectorOperation::add);
+      force += sums;
     }
   } // namespace
 
@@ -88,7 +96,7 @@ namespace moraine
   ConstraintTable::condense(LA::Vector &force) const
   {
     if (has_ties)
-      add_to_others(lines.get_lines(), force);
+      add_to_others(lines.get_lines(), lines.get_local_lines(), force);
     lines.set_zero(force);
   }
 
@@ -99,10 +107,9 @@ namespace moraine
   {
     if (!has_ties)
       return;
-    add_to_others(ties, force);
+    add_to_others(ties, lines.get_local_lines(), force);
     for (const auto &line : ties)
       if (force.in_local_range(line.index))
         force(line.index) = 0.;
-    force.compress(VectorOperation::insert);
   }
 } // namespace moraine
