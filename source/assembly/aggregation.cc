@@ -3,8 +3,6 @@
 
 #include <moraine/assembly/aggregation.h>
 
-#include <moraine/mesh/active_search.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -33,50 +31,25 @@ namespace moraine
 
 
   template <int dim>
-  bool
-  Aggregation<dim>::begin_step(const StepContext<dim> &context)
-  {
-    // Nodes that move with the material keep their place in the root.
-    if (!context.couplings_changed && !context.mesh_moves)
-      return false;
-    const GridSpace<dim>       &space = context.state.grid();
-    const unsigned int          n     = space.nodes_per_cell();
-    const auto                 &ties  = context.state.aggregates()->ties();
-    std::vector<Tensor<1, dim>> grad_N(n);
-    weights.resize(n * ties.size());
-    for (unsigned int t = 0; t < ties.size(); ++t)
-      evaluate_shapes(space,
-                      ties[t].root,
-                      space.node_position(ties[t].node),
-                      &weights[n * t],
-                      grad_N.data());
-    return !ties.empty();
-  }
-
-
-
-  template <int dim>
   void
   Aggregation<dim>::constrain(const StepContext<dim>    &context,
                               AffineConstraints<double> &lines) const
   {
     constexpr double      round_off = 1e-12;
     const GridSpace<dim> &space     = context.state.grid();
-    const unsigned int    n         = space.nodes_per_cell();
-    const auto           &ties      = context.state.aggregates()->ties();
-    for (unsigned int t = 0; t < ties.size(); ++t)
+    for (const auto &tie : context.state.aggregates()->ties())
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const auto dof = space.node_dof(ties[t].node) + c;
+          const auto dof = space.node_dof(tie.node) + c;
           if (lines.is_constrained(dof))
             continue;
           lines.add_line(dof);
-          const unsigned int *nodes = space.cell_nodes(ties[t].root);
-          for (unsigned int a = 0; a < n; ++a)
-            if (std::abs(weights[n * t + a]) > round_off)
+          const unsigned int *nodes = space.cell_nodes(tie.root);
+          for (unsigned int a = 0; a < tie.weights.size(); ++a)
+            if (std::abs(tie.weights[a]) > round_off)
               lines.add_entry(dof,
                               space.node_dof(nodes[a]) + c,
-                              weights[n * t + a]);
+                              tie.weights[a]);
         }
   }
 

@@ -5,7 +5,7 @@
 
 #include <moraine/mesh/active_search.h>
 
-#include <algorithm>
+#include <limits>
 #include <set>
 
 namespace moraine
@@ -115,8 +115,11 @@ namespace moraine
   {
     tied.clear();
     rootless.clear();
-    if (std::find(parts.begin(), parts.end(), Part::cut) == parts.end())
+    if (!any_cut())
       return;
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<double>         N(n);
+    std::vector<Tensor<1, dim>> grad_N(n);
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       {
         const auto cells = cells_of_node(space, node);
@@ -129,7 +132,16 @@ namespace moraine
                     cells,
                     space.node_position(node) - space.node_move(node));
         if (root != GridSpace<dim>::no_cell)
-          tied.push_back({node, root});
+          {
+            // Nodes that move with the material keep their place in the root.
+            if (space.knows(root))
+              evaluate_shapes(space,
+                              root,
+                              space.node_position(node),
+                              N.data(),
+                              grad_N.data());
+            tied.push_back({node, root, N});
+          }
         else if (space.locally_owned().is_element(space.node_dof(node)))
           rootless.push_back(node);
       }
@@ -176,6 +188,96 @@ namespace moraine
         layer = std::move(next);
       }
     return GridSpace<dim>::no_cell;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Aggregates<dim>::value_of_root(
+    const GridSpace<dim>              &space,
+    const Tie                         &tie,
+    const std::vector<Tensor<1, dim>> &values) const
+  {
+    const unsigned int *nodes = space.cell_nodes(tie.root);
+    Tensor<1, dim>      value;
+    for (unsigned int a = 0; a < tie.weights.size(); ++a)
+      value += tie.weights[a] * values[nodes[a]];
+    return value;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Aggregates<dim>::shares_of_root(
+    const GridSpace<dim>              &space,
+    const Tie                         &tie,
+    const std::vector<Tensor<1, dim>> &masses,
+    const std::vector<Tensor<1, dim>> &moved) const
+  {
+    constexpr double    much  = 0.5;
+    const unsigned int *nodes = space.cell_nodes(tie.root);
+    std::vector<double> shares(tie.weights.size());
+    double              sum    = 0;
+    bool                is_fit = true;
+    for (unsigned int a = 0; a < shares.size(); ++a)
+      {
+        is_fit    = is_fit && moved[nodes[a]][0] >= much * masses[nodes[a]][0];
+        shares[a] = std::max(moved[nodes[a]][0], 0.);
+        sum += shares[a];
+      }
+    if (is_fit)
+      return tie.weights;
+    for (double &share : shares)
+      share /= sum;
+    return shares;
+  }
+
+
+
+  template <int dim>
+  void
+  Aggregates<dim>::hand_over(const GridSpace<dim>              &space,
+                             const std::vector<Tensor<1, dim>> &masses,
+                             std::vector<Tensor<1, dim>>       &values) const
+  {
+    if (!any_cut())
+      return;
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<Tensor<1, dim>> moved(masses), momenta(values.size());
+    const auto                  is_mine = [&space](const Tie &tie) {
+      return space.locally_owned().is_element(space.node_dof(tie.node));
+    };
+    // The mass that moves with each node, which may be less than its own:
+    // weights of nodes behind the root are negative.
+    std::vector<Tensor<1, dim>> taken(values.size());
+    for (const Tie &tie : tied)
+      if (is_mine(tie))
+        for (unsigned int a = 0; a < n; ++a)
+          taken[space.cell_nodes(tie.root)[a]][0] +=
+            tie.weights[a] * masses[tie.node][0];
+    space.sum_over_ranks(taken);
+    for (unsigned int node = 0; node < values.size(); ++node)
+      moved[node] += taken[node];
+
+    for (const Tie &tie : tied)
+      if (is_mine(tie))
+        {
+          const Tensor<1, dim> momentum =
+            masses[tie.node][0] *
+            (values[tie.node] - value_of_root(space, tie, values));
+          const std::vector<double> shares =
+            shares_of_root(space, tie, masses, moved);
+          for (unsigned int a = 0; a < n; ++a)
+            momenta[space.cell_nodes(tie.root)[a]] += shares[a] * momentum;
+        }
+    space.sum_over_ranks(momenta);
+    for (unsigned int node = 0; node < values.size(); ++node)
+      if (moved[node][0] > 0)
+        values[node] += momenta[node] / moved[node][0];
+    for (const Tie &tie : tied)
+      values[tie.node] = value_of_root(space, tie, values);
   }
 
 

@@ -149,6 +149,9 @@ namespace moraine
           sums.v[k] /= masses[k][0];
           sums.a[k] /= masses[k][0];
         }
+    if (const Aggregates<dim> *aggregates = state.aggregates())
+      for (NodeValues *values : {&sums.v, &sums.a})
+        aggregates->hand_over(space, masses, *values);
     return sums;
   }
 

@@ -6,8 +6,6 @@
 
 #include <moraine/assembly/term.h>
 
-#include <vector>
-
 namespace moraine
 {
   /**
@@ -22,16 +20,9 @@ namespace moraine
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 
-    bool
-    begin_step(const StepContext<dim> &context) override;
-
     void
     constrain(const StepContext<dim>            &context,
               dealii::AffineConstraints<double> &lines) const override;
-
-  private:
-    /** N_a(x_i), tie by tie. */
-    std::vector<double> weights;
   };
 } // namespace moraine
 

@@ -87,7 +87,13 @@ namespace moraine
     bool
     knows(const CellIterator &cell) const
     {
-      return cell_slot[cell->active_cell_index()] != no_cell;
+      return knows(cell->active_cell_index());
+    }
+
+    bool
+    knows(const unsigned int active_cell_index) const
+    {
+      return cell_slot[active_cell_index] != no_cell;
     }
 
     unsigned int

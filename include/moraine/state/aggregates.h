@@ -7,6 +7,7 @@
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -33,11 +34,13 @@ namespace moraine
     {
       unsigned int node; ///< of this rank
       unsigned int root; ///< active_cell_index() of a cell this rank knows
+      std::vector<double> weights; ///< @f$N_a(x)@f$ of the nodes of the root
 
       bool
       operator==(const Tie &other) const
       {
-        return node == other.node && root == other.root;
+        return node == other.node && root == other.root &&
+               weights == other.weights;
       }
     };
 
@@ -62,6 +65,17 @@ namespace moraine
     {
       return tied;
     }
+
+    /**
+     * Let @p values of nodes, which have @p masses (their component 0), be
+     * those of their roots where nodes are tied, and give what momentum that
+     * takes to the nodes of the roots, by their weights: momentum and its
+     * moment stay. All ranks agree on the values of a node. Collective.
+     */
+    void
+    hand_over(const GridSpace<dim>                      &space,
+              const std::vector<dealii::Tensor<1, dim>> &masses,
+              std::vector<dealii::Tensor<1, dim>>       &values) const;
 
     /** Nodes of this rank that have neither a filled cell nor a root. */
     const std::vector<unsigned int> &
@@ -100,6 +114,19 @@ namespace moraine
     find_root(const GridSpace<dim>            &space,
               const std::vector<CellIterator> &cells_of_node,
               const dealii::Point<dim>        &x) const;
+
+    /** The value of the root of a tie at its node. */
+    dealii::Tensor<1, dim>
+    value_of_root(const GridSpace<dim>                      &space,
+                  const Tie                                 &tie,
+                  const std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /** Whether any cell of the mesh is cut. */
+    bool
+    any_cut() const
+    {
+      return std::find(parts.begin(), parts.end(), Part::cut) != parts.end();
+    }
 
     const double              fill;
     std::vector<Part>         parts; ///< of all cells, the same on all ranks
