@@ -69,8 +69,8 @@ namespace moraine
     /**
      * Let @p values of nodes, which have @p masses (their component 0), be
      * those of their roots where nodes are tied, and give what momentum that
-     * takes to the nodes of the roots, by their weights: momentum and its
-     * moment stay. All ranks agree on the values of a node. Collective.
+     * takes to the nodes of the roots: momentum stays, and mostly its moment.
+     * All ranks agree on the values of a node. Collective.
      */
     void
     hand_over(const GridSpace<dim>                      &space,
@@ -120,6 +120,15 @@ namespace moraine
     value_of_root(const GridSpace<dim>                      &space,
                   const Tie                                 &tie,
                   const std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /** How the nodes of the root share what a tied node hands over: by its
+     * weights, which keeps the moment, unless a node is too light for that;
+     * then alike, by the masses @p moved with them. */
+    std::vector<double>
+    shares_of_root(const GridSpace<dim>                      &space,
+                   const Tie                                 &tie,
+                   const std::vector<dealii::Tensor<1, dim>> &masses,
+                   const std::vector<dealii::Tensor<1, dim>> &moved) const;
 
     /** Whether any cell of the mesh is cut. */
     bool
