@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// Nodes of cut cells that follow filled ones.
+
+#include <moraine/state/aggregates.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "../small_scene.h"
+
+namespace
+{
+  using namespace dealii;
+  using namespace moraine;
+
+  template <int dim>
+  std::vector<unsigned char>
+  cells_of_points(const PointSet<dim> &points, const BackgroundMesh<dim> &mesh)
+  {
+    std::vector<unsigned char> active(mesh.triangulation().n_active_cells(), 0);
+    for (const auto &in_cell : points.cells())
+      active[in_cell.cell->active_cell_index()] = 1;
+    return active;
+  }
+
+
+
+  /** The scene with its ties. */
+  template <int dim>
+  struct TiedScene : SmallScene<dim>
+  {
+    explicit TiedScene(const double fill)
+      : SmallScene<dim>(false, 2)
+      , aggregates(fill)
+    {
+      const auto active = cells_of_points(this->points, this->mesh);
+      this->space.set_active_cells(active);
+      changed = tie(active);
+    }
+
+    bool
+    tie(const std::vector<unsigned char> &active)
+    {
+      return aggregates.tie_nodes(
+        this->space,
+        this->points,
+        [this](const unsigned int p) { return this->points.volume(p); },
+        active);
+    }
+
+    /** Which part of the cell with this lower corner the body fills. */
+    static double
+    fill(const Point<dim> &corner)
+    {
+      const double of_row[] = {0.7, 1., 1., 0.4};
+      double       part     = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        part *= of_row[static_cast<unsigned int>(std::lround(corner[d]))];
+      return part;
+    }
+
+    Aggregates<dim> aggregates;
+    bool            changed;
+  };
+
+
+
+  template <int dim>
+  void
+  tied_are_the_nodes_without_a_filled_cell()
+  {
+    TiedScene<dim>         scene(0.5);
+    const auto            &space = scene.space;
+    std::set<unsigned int> tied;
+    for (const auto &tie : scene.aggregates.ties())
+      tied.insert(tie.node);
+    unsigned int n_tied = 0;
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      {
+        bool is_filled = false;
+        for (const auto &cell :
+             scene.mesh.triangulation().active_cell_iterators())
+          for (const unsigned int v : cell->vertex_indices())
+            is_filled =
+              is_filled ||
+              (cell->vertex(v).distance(space.node_position(node)) < 1e-9 &&
+               TiedScene<dim>::fill(cell->vertex(0)) > 0.5);
+        EXPECT_EQ(tied.count(node), is_filled ? 0u : 1u)
+          << space.node_position(node);
+        n_tied += !is_filled;
+      }
+    EXPECT_GT(Utilities::MPI::sum(n_tied, MPI_COMM_WORLD), 0u);
+    EXPECT_TRUE(scene.aggregates.nodes_without_root().empty());
+    EXPECT_FALSE(Utilities::MPI::max(
+      int(scene.tie(cells_of_points(scene.points, scene.mesh))),
+      MPI_COMM_WORLD));
+  }
+
+  TEST(Aggregates, TiedAreTheNodesWithoutAFilledCell)
+  {
+    tied_are_the_nodes_without_a_filled_cell<2>();
+    tied_are_the_nodes_without_a_filled_cell<3>();
+  }
+
+
+
+  template <int dim>
+  void
+  roots_are_the_nearest_and_continue_linear_functions()
+  {
+    TiedScene<dim> scene(0.5);
+    const auto    &space = scene.space;
+    for (const auto &tie : scene.aggregates.ties())
+      {
+        const Point<dim> x    = space.node_position(tie.node);
+        double           mine = 0, nearest = 1e9;
+        for (const auto &cell :
+             scene.mesh.triangulation().active_cell_iterators())
+          {
+            if (TiedScene<dim>::fill(cell->vertex(0)) < 0.5)
+              continue;
+            Tensor<1, dim> gap;
+            for (unsigned int d = 0; d < dim; ++d)
+              gap[d] = std::max(
+                {cell->vertex(0)[d] - x[d], x[d] - cell->vertex(0)[d] - 1, 0.});
+            nearest = std::min(nearest, gap.norm());
+            if (cell->active_cell_index() == tie.root)
+              mine = gap.norm();
+          }
+        EXPECT_NEAR(mine, nearest, 1e-9) << x;
+
+        double              sum   = 0;
+        const unsigned int *nodes = space.cell_nodes(tie.root);
+        Point<dim>          mean;
+        for (unsigned int a = 0; a < tie.weights.size(); ++a)
+          {
+            sum += tie.weights[a];
+            mean += tie.weights[a] * space.node_position(nodes[a]);
+          }
+        EXPECT_NEAR(sum, 1., 1e-13);
+        EXPECT_LT(mean.distance(x), 1e-12);
+      }
+  }
+
+  TEST(Aggregates, RootsAreTheNearestAndContinueLinearFunctions)
+  {
+    roots_are_the_nearest_and_continue_linear_functions<2>();
+    roots_are_the_nearest_and_continue_linear_functions<3>();
+  }
+
+
+
+  TEST(Aggregates, NothingIsTiedWhereCellsAreFilledEnough)
+  {
+    TiedScene<2> scene(0.15); // the least is 0.16
+    EXPECT_TRUE(scene.aggregates.ties().empty());
+    EXPECT_TRUE(scene.aggregates.nodes_without_root().empty());
+    EXPECT_FALSE(scene.changed);
+  }
+
+
+
+  TEST(Aggregates, NothingIsTiedAcrossAGap)
+  {
+    // Over an empty row of cells a strip that fills a third of its row.
+    BackgroundMesh<2> mesh(unit_cells<2>(4), MPI_COMM_WORLD);
+    GridSpace<2>      space(mesh, 1);
+    PointSet<2>       points(mesh, PointFields());
+    seed_bodies({{"below", make_box<2>({0., 0.}, {4., 1.})},
+                 {"above", make_box<2>({0., 2.}, {4., 2.3})}},
+                CellSeeder<2>(2, PointLayout::equal),
+                points);
+    const auto active = cells_of_points(points, mesh);
+    space.set_active_cells(active);
+    Aggregates<2> aggregates(0.5);
+    aggregates.tie_nodes(
+      space,
+      points,
+      [&](const unsigned int p) { return points.volume(p); },
+      active);
+    EXPECT_TRUE(aggregates.ties().empty());
+    EXPECT_EQ(Utilities::MPI::sum(aggregates.nodes_without_root().size(),
+                                  MPI_COMM_WORLD),
+              10u);
+  }
+
+
+
+  template <int dim>
+  void
+  momentum_stays_and_linear_velocities_do()
+  {
+    TiedScene<dim>              scene(0.5);
+    const auto                 &space = scene.space;
+    std::vector<Tensor<1, dim>> masses(space.n_nodes()), v(space.n_nodes()),
+      linear(space.n_nodes());
+    const auto momentum = [&](const std::vector<Tensor<1, dim>> &of) {
+      Tensor<1, dim> sum;
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        if (space.locally_owned().is_element(space.node_dof(node)))
+          sum += masses[node][0] * of[node];
+      return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+    };
+    // One corner is so light that weights behind a root outweigh it.
+    for (const double lightest : {1., 1e-6})
+      {
+        for (unsigned int node = 0; node < space.n_nodes(); ++node)
+          {
+            const Point<dim> x = space.node_position(node);
+            masses[node][0]    = x[0] + x[1] < 2.5 ? lightest : 1 + 0.1 * x[0];
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                v[node][d]      = std::sin(3 * x[0] + (d + 1) * x[1]);
+                linear[node][d] = 2 + x[d] - 3 * x[1];
+              }
+          }
+        const Tensor<1, dim> before = momentum(v);
+        const auto           exact  = linear;
+        scene.aggregates.hand_over(space, masses, v);
+        scene.aggregates.hand_over(space, masses, linear);
+        EXPECT_LT((momentum(v) - before).norm(), 1e-12);
+        for (unsigned int node = 0; node < space.n_nodes(); ++node)
+          EXPECT_LT((linear[node] - exact[node]).norm(), 1e-12);
+        for (const auto &tie : scene.aggregates.ties())
+          {
+            Tensor<1, dim> value = -v[tie.node];
+            for (unsigned int a = 0; a < tie.weights.size(); ++a)
+              value += tie.weights[a] * v[space.cell_nodes(tie.root)[a]];
+            EXPECT_LT(value.norm(), 1e-12);
+          }
+      }
+  }
+
+  TEST(Aggregates, MomentumStaysAndLinearVelocitiesDo)
+  {
+    momentum_stays_and_linear_velocities_do<2>();
+    momentum_stays_and_linear_velocities_do<3>();
+  }
+} // namespace
