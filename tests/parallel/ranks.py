@@ -36,6 +36,13 @@ SCENES = {
                            "Loads/weight/Value": "0; -5"}),
     "cell means, ring": ("prm/boundaries/ring.prm",
                          {"Method/Volumetric strain": "cell mean"}),
+    "aggregation, dynamics": (
+        "prm/hard-cases/cut-block.prm",
+        {"Method/Strain": "finite", "Mesh/Lower corner": "-1.03, -1.57",
+         "Mesh/Upper corner": "2.97, 2.43", "Time/Integrator": "Newmark",
+         "Time/End time": 0.1, "Time/Steps": 10}),
+    "aggregation, 3D": ("prm/cortis-2017/block-3d.prm",
+                        {"Method/Aggregate below": 0.5}),
     "hollow sphere": ("prm/boundaries/hollow-sphere.prm",
                       {"Mesh/Cells": "5, 5, 5"}),
 }
