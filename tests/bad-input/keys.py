@@ -44,6 +44,7 @@ for name, settings in (
         ("stiffness damping", {"Time/Integrator": "Newmark",
                                "Bodies/block/Stiffness damping": 0.1})):
     refused(f"cell means, {name}", settings={**MEAN, **settings})
+refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))
