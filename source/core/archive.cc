@@ -432,6 +432,7 @@ namespace moraine
         shape = Utilities::MPI::broadcast(communicator, shape);
         if (!is_root)
           set = {empty_values(shape[0]), shape[1], ""};
+        set.unit = Utilities::MPI::broadcast(communicator, set.unit);
         std::visit(
           [&](auto &values) {
             using T = std::decay_t<decltype(values)>;
