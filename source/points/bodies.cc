@@ -276,9 +276,12 @@ namespace moraine
   void
   request_columns(const std::vector<Body<dim>> &bodies, PointFields &fields)
   {
-    // Those that every set of points has, and that output adds itself.
+    // Those that every set of points has, and that output and archives add.
     std::set<std::string> taken{"body",
                                 "id",
+                                "order",
+                                "cell",
+                                "reference_position",
                                 "volume",
                                 "displacement",
                                 "stress",

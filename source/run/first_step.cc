@@ -170,7 +170,8 @@ namespace moraine
   namespace
   {
     /** Nodes that begin to move otherwise than conditions want are a mistake;
-     * means of points around a node that is held need not be held as well. */
+     * means of points around a node that is held need not be held as well.
+     * Nodes that follow a root begin with what it has. */
     template <int dim>
     void
     check_initial_velocity(const TimeParameters &time, Model<dim> &model)
@@ -181,13 +182,17 @@ namespace moraine
       model.system->set_target(
         time.start_time +
         time.largest_step * (time.end_time - time.start_time) / time.n_steps);
-      const auto  &held    = model.motion->velocities();
+      const auto       &held = model.motion->velocities();
+      std::vector<bool> follows(given.size(), false);
+      if (const auto *aggregates = model.state->aggregates())
+        for (const auto &tie : aggregates->ties())
+          follows[tie.node] = true;
       double       largest = 0, contradiction = 0;
       unsigned int worst = 0;
       for (unsigned int k = 0; k < given.size(); ++k)
         {
           largest = std::max({largest, given[k].norm(), held[k].norm()});
-          if ((given[k] - held[k]).norm() > contradiction)
+          if (!follows[k] && (given[k] - held[k]).norm() > contradiction)
             {
               contradiction = (given[k] - held[k]).norm();
               worst         = k;

@@ -141,6 +141,10 @@ namespace moraine
     prepare_domains();
     n_vtu_written = archive.integer("output/n_vtu_written");
     directory.remove_vtu_from(n_vtu_written);
+    // It tells of an end that is none.
+    on_root(communicator, [this]() {
+      std::filesystem::remove(directory.file("summary.json"));
+    });
     t_written  = archive.number("output/t_written");
     t_accepted = archive.number("output/t_accepted");
     history.read(archive);

@@ -43,8 +43,11 @@ namespace moraine
 
 
 
+    /** @p over: sections of the times of stages that are over. */
     bool
-    may_change(const std::string &section, const std::string &key)
+    may_change(const std::string              &section,
+               const std::string              &key,
+               const std::vector<std::string> &over)
     {
       const auto is_in = [&](const std::string &whole) {
         return section == whole || section.rfind(whole + "/", 0) == 0;
@@ -55,20 +58,23 @@ namespace moraine
          section.compare(section.size() - 5, 5, "/Time") == 0);
       return is_in("Output") || is_in("Solver") || is_in("Study") ||
              (section.empty() && key == "Title") ||
-             (of_time && contains(keys_of_time, key));
+             (of_time && contains(keys_of_time, key) &&
+              !contains(over, section));
     }
 
 
 
     /** What @p before does not have or has with another value. */
     std::string
-    forbidden_changes(const Values &before, const Values &now)
+    forbidden_changes(const Values                   &before,
+                      const Values                   &now,
+                      const std::vector<std::string> &over)
     {
       std::string text;
       const auto  name = [&](const auto        &place,
                             const std::string &found,
                             const std::string &was) {
-        if (may_change(place.first, place.second))
+        if (may_change(place.first, place.second, over))
           return;
         text += (text.empty() ? "" : "\n  ") +
                 moraine::place(place.first, place.second) + ": found '" +
@@ -131,15 +137,19 @@ namespace moraine
                 const Scene<dim>  &scene,
                 const std::string &parameters)
   {
+    const unsigned int       stage = saved.state.integer("run/stage");
+    std::vector<std::string> over;
+    for (unsigned int k = 0; k < stage; ++k)
+      over.push_back(time_section(scene.stages.at(k).first));
     const std::string forbidden =
       forbidden_changes(values_of(saved.path, saved.label.parameters),
-                        values_of(saved.path, parameters));
+                        values_of(saved.path, parameters),
+                        over);
     if (!forbidden.empty())
       throw InputError(forbidden +
                        "\n  A run that goes on may change sections Output, "
-                       "Solver and Study, and of its times " +
+                       "Solver and Study, and of its times from here on " +
                        list_of(keys_of_time));
-    const unsigned int stage                = saved.state.integer("run/stage");
     const auto &[name, parameters_of_stage] = scene.stages.at(stage);
     const double end                        = parameters_of_stage.time.end_time;
     if (end < saved.label.t)

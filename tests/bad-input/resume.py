@@ -6,6 +6,7 @@
 import resource
 import shutil
 import subprocess
+import time
 
 scene = root / "tests/bad-input/base.prm"
 
@@ -52,6 +53,16 @@ refused("changed material", "run", "--set",
 refused("two changes, one of them new", "run", "--set", "Method/Method = GIMP",
         "--set", "Probes/tip/Location = 1, 1", "--set", "Output/Mesh = false")
 refused("end before the checkpoint", "run", "--set", "Time/End time = 0.5")
+stages = root / "prm/geotechnics/fill-and-dig.prm"
+assert moraine("run", stages, "--output", "stages", "--set",
+               "Output/Checkpoint every = 1 step")[0] == 0
+refused("end of a stage that is over", "stages", "--from", "2", "--set",
+        "Stages/alone/Time/End time = 1.5", "--set",
+        "Stages/dug/Time/End time = 4")
+code, output = moraine("resume", "stages", "--from", "2", "--set",
+                       "Stages/dug/Time/End time = 4")
+text("end of the next stage", f"exit code {code}, t = "
+     + (folder / "stages/history.csv").read_text().split()[-1].split(",")[0])
 refused("unknown key", "run", "--set", "Solver/Sover = direct")
 refused("an option of run", "run", "--output", "other")
 
@@ -74,6 +85,20 @@ last.write_bytes(b"t,u_x\n0,1\n")
 refused("another kind of file", "damaged")
 last.unlink()
 refused("file that is gone", "damaged")
+
+# What an earlier end left does not speak for a run that went on and was killed.
+went_on = copy("went on")
+rows = (went_on / "history.csv").read_text().count("\n")
+process = subprocess.Popen(
+    [str(program), "resume", "went on", "--set", "Time/End time = 1000", "--set",
+     "Time/Steps = 100000"], cwd=folder, stdout=subprocess.DEVNULL)
+while (went_on / "history.csv").read_text().count("\n") <= rows:
+    assert process.poll() is None
+    time.sleep(0.01)
+process.kill()
+process.wait()
+text("killed when it went on", "no summary"
+     if not (went_on / "summary.json").exists() else "NO, one of the past")
 
 for value in ("often", "0 steps", "2.5 steps", "5", "10 hours", "-1 minutes"):
     code, output = run_scene("key", f"Output/Checkpoint every = {value}")
