@@ -10,6 +10,7 @@
 #include <moraine/material/neo_hookean.h>
 #include <moraine/material/von_mises.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -99,8 +100,42 @@ namespace moraine
 
 
     /**
+     * Stretch the plastic strains of a table of yield stresses beyond its peak
+     * by MaterialParameters::softening_length over the size of the cells.
+     * @throw InputError if it has no peak.
+     */
+    void
+    stretch_softening(const MaterialParameters      &parameters,
+                      const std::string             &section,
+                      const double                   cell_size,
+                      std::vector<LinearTable::Row> &rows)
+    {
+      if (parameters.softening_length == 0)
+        return;
+      const auto falls =
+        std::adjacent_find(rows.begin(),
+                           rows.end(),
+                           [](const auto &row, const auto &next) {
+                             return next.second < row.second;
+                           });
+      if (falls == rows.end())
+        reject(section,
+               "Softening length",
+               as_text(parameters.softening_length),
+               "nothing; the yield stress does not fall");
+      const double peak    = falls->first;
+      const double stretch = parameters.softening_length / cell_size;
+      if (cell_size > 0)
+        for (auto row = falls; row != rows.end(); ++row)
+          row->first = peak + stretch * (row->first - peak);
+    }
+
+
+
+    /**
      * Pairs of accumulated plastic strain and yield radius, from @p key.
      * @param G shear modulus [stress]
+     * @param cell_size see make_material()
      * @throw InputError for what cannot be a yield stress, or falls so steeply
      * that no stress returns to it.
      */
@@ -108,7 +143,8 @@ namespace moraine
     read_yield_radius(const MaterialParameters &parameters,
                       const YieldKey           &key,
                       const std::string        &section,
-                      const double              G)
+                      const double              G,
+                      const double              cell_size)
     {
       const std::string            &text = parameters.*key.text;
       std::vector<LinearTable::Row> rows =
@@ -121,6 +157,7 @@ namespace moraine
         refuse("a number, or a table with at least two rows");
       if (rows.front().first != 0)
         refuse("a table whose first kappa is 0");
+      stretch_softening(parameters, section, cell_size, rows);
       const double steepest = -std::sqrt(6.) * G / key.radius_factor;
       for (std::size_t i = 0; i < rows.size(); ++i)
         {
@@ -134,7 +171,11 @@ namespace moraine
             refuse("a slope above " + as_text(steepest) +
                    ", where sigma_y falls by 3G; between kappa = " +
                    as_text(rows[i - 1].first) + " and " +
-                   as_text(rows[i].first) + " it is " + as_text(slope));
+                   as_text(rows[i].first) + " it is " + as_text(slope) +
+                   (parameters.softening_length > 0 && cell_size > 0 ?
+                      ", by 'Softening length' in cells of " +
+                        as_text(cell_size) + "; smaller ones soften less" :
+                      ""));
         }
       for (LinearTable::Row &row : rows)
         row.second *= key.radius_factor;
@@ -180,13 +221,24 @@ namespace moraine
           "accumulated plastic strain kappa (that of uniaxial tension), from "
           "kappa = 0 on; linear in between, constant after the last.",
         Patterns::Anything());
+    prm.add_parameter(
+      "Softening length",
+      softening_length,
+      "Of von Mises with a yield stress that falls: the width of the band for "
+      "which the table holds (length). Plastic strains beyond the peak are "
+      "multiplied by this over the cell size, the mean edge of the cells of a "
+      "box mesh, so that a band of one cell dissipates the same energy per "
+      "area in any mesh. 0: the table holds for cells of any size, and what a "
+      "band dissipates falls with them.",
+      patterns::non_negative());
   }
 
 
 
   std::shared_ptr<const Material>
   make_material(const MaterialParameters &parameters,
-                const std::string        &section)
+                const std::string        &section,
+                const double              cell_size)
   {
     const double E   = parameters.young_modulus;
     const double nu  = parameters.poisson_ratio;
@@ -204,7 +256,13 @@ namespace moraine
         read_yield_radius(parameters,
                           given_yield_key(parameters, section),
                           section,
-                          lame_constants(E, nu).mu));
+                          lame_constants(E, nu).mu,
+                          cell_size));
+    if (parameters.softening_length > 0)
+      reject(section,
+             "Softening length",
+             as_text(parameters.softening_length),
+             "nothing; key 'Model' is '" + parameters.model + "'");
     for (const YieldKey &key : yield_keys())
       if (!(parameters.*key.text).empty())
         reject(section,

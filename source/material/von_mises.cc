@@ -45,6 +45,20 @@ namespace moraine
 
 
 
+  std::shared_ptr<const Material>
+  VonMises::with_strength_over(const double factor) const
+  {
+    auto weaker = std::make_shared<VonMises>(*this);
+    for (Segment &segment : weaker->segments)
+      {
+        segment.radius /= factor;
+        segment.slope /= factor;
+      }
+    return weaker;
+  }
+
+
+
   std::vector<VonMises::Segment>::const_iterator
   VonMises::segment_at(const double kappa) const
   {

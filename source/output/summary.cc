@@ -37,6 +37,7 @@ namespace moraine
       json["active_cells"]           = summary.sizes.active_cells;
       json["unknowns"]               = summary.sizes.unknowns;
       json["points"]                 = summary.sizes.points;
+      json["time"]                   = summary.time;
       json["steps"]                  = summary.steps;
       json["rejected_steps"]         = summary.rejected_steps;
       json["pseudo_transient_steps"] = summary.n_pseudo_transient;
@@ -45,7 +46,7 @@ namespace moraine
       if (summary.condition_number)
         json["condition_number"] = *summary.condition_number;
       json["bytes_per_point"] = summary.sizes.bytes_per_point;
-      json["peak_memory_mib"] = summary.peak_memory_mib;
+      json["peak_memory_mib"] = summary.sizes.peak_memory_mib;
       json["wall_seconds"]    = summary.wall_seconds;
       json["timings"]         = object_of(summary.timings);
       json["effects"]         = summary.effects;

@@ -12,6 +12,7 @@
 #include <moraine/run/located.h>
 #include <moraine/run/parameter_reference.h>
 #include <moraine/run/resume.h>
+#include <moraine/run/safety_study.h>
 #include <moraine/run/scene.h>
 #include <moraine/run/simulation.h>
 #include <moraine/run/study.h>
@@ -82,7 +83,8 @@ namespace moraine
          {"--set"}},
         {"study",
          "FILE.prm",
-         "every combination of the {{a|b|c}} entries: error against time",
+         "every combination of the {{a|b|c}} entries: error against time, or the "
+         "factor of safety",
          {"--set", "--output", "--overwrite"}},
         {"parameters",
          "",
@@ -364,16 +366,19 @@ namespace moraine
     int
     run_study(const Arguments &arguments, const InputFile &input)
     {
-      Console                console(MPI_COMM_WORLD);
-      Study                  study(input,
-                  output_directory(arguments,
-                                   input.get("Output", "Directory", "")),
-                  arguments.options.overwrite,
-                  MPI_COMM_WORLD,
-                  console);
-      const InterruptHandler handler(
-        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-      return study.run();
+      Console           console(MPI_COMM_WORLD);
+      const std::string folder =
+        output_directory(arguments, input.get("Output", "Directory", ""));
+      const bool overwrite = arguments.options.overwrite;
+      const auto run       = [](auto study) {
+        const InterruptHandler handler(
+          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+        return study.run();
+      };
+      if (input.get("Study", "Kind", "") == "factor of safety")
+        return run(
+          SafetyStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
+      return run(Study(input, folder, overwrite, MPI_COMM_WORLD, console));
     }
 
 

@@ -389,7 +389,7 @@ namespace moraine
                   "")
             << summary.newton_iterations << " Newton iterations, "
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
-            << std::setprecision(4) << summary.peak_memory_mib
+            << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
     if (summary.status != "ok")
       console << "  ended early: " << summary.message << '\n';

@@ -115,7 +115,7 @@ namespace moraine
     space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);
     for (const Body<dim> &body : bodies)
       body_names.push_back(body.name);
-    materials = make_materials(scene, bodies);
+    materials = make_materials(scene, bodies, *mesh);
     make_points(scene);
     state = std::make_unique<State<dim>>(*space,
                                          *points,

@@ -356,7 +356,7 @@ namespace moraine
         probes.back().name = name;
       }
     take_names(input, "Stages", stages);
-    take_names(input, "Study/Series", series);
+    take_names(input, "Study/Series", study.series);
     declare();
     refuse_old_names(input);
     const auto given = input.parse(prm);
@@ -466,7 +466,7 @@ namespace moraine
     stages.emplace_back(name, StageParameters());
     probes.emplace_back();
     probes.back().name = name;
-    series.emplace_back(name, std::string());
+    study.series.emplace_back(name, std::string());
     declare();
   }
 
@@ -510,9 +510,10 @@ namespace moraine
       section(probe.name, probe);
     prm.leave_subsection();
     section("Exact solution", exact);
+    section("Strength reduction", strength_reduction);
     prm.enter_subsection("Study");
     study.add_parameters(prm);
-    in_subsections(prm, "Series", series, [this](std::string &settings) {
+    in_subsections(prm, "Series", study.series, [this](std::string &settings) {
       prm.add_parameter(
         "Settings",
         settings,

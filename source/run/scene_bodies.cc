@@ -7,6 +7,7 @@
 #include <moraine/core/words.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -87,8 +88,18 @@ namespace moraine
 
   template <int dim>
   std::vector<std::shared_ptr<const Material>>
-  make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies)
+  make_materials(const Scene<dim>             &scene,
+                 const std::vector<Body<dim>> &bodies,
+                 const BackgroundMesh<dim>    &mesh)
   {
+    double cell_size = 0;
+    if (const auto &box = mesh.box_grid())
+      {
+        cell_size = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          cell_size *= box->cell_size[d];
+        cell_size = std::pow(cell_size, 1. / dim);
+      }
     std::vector<std::shared_ptr<const Material>> materials;
     for (const Body<dim> &body : bodies)
       {
@@ -99,7 +110,8 @@ namespace moraine
         for (const auto &[name, material] : scene.materials)
           if (parameters->second.material == name ||
               scene.materials.size() == 1)
-            materials.push_back(make_material(material, "Materials/" + name));
+            materials.push_back(scene.strength_reduction.reduced(
+              name, make_material(material, "Materials/" + name, cell_size)));
       }
     return materials;
   }
@@ -180,7 +192,9 @@ namespace moraine
   template std::vector<std::string> simulated_bodies(const Scene<dim> &);    \
   template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);         \
   template std::vector<std::shared_ptr<const Material>> make_materials(      \
-    const Scene<dim> &, const std::vector<Body<dim>> &);                     \
+    const Scene<dim> &,                                                      \
+    const std::vector<Body<dim>> &,                                          \
+    const BackgroundMesh<dim> &);                                            \
   template std::vector<RayleighFactors> make_damping(                        \
     const Scene<dim> &, const std::vector<Body<dim>> &);                     \
   template bool         Scene<dim>::changes_bodies() const;                  \

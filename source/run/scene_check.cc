@@ -253,6 +253,8 @@ namespace moraine
                    "nothing; a " + load.type + " has no such key");
       }
     check_conditions(given);
+    strength_reduction.check(materials, study.finds_factor_of_safety());
+    study.check(given);
     for (const auto &probe : probes)
       probe.check(is_dynamic());
   }
@@ -319,6 +321,11 @@ namespace moraine
         material_names.push_back(name);
         for (const char *key : {"Young modulus", "Poisson ratio"})
           input.require("Materials/" + name, key);
+        if (material.softening_length > 0 && !mesh.is_box())
+          reject("Materials/" + name,
+                 "Softening length",
+                 input.get("Materials/" + name, "Softening length", ""),
+                 "nothing; only a mesh of type 'box' has cells of one size");
         if (!make_material(material, "Materials/" + name)
                ->has_small_strain_limit() &&
             method.strain == "small")

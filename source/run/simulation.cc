@@ -129,6 +129,7 @@ namespace moraine
       summary.sizes.active_cells    = model.space->n_active_cells();
       summary.sizes.unknowns        = model.space->n_dofs();
       summary.sizes.points          = model.points->n_global();
+      summary.time                  = driver.time().time();
       summary.steps                 = driver.time().n_accepted();
       summary.rejected_steps        = driver.time().n_rejected();
       summary.n_pseudo_transient    = counts.n_pseudo_transient;
@@ -136,7 +137,7 @@ namespace moraine
       summary.linear_iterations     = counts.linear_iterations;
       summary.condition_number      = counts.condition_number;
       summary.sizes.bytes_per_point = model.points->bytes_per_point();
-      summary.peak_memory_mib       = memory_in_use(communicator).peak_mib;
+      summary.sizes.peak_memory_mib = memory_in_use(communicator).peak_mib;
       summary.linear_solvers        = model.linear_solver->choices();
       for (const Effect &effect : model.system->effects())
         summary.effects.push_back(effect.name);

@@ -33,6 +33,13 @@ namespace moraine
   StudyParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter(
+      "Kind",
+      kind,
+      "Of 'moraine study'. errors: one run for each case, error against time. "
+      "factor of safety: of each case by strength reduction, see section "
+      "'Strength reduction'.",
+      patterns::selection({"errors", "factor of safety"}));
+    prm.add_parameter(
       "Error",
       error,
       "Of 'moraine study': the error to plot against time. A name from 'errors' "
@@ -60,6 +67,23 @@ namespace moraine
       "separated by ';', in each the beginnings of names of curves separated by "
       "'|'. If left out, all curves, at most 8 in a panel.");
     prm.add_parameter("Title", title, "Of 'moraine study': title of the plot.");
+  }
+
+
+
+  void
+  StudyParameters::check(const std::vector<InputFile::Entry> &given) const
+  {
+    if (!finds_factor_of_safety())
+      return;
+    for (const auto &entry : given)
+      if (entry.section == "Study" &&
+          contains({"Error", "Reference value", "Group by", "Panels"},
+                   entry.key))
+        reject("Study",
+               entry.key,
+               entry.value,
+               "nothing with 'Kind = factor of safety'");
   }
 
 
@@ -148,6 +172,32 @@ namespace moraine
 
 
 
+  Summary
+  summary_of_case(const InputFile &input, const MPI_Comm &communicator)
+  {
+    Summary summary;
+    try
+      {
+        summary = dimension_of(input) == 2 ? run_scene<2>(input, communicator) :
+                                             run_scene<3>(input, communicator);
+      }
+    catch (const InputError &error)
+      {
+        summary.status  = "wrong input";
+        summary.message = located(input, error);
+        end_if_alone(wrong_input, summary.message);
+      }
+    catch (const ComputationError &error)
+      {
+        end_if_alone(not_converged, error.what());
+        summary.status  = "not converged";
+        summary.message = error.what();
+      }
+    return summary;
+  }
+
+
+
   std::vector<StudyCase>
   study_cases(const InputFile &input)
   {
@@ -191,6 +241,32 @@ namespace moraine
 
 
 
+  void
+  make_study_folder(const std::string &folder,
+                    const InputFile   &input,
+                    const bool         overwrite,
+                    const MPI_Comm    &communicator)
+  {
+    on_root(communicator, [&]() {
+      if (fs::exists(fs::path(folder) / "study.csv") && !overwrite)
+        throw InputError("the output directory '" + folder +
+                         "' holds results of an earlier study (study.csv); "
+                         "choose another one with --output, or replace them "
+                         "with --overwrite");
+      std::error_code problem;
+      fs::create_directories(folder, problem);
+      if (problem)
+        throw InputError("cannot make the output directory '" + folder +
+                         "': " + problem.message() +
+                         "; choose another one with --output");
+      AtomicFile original((fs::path(folder) / "study.prm").string());
+      original.stream() << input.text();
+      original.commit();
+    });
+  }
+
+
+
   Study::Study(const InputFile   &input,
                const std::string &folder,
                const bool         overwrite,
@@ -213,22 +289,7 @@ namespace moraine
                        "', allowed with an error of a probe: a number other "
                        "than 0");
 
-    on_root(communicator, [&]() {
-      if (fs::exists(fs::path(folder) / "study.csv") && !overwrite)
-        throw InputError("the output directory '" + folder +
-                         "' holds results of an earlier study (study.csv); "
-                         "choose another one with --output, or replace them "
-                         "with --overwrite");
-      std::error_code problem;
-      fs::create_directories(folder, problem);
-      if (problem)
-        throw InputError("cannot make the output directory '" + folder +
-                         "': " + problem.message() +
-                         "; choose another one with --output");
-      AtomicFile original((fs::path(folder) / "study.prm").string());
-      original.stream() << input.text();
-      original.commit();
-    });
+    make_study_folder(folder, input, overwrite, communicator);
   }
 
 
@@ -302,25 +363,7 @@ namespace moraine
   Study::run_case(const StudyCase &study_case)
   {
     reset_peak_memory();
-    Summary summary;
-    try
-      {
-        summary = dimension_of(study_case.input) == 2 ?
-                    run_scene<2>(study_case.input, communicator) :
-                    run_scene<3>(study_case.input, communicator);
-      }
-    catch (const InputError &error)
-      {
-        summary.status  = "wrong input";
-        summary.message = located(study_case.input, error);
-        end_if_alone(wrong_input, summary.message);
-      }
-    catch (const ComputationError &error)
-      {
-        end_if_alone(not_converged, error.what());
-        summary.status  = "not converged";
-        summary.message = error.what();
-      }
+    const Summary summary = summary_of_case(study_case.input, communicator);
     return {study_case, summary, error_of(summary)};
   }
 

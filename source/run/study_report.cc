@@ -87,6 +87,7 @@ namespace moraine
       number("active_cells", summary.sizes.active_cells);
       number("unknowns", summary.sizes.unknowns);
       number("points", summary.sizes.points);
+      number("time", summary.time);
       number("steps", summary.steps);
       number("rejected_steps", summary.rejected_steps);
       number("newton_iterations", summary.newton_iterations);
@@ -94,7 +95,7 @@ namespace moraine
       if (summary.condition_number)
         number("condition_number", *summary.condition_number);
       number("bytes_per_point", summary.sizes.bytes_per_point);
-      number("peak_memory_mib", summary.peak_memory_mib);
+      number("peak_memory_mib", summary.sizes.peak_memory_mib);
       number("ranks", summary.sizes.ranks);
       cells.emplace_back("version", summary.version);
       return cells;
@@ -272,7 +273,7 @@ namespace moraine
         table.add_value("points",
                         or_dash(ok, std::to_string(summary.sizes.points)));
         table.add_value("MiB",
-                        or_dash(ok, text_of(summary.peak_memory_mib, 4)));
+                        or_dash(ok, text_of(summary.sizes.peak_memory_mib, 4)));
         table.add_value("Newton",
                         or_dash(ok, std::to_string(summary.newton_iterations)));
         table.add_value("linear",

@@ -45,6 +45,29 @@ for name, settings in (
                                "Bodies/block/Stiffness damping": 0.1})):
     refused(f"cell means, {name}", settings={**MEAN, **settings})
 refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
+STRENGTH = {"Materials/soil/Model": "von Mises",
+            "Materials/soil/Shear yield stress": "1"}
+SOFTENING = {"Materials/soil/Model": "von Mises",
+             "Materials/soil/Shear yield stress": "0: 1, 0.01: 0.5"}
+REDUCTION = "Strength reduction"
+for name, settings in (
+        ("without strength", {f"{REDUCTION}/Factor": 1.5}),
+        ("factor 0", {**STRENGTH, f"{REDUCTION}/Factor": 0}),
+        ("unknown material", {**STRENGTH, f"{REDUCTION}/Materials": "sol"}),
+        ("material without strength", {f"{REDUCTION}/Materials": "soil"}),
+        ("bounds", {**STRENGTH, f"{REDUCTION}/Lower factor": 3}),
+        ("kind of study", {"Study/Kind": "factor of safty"}),
+        ("study without strength", {"Study/Kind": "factor of safety"}),
+        ("key of errors", {**STRENGTH, "Study/Kind": "factor of safety",
+                           "Study/Error": "r_u"})):
+    refused(f"strength reduction, {name}", settings=settings)
+LENGTH = "Materials/soil/Softening length"
+for name, settings in (
+        ("of an elastic material", {LENGTH: 1}),
+        ("without softening", {**STRENGTH, LENGTH: 1}),
+        ("too short", {**SOFTENING, LENGTH: 1e-3}),
+        ("negative", {**SOFTENING, LENGTH: -1})):
+    refused(f"softening length, {name}", settings=settings)
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))

@@ -235,6 +235,7 @@ namespace moraine
   "active_cells": 0,
   "unknowns": 0,
   "points": 5000000000,
+  "time": 0,
   "steps": 0,
   "rejected_steps": 0,
   "pseudo_transient_steps": 0,

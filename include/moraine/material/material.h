@@ -10,6 +10,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -219,6 +220,17 @@ namespace moraine
     dissipates() const
     {
       return false;
+    }
+
+    /**
+     * The same material with its shear strength divided by @p factor > 0: what
+     * strength reduction does to it, as c / F and tan(phi) / F of a soil.
+     * nullptr if it has no strength.
+     */
+    virtual std::shared_ptr<const Material>
+    with_strength_over(const double /*factor*/) const
+    {
+      return nullptr;
     }
 
     /** For messages: why respond() can fail, as "it cannot return to ...". */

@@ -30,6 +30,14 @@ namespace moraine
     std::string shear_yield_stress;    ///< k
     std::string yield_radius;          ///< @f$\|s\| = \sqrt{2 J_2}@f$
 
+    /**
+     * Width l of the band for which the softening of the table holds; 0: of
+     * any. In cells of size h plastic strains beyond the peak are l/h times
+     * as large, so that a band of one cell dissipates the same per area in any
+     * mesh (crack band, Bazant and Oh 1983).
+     */
+    double softening_length = 0;
+
     void
     add_parameters(dealii::ParameterHandler &prm);
   };
@@ -37,11 +45,14 @@ namespace moraine
   /**
    * The material of a section.
    *
+   * @param cell_size that of all cells; 0 if it does not matter yet: then
+   * softening is that of the table
    * @throws InputError naming the section for values a material cannot have.
    */
   std::shared_ptr<const Material>
   make_material(const MaterialParameters &parameters,
-                const std::string        &section);
+                const std::string        &section,
+                const double              cell_size = 0);
 } // namespace moraine
 
 #endif

@@ -91,6 +91,10 @@ namespace moraine
       return {{"plastic_strain", "-"}};
     }
 
+    /** The yield radius is divided at every plastic strain. */
+    std::shared_ptr<const Material>
+    with_strength_over(const double factor) const override;
+
     std::string
     why_no_stress() const override
     {

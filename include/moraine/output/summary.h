@@ -30,14 +30,17 @@ namespace moraine
       std::uint64_t unknowns        = 0;
       std::uint64_t points          = 0;
       unsigned int  bytes_per_point = 0;
+      double        peak_memory_mib = 0;
     };
 
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
-    std::string  message;
-    std::string  version;
-    Sizes        sizes;
+    std::string message;
+    std::string version;
+    Sizes       sizes;
+    /** End of the last accepted step. */
+    double       time           = 0;
     unsigned int steps          = 0;
     unsigned int rejected_steps = 0;
     /** Steps that ended by Newton::pseudo_transient(). */
@@ -46,8 +49,7 @@ namespace moraine
     unsigned int linear_iterations  = 0;
     /** Left out if not asked for. */
     std::optional<double> condition_number;
-    double                peak_memory_mib = 0;
-    double                wall_seconds    = 0;
+    double                wall_seconds = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */

@@ -17,6 +17,7 @@
 #include <moraine/run/initial_stress_parameters.h>
 #include <moraine/run/method.h>
 #include <moraine/run/stage_parameters.h>
+#include <moraine/run/strength_reduction.h>
 #include <moraine/run/study.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
@@ -200,8 +201,8 @@ namespace moraine
     OutputParameters                    output;
     std::vector<ProbeParameters<dim>>   probes;
     ExactSolutionParameters<dim>        exact;
+    StrengthReductionParameters         strength_reduction;
     StudyParameters                     study;
-    Named<std::string>                  series;
 
     /** Whether there is a stage with inertia. */
     bool

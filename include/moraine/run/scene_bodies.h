@@ -6,6 +6,7 @@
 
 #include <moraine/geometry/shape_library.h>
 #include <moraine/material/material.h>
+#include <moraine/mesh/background_mesh.h>
 #include <moraine/points/bodies.h>
 #include <moraine/run/scene.h>
 
@@ -45,7 +46,9 @@ namespace moraine
   /** The material of each body. @throws InputError for impossible values. */
   template <int dim>
   std::vector<std::shared_ptr<const Material>>
-  make_materials(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
+  make_materials(const Scene<dim>             &scene,
+                 const std::vector<Body<dim>> &bodies,
+                 const BackgroundMesh<dim>    &mesh);
 
   /** The damping of each body. */
   template <int dim>

@@ -15,6 +15,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -22,14 +23,28 @@ namespace moraine
   /** Section `Study`; a run does not look at it. */
   struct StudyParameters
   {
+    std::string kind = "errors";
     std::string error;
     std::string reference_value;
     std::string group_by;
     std::string panels;
     std::string title;
+    /** Settings of section `Study/Series/<name>`. */
+    std::vector<std::pair<std::string, std::string>> series;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
+
+    /** Whether it is one by SafetyStudy. */
+    bool
+    finds_factor_of_safety() const
+    {
+      return kind == "factor of safety";
+    }
+
+    /** @throws InputError for keys in @p given that its kind has no use for. */
+    void
+    check(const std::vector<InputFile::Entry> &given) const;
   };
 
   /**
@@ -41,6 +56,26 @@ namespace moraine
    */
   std::vector<StudyCase>
   study_cases(const InputFile &input);
+
+  /**
+   * Simulate a scene without output. How it failed is the status of the
+   * summary, "wrong input" if by a mistake in the scene; what fails before the
+   * first step has no version. Collective.
+   */
+  Summary
+  summary_of_case(const InputFile &input, const MPI_Comm &communicator);
+
+  /**
+   * Make the folder of a study, or take the one that is there, and keep the
+   * input in it as study.prm. Collective.
+   * @throw InputError if it holds a study and @p overwrite is not set, or if
+   * it cannot be made.
+   */
+  void
+  make_study_folder(const std::string &folder,
+                    const InputFile   &input,
+                    const bool         overwrite,
+                    const MPI_Comm    &communicator);
 
   /**
    * Runs the cases of a study one after the other in this process and keeps,
