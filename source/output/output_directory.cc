@@ -12,9 +12,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace moraine
 {
@@ -86,6 +91,8 @@ namespace moraine
                          "or choose another one with --output");
     }
 
+    /** Make the folder and its parts, unless it holds results that may not be
+     * overwritten. */
     void
     prepare(const fs::path &folder, const bool overwrite)
     {
@@ -99,12 +106,50 @@ namespace moraine
       for (const char *series : {"points", "mesh"})
         fs::create_directories(folder / series);
       check_writable(folder);
-      for (const fs::path &file : results)
+    }
+
+
+
+    void
+    remove_results(const fs::path &folder)
+    {
+      for (const fs::path &file : results_in(folder))
         fs::remove(file);
       for (const char *name : other_names)
         fs::remove(folder / name);
     }
   } // namespace
+
+
+
+  /** Of a folder; the system takes it back from a process that ends, however
+   * it ends. */
+  class OutputDirectory::Lock
+  {
+  public:
+    explicit Lock(const std::string &folder)
+      : file(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+    {
+      // Some file systems know no locks.
+      if (file < 0 || flock(file, LOCK_EX | LOCK_NB) == 0 ||
+          errno != EWOULDBLOCK)
+        return;
+      close(file);
+      throw InputError("another run writes into the output directory '" +
+                       folder + "' and has not ended");
+    }
+
+    ~Lock()
+    {
+      if (file >= 0)
+        close(file);
+    }
+
+    Lock(const Lock &) = delete;
+
+  private:
+    const int file;
+  };
 
 
 
@@ -118,6 +163,8 @@ namespace moraine
       try
         {
           prepare(path, overwrite);
+          lock = std::make_unique<Lock>(path);
+          remove_results(path);
         }
       catch (const fs::filesystem_error &error)
         {
@@ -135,8 +182,15 @@ namespace moraine
     : path(path)
     , communicator(communicator)
   {
-    on_root(communicator, [&]() { check_writable(path); });
+    on_root(communicator, [&]() {
+      check_writable(path);
+      lock = std::make_unique<Lock>(path);
+    });
   }
+
+
+
+  OutputDirectory::~OutputDirectory() = default;
 
 
 

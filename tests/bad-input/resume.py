@@ -95,6 +95,9 @@ process = subprocess.Popen(
 while (went_on / "history.csv").read_text().count("\n") <= rows:
     assert process.poll() is None
     time.sleep(0.01)
+refused("folder in which a run is under way", "went on")
+code, output = moraine("run", scene, "--output", "went on", "--overwrite")
+text("  run in it", f"exit code {code}, " + output.strip())
 process.kill()
 process.wait()
 text("killed when it went on", "no summary"

@@ -182,6 +182,41 @@ namespace moraine
 
 
 
+  TEST(OutputDirectory, has_one_run_at_a_time)
+  {
+    const Folder      folder;
+    const std::string path  = folder.file("out");
+    const auto        taken = [&](const bool goes_on) {
+      try
+        {
+          if (goes_on)
+            OutputDirectory(path, MPI_COMM_WORLD);
+          else
+            OutputDirectory(path, true, MPI_COMM_WORLD);
+        }
+      catch (const InputError &error)
+        {
+          return std::string(error.what());
+        }
+      return std::string("not refused");
+    };
+    const std::string refused =
+      "another run writes into the output directory '" + path +
+      "' and has not ended";
+    {
+      const OutputDirectory directory(path, false, MPI_COMM_WORLD);
+      touch(path + "/history.csv");
+      EXPECT_EQ(taken(true), refused);
+      EXPECT_EQ(taken(false), refused);
+      EXPECT_EQ(content(path + "/history.csv"), "old");
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+    EXPECT_EQ(taken(true), "not refused");
+    EXPECT_EQ(taken(false), "not refused");
+  }
+
+
+
   TEST(OutputDirectory, that_cannot_be_made)
   {
     const Folder      folder;

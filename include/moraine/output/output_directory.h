@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <memory>
 #include <string>
 
 namespace moraine
@@ -18,6 +19,8 @@ namespace moraine
    * original.prm, parameters.prm, log.txt, history.csv, summary.json,
    * points.pvd with points/00000.vtu, ..., mesh.pvd with mesh/00000.vtu, ...,
    * checkpoints/last, a.h5, b.h5, a.xdmf, b.xdmf
+   *
+   * As long as it lives, other runs are kept out of the folder.
    */
   class OutputDirectory
   {
@@ -30,8 +33,8 @@ namespace moraine
      * step is removed in any case.
      *
      * @throws InputError on every rank if the folder holds results of an
-     * earlier run and @p overwrite is not set, or if it cannot be made or
-     * written.
+     * earlier run and @p overwrite is not set, if a run is under way in it, or
+     * if it cannot be made or written.
      */
     OutputDirectory(const std::string &path,
                     const bool         overwrite,
@@ -39,6 +42,8 @@ namespace moraine
 
     /** The folder of a run that goes on. */
     OutputDirectory(const std::string &path, const MPI_Comm &communicator);
+
+    ~OutputDirectory();
 
     /** Whether folder @p path holds results of an earlier run. Collective. */
     static bool
@@ -75,8 +80,11 @@ namespace moraine
                           const dealii::ParameterHandler &prm) const;
 
   private:
-    std::string path;
-    MPI_Comm    communicator;
+    class Lock;
+
+    std::string           path;
+    MPI_Comm              communicator;
+    std::unique_ptr<Lock> lock; ///< on rank 0
   };
 } // namespace moraine
 
