@@ -64,10 +64,12 @@ namespace moraine
 
 
 
-    /** What @p before does not have or has with another value. */
+    /** What @p before has with another value, or does not have although @p
+     * input sets it. */
     std::string
     forbidden_changes(const Values                   &before,
                       const Values                   &now,
+                      const InputFile                &input,
                       const std::vector<std::string> &over)
     {
       std::string text;
@@ -83,14 +85,30 @@ namespace moraine
       for (const auto &[place, value] : now)
         {
           const auto was = before.find(place);
-          if (was == before.end())
+          if (was == before.end() && input.has(place.first, place.second))
             name(place, value, "nothing, as in the checkpoint");
-          else if (was->second != value)
+          else if (was != before.end() && was->second != value)
             name(place, value, "'" + was->second + "', as in the checkpoint");
         }
       for (const auto &[place, value] : before)
         if (now.count(place) == 0)
           name(place, "", "'" + value + "', as in the checkpoint");
+      return text;
+    }
+
+
+
+    /** Defaults of a program that is newer than that of the checkpoint. */
+    std::string
+    new_defaults(const Values    &before,
+                 const Values    &now,
+                 const InputFile &input)
+    {
+      std::string text;
+      for (const auto &[place, value] : now)
+        if (before.count(place) == 0 && !input.has(place.first, place.second))
+          text += (text.empty() ? "'" : ", '") + place.first + "/" +
+                  place.second + " = " + value + "'";
       return text;
     }
   } // namespace
@@ -132,19 +150,19 @@ namespace moraine
 
 
   template <int dim>
-  void
+  std::string
   check_changes(const SavedRun    &saved,
                 const Scene<dim>  &scene,
+                const InputFile   &input,
                 const std::string &parameters)
   {
     const unsigned int       stage = saved.state.integer("run/stage");
     std::vector<std::string> over;
     for (unsigned int k = 0; k < stage; ++k)
       over.push_back(time_section(scene.stages.at(k).first));
-    const std::string forbidden =
-      forbidden_changes(values_of(saved.path, saved.label.parameters),
-                        values_of(saved.path, parameters),
-                        over);
+    const Values before         = values_of(saved.path, saved.label.parameters),
+                 now            = values_of(saved.path, parameters);
+    const std::string forbidden = forbidden_changes(before, now, input, over);
     if (!forbidden.empty())
       throw InputError(forbidden +
                        "\n  A run that goes on may change sections Output, "
@@ -160,12 +178,24 @@ namespace moraine
              << " of the checkpoint";
         throw InputError(text.str());
       }
+    const std::string defaults = new_defaults(before, now, input);
+    return defaults.empty() ?
+             "" :
+             "the program that wrote the checkpoint, revision " +
+               saved.label.revision +
+               ", did not have keys that now have defaults: " + defaults;
   }
 
 
 
-  template void
-  check_changes(const SavedRun &, const Scene<2> &, const std::string &);
-  template void
-  check_changes(const SavedRun &, const Scene<3> &, const std::string &);
+  template std::string
+  check_changes(const SavedRun &,
+                const Scene<2> &,
+                const InputFile &,
+                const std::string &);
+  template std::string
+  check_changes(const SavedRun &,
+                const Scene<3> &,
+                const InputFile &,
+                const std::string &);
 } // namespace moraine

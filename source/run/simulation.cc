@@ -326,13 +326,15 @@ namespace moraine
     std::unique_ptr<StepDriver<dim>>    driver;
     std::vector<RunObserver<dim> *>     observers;
     CheckpointLabel                     label;
+    std::string                         of_program;
     try
       {
         with_memory([&]() {
           scene = std::make_unique<Scene<dim>>(input);
           label = label_of(input, *scene, options, communicator);
           if (options.saved)
-            check_changes(*options.saved, *scene, label.parameters);
+            of_program =
+              check_changes(*options.saved, *scene, input, label.parameters);
           folder.prepare();
           folder.keep_input(input, scene->parameters(), console);
           model =
@@ -355,6 +357,8 @@ namespace moraine
               driver->read(options.saved->state);
               options.saved->state = Archive();
               folder.directory->write_parameters(scene->parameters());
+              if (!of_program.empty())
+                report->note(of_program);
             }
         });
       }

@@ -31,14 +31,17 @@ namespace moraine
                   const MPI_Comm    &communicator);
 
   /**
-   * Compare @p scene, with its @p parameters as an input file, with that of the
-   * checkpoint.
+   * Compare @p scene, which @p input describes, with its @p parameters as an
+   * input file, with that of the checkpoint.
+   * @return keys that the program of the checkpoint did not have, and their
+   * defaults, in words; "" if there are none.
    * @throws InputError naming all keys that a run cannot change on its way.
    */
   template <int dim>
-  void
+  std::string
   check_changes(const SavedRun    &saved,
                 const Scene<dim>  &scene,
+                const InputFile   &input,
                 const std::string &parameters);
 } // namespace moraine
 
