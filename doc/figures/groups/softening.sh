@@ -54,7 +54,6 @@ set ylabel 'energy / energy of a band of softening length'
 set logscale xy 2
 set xrange [0.027:0.29]
 set yrange [0.2:4]
-set key bottom right maxcols 1 vertical
 plot 'layer-none.csv' w lp lt 1 title 'layer, no length', \
      'layer.csv' w lp lt 3 title 'layer', \
      'layer-gimp.csv' w lp lt 4 title 'layer, GIMP, two rows', \
