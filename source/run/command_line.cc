@@ -83,8 +83,7 @@ namespace moraine
          {"--set"}},
         {"study",
          "FILE.prm",
-         "every combination of the {{a|b|c}} entries: error against time, or the "
-         "factor of safety",
+         "every combination of the {{a|b|c}} entries; factor of safety",
          {"--set", "--output", "--overwrite"}},
         {"parameters",
          "",

@@ -27,14 +27,18 @@ print($factor, -json.load(open('trial/summary.json'))['probes']['u_y at crest'],
 done
 sort -n -t, trials.csv -o trials.csv
 
+/usr/bin/python3 -c "import json
+print('F =', json.load(open('safety/summary.json'))['cases'][0]['factor_of_safety'])" >factor.gp
+
 plot step-9-settlement <<'GP'
 set title 'Settlement of the crest under the whole weight (GIMP, h = 1 m)'
 set xlabel 'factor F by which the strength is divided'
 set ylabel 'settlement [m]'
 set xrange [1:1.35]
-set yrange [0:0.2]
+set yrange [0:0.15]
 set key off
-set arrow from 1.285,0 to 1.285,0.2 nohead dt 2
-set label 'no equilibrium' at 1.29,0.1
+load 'factor.gp'
+set arrow from F,0 to F,0.15 nohead dt 2
+set label 'no equilibrium' at F + 0.005,0.11
 plot 'trials.csv' w lp lt 1 notitle
 GP
