@@ -16,6 +16,14 @@ namespace moraine
   {
     constexpr unsigned int largest_distance = 3; ///< of a root, in cells
 
+    /** Of the cells around a vertex at least, in the bulk of a body: that is
+     * about one and a half cells thick or more. */
+    constexpr double fill_of_bulk = 0.75;
+
+    /** Of the threshold, away from the bulk: a thin part that follows cells
+     * filled little better than its others would not bend. */
+    constexpr double share_in_thin_part = 0.2;
+
 
 
     template <int dim>
@@ -47,6 +55,88 @@ namespace moraine
             }))
           cells.push_back(cell);
       return cells;
+    }
+
+
+
+    /**
+     * Show active cells around some to @p visit, in layers that touch the one
+     * before, these cells first, until it returns true or they are
+     * largest_distance away.
+     */
+    template <int dim, typename Visit>
+    void
+    visit_layers(const GridSpace<dim>                              &space,
+                 std::vector<typename GridSpace<dim>::CellIterator> layer,
+                 const Visit                                       &visit)
+    {
+      const auto &cells_at_vertex =
+        space.mesh().search_cache().get_vertex_to_cell_map();
+      std::set<typename GridSpace<dim>::CellIterator> seen(layer.begin(),
+                                                           layer.end());
+      for (unsigned int distance = 0; !visit(layer); ++distance)
+        {
+          if (distance == largest_distance)
+            return;
+          std::vector<typename GridSpace<dim>::CellIterator> next;
+          for (const auto &cell : layer)
+            for (const unsigned int v : cell->vertex_indices())
+              for (const auto &neighbour :
+                   cells_at_vertex[cell->vertex_index(v)])
+                if (space.is_active(neighbour) && seen.insert(neighbour).second)
+                  next.push_back(neighbour);
+          layer = std::move(next);
+        }
+    }
+
+
+
+    /** Whether the cells around each vertex are filled as the bulk of a body
+     * fills them. @param filled part of each cell */
+    template <int dim>
+    std::vector<bool>
+    vertices_in_bulk(const GridSpace<dim>      &space,
+                     const std::vector<double> &filled)
+    {
+      const auto &tria = space.mesh().triangulation();
+      const auto &cells_at_vertex =
+        space.mesh().search_cache().get_vertex_to_cell_map();
+      std::vector<double> sums(tria.n_vertices(), 0.);
+      for (const auto &cell : tria.active_cell_iterators())
+        if (space.is_active(cell))
+          for (const unsigned int v : cell->vertex_indices())
+            sums[cell->vertex_index(v)] += filled[cell->active_cell_index()];
+      std::vector<bool> in_bulk(sums.size());
+      for (unsigned int v = 0; v < sums.size(); ++v)
+        in_bulk[v] =
+          sums[v] > 0 && sums[v] >= fill_of_bulk * cells_at_vertex[v].size();
+      return in_bulk;
+    }
+
+
+
+    /** What part of a cell has to be filled for its nodes to be free.
+     * @param fill that part in the bulk */
+    template <int dim>
+    double
+    threshold_of(const GridSpace<dim>                        &space,
+                 const typename GridSpace<dim>::CellIterator &cell,
+                 const std::vector<double>                   &filled,
+                 const std::vector<bool>                     &in_bulk,
+                 const double                                 fill)
+    {
+      bool   near_bulk = false;
+      double largest   = 0;
+      visit_layers(space, {cell}, [&](const auto &layer) {
+        for (const auto &near : layer)
+          {
+            for (const unsigned int v : near->vertex_indices())
+              near_bulk = near_bulk || in_bulk[near->vertex_index(v)];
+            largest = std::max(largest, filled[near->active_cell_index()]);
+          }
+        return near_bulk;
+      });
+      return near_bulk ? fill : share_in_thin_part * fill * largest;
     }
   } // namespace
 
@@ -95,15 +185,23 @@ namespace moraine
       for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
         filled[in_cell.cell->active_cell_index()] += volume(p);
     Utilities::MPI::sum(filled, space.communicator(), filled);
+    for (const auto &cell : tria.active_cell_iterators())
+      if (space.is_active(cell))
+        filled[cell->active_cell_index()] /= cell->measure();
+    const std::vector<bool> in_bulk = vertices_in_bulk(space, filled);
     parts.assign(filled.size(), Part::none);
-    // Sums of the points of a half-filled cell may differ in the last digit.
-    const double enough = (1 - 1e-9) * fill;
     for (const auto &cell : tria.active_cell_iterators())
       if (space.is_active(cell))
         {
-          const unsigned int c = cell->active_cell_index();
+          // Sums of the points of a half-filled cell may differ in the last
+          // digit.
+          const unsigned int c    = cell->active_cell_index();
+          const double       part = (1 + 1e-9) * filled[c];
           parts[c] =
-            filled[c] < enough * cell->measure() ? Part::cut : Part::filled;
+            part >= fill ||
+                part >= threshold_of(space, cell, filled, in_bulk, fill) ?
+              Part::filled :
+              Part::cut;
         }
   }
 
@@ -155,39 +253,25 @@ namespace moraine
                              const std::vector<CellIterator> &cells_of_node,
                              const Point<dim>                &x) const
   {
-    const auto &cells_at_vertex =
-      space.mesh().search_cache().get_vertex_to_cell_map();
-    std::set<CellIterator>    seen(cells_of_node.begin(), cells_of_node.end());
-    std::vector<CellIterator> layer = cells_of_node;
-    for (unsigned int distance = 1; distance <= largest_distance; ++distance)
-      {
-        std::vector<CellIterator> next;
-        for (const auto &cell : layer)
-          for (const unsigned int v : cell->vertex_indices())
-            for (const auto &neighbour : cells_at_vertex[cell->vertex_index(v)])
-              if (part(neighbour) != Part::none &&
-                  seen.insert(neighbour).second)
-                next.push_back(neighbour);
-        unsigned int root    = GridSpace<dim>::no_cell;
-        double       nearest = std::numeric_limits<double>::max();
-        for (const auto &cell : next)
-          if (part(cell) == Part::filled)
-            {
-              const double gap = distance_to_cell<dim>(cell, x);
-              const double eps = 1e-9 * cell->diameter();
-              // Of equally near ones that with the lowest index, on all ranks.
-              if (gap < nearest - eps ||
-                  (gap < nearest + eps && cell->active_cell_index() < root))
-                {
-                  nearest = gap;
-                  root    = cell->active_cell_index();
-                }
-            }
-        if (root != GridSpace<dim>::no_cell)
-          return root;
-        layer = std::move(next);
-      }
-    return GridSpace<dim>::no_cell;
+    unsigned int root = GridSpace<dim>::no_cell;
+    visit_layers(space, cells_of_node, [&](const auto &layer) {
+      double nearest = std::numeric_limits<double>::max();
+      for (const auto &cell : layer)
+        if (part(cell) == Part::filled)
+          {
+            const double gap = distance_to_cell<dim>(cell, x);
+            const double eps = 1e-9 * cell->diameter();
+            // Of equally near ones that with the lowest index, on all ranks.
+            if (gap < nearest - eps ||
+                (gap < nearest + eps && cell->active_cell_index() < root))
+              {
+                nearest = gap;
+                root    = cell->active_cell_index();
+              }
+          }
+      return root != GridSpace<dim>::no_cell;
+    });
+    return root;
   }
 
 

@@ -17,7 +17,9 @@ namespace moraine
    * Which nodes have too little material around to be free, and which cells
    * they follow: the aggregates of Badia, Verdugo, Martin 2018
    * (doi:10.1016/j.cma.2018.03.022). A cell is *filled* if its points fill at
-   * least a given part of it. A node of active cells none of which is filled
+   * least a given part of it; away from the bulk of a body, in parts less than
+   * about one and a half cells thick, a fifth of that part of the fullest cell
+   * around, so that a thin part has filled cells, too. A node of active cells none of which is filled
    * follows its *root*, the nearest filled cell: its value is that of the
    * root's functions, continued to the node. We tie nodes one by one to the
    * cell nearest to each, not cells to cells.
