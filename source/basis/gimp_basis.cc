@@ -85,11 +85,12 @@ namespace moraine
 
   template <int dim>
   unsigned int
-  GimpBasis<dim>::too_long_edge(const unsigned int point) const
+  GimpBasis<dim>::too_long_edge(const unsigned int point,
+                                const double       limit) const
   {
     const double *l     = this->points.values(point) + half_length_offset;
     unsigned int  edge  = dim;
-    double        worst = 1 + 1e-9;
+    double        worst = (1 + 1e-9) * limit;
     for (unsigned int d = 0; d < dim; ++d)
       // also true for what is not a number
       if (!(l[d] <= worst * grid().cell_size[d]))
@@ -110,7 +111,7 @@ namespace moraine
     std::string failure;
     for (unsigned int p = 0; p < this->points.n_local(); ++p)
       {
-        if (const unsigned int d = too_long_edge(p); d < dim)
+        if (const unsigned int d = too_long_edge(p, 1); d < dim)
           {
             if (failure.empty())
               failure = DomainTools::name_of(this->points, p) +
@@ -473,11 +474,14 @@ namespace moraine
   bool
   GimpBasis<dim>::split_domains(PointSet<dim> &points) const
   {
-    if (!split)
+    if (!split || update == DomainUpdate::frozen)
       return false;
+    // Not what is as long from the start.
+    const double limit =
+      std::max(0.5 * DomainTools::longest_edge, 0.5 / points_per_direction);
     return DomainTools::split_points<dim>(
       points,
-      [&](const unsigned int p) { return too_long_edge(p); },
+      [&](const unsigned int p) { return too_long_edge(p, limit); },
       [&](const unsigned int p, const unsigned int d) {
         double *l = points.values(p) + half_length_offset;
         l[d] *= 0.5;

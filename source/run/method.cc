@@ -390,9 +390,11 @@ namespace moraine
     prm.add_parameter(
       "Split domains",
       split_domains,
-      "Of methods with boxes and CPDI1: halve points whose domain grows beyond the cells "
-      "that touch the point's, instead of ending the run. auto: those of "
-      "GIMP, unless the scene has a force on points.",
+      "Of methods with boxes and CPDI1 at finite strain: halve points whose "
+      "domain grows longer than 3/4 of a cell, so that they stay together "
+      "however far they are stretched. false: points beyond the cells that "
+      "touch the point's end the run. auto: boxes are split, unless the scene "
+      "has a force on points.",
       patterns::selection({"auto", "true", "false"}));
     prm.add_parameter(
       "Separation",

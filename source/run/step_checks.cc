@@ -93,8 +93,9 @@ namespace moraine
       throw ComputationError(
         found + ". Points that drift apart leave a cell empty between them: "
                 "more points per direction, domains that follow the material "
-                "('Method = CPDI2', or GIMP with 'Domain update = corners') or "
-                "larger cells keep them together; 'Separation = note' in "
+                "and are split ('Method = GIMP' with 'Domain update = "
+                "corners', or CPDI1 with 'Split domains = true') or larger "
+                "cells keep them together; 'Separation = note' in "
                 "section 'Method' goes on");
     if (!found.empty())
       for (unsigned int b = 0; b < parts.size(); ++b)

@@ -29,9 +29,9 @@ namespace moraine
     request_fields(PointFields &fields);
 
     /**
-     * See CpdiBasis. With @p split, points whose corners lie beyond the cells
-     * that touch the point's are halved along their longest edge, see
-     * split_domains().
+     * See CpdiBasis. With @p split, domains longer than
+     * DomainTools::longest_edge, or beyond the cells that touch the point's,
+     * are halved along their longest edge.
      */
     Cpdi1Basis(const GridSpace<dim>         &space,
                const PointSet<dim>          &points,
@@ -64,6 +64,10 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const override;
+
+    /** The edge that has to be halved, dim if none. */
+    unsigned int
+    too_long_edge(const unsigned int p, CellPatch<dim> &patch) const;
 
     /** @f$R@f$ */
     dealii::Tensor<2, dim>

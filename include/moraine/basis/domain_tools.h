@@ -18,6 +18,14 @@ namespace moraine
   /** What bases whose points have domains have in common. */
   namespace DomainTools
   {
+    /**
+     * In cell sizes: longer edges are split where that is asked for. One point
+     * for each cell, with domains that all reach equally far into two, would
+     * not feel displacements that alternate from node to node; such modes grow
+     * before domains are that long.
+     */
+    inline constexpr double longest_edge = 0.75;
+
     /** "point 7 at (1.5, 2)". */
     template <int dim>
     std::string

@@ -67,7 +67,7 @@ namespace moraine
      * The divisions of a cell at seeding, @p points_per_direction, give the
      * boxes their shape. @p is_seeded says which bodies were seeded that way;
      * the others, all if left out, have points of their own (a file). With
-     * @p split, boxes longer than the limit are halved, see split_domains().
+     * @p split, boxes that grow too long are halved, see split_domains().
      * @p name is the method's in messages.
      * @throws InputError if the mesh is not a box of equal cells.
      */
@@ -119,8 +119,8 @@ namespace moraine
       const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
 
     /**
-     * Halve boxes with a half length above the cell size, along the edge that
-     * is longest in cell sizes.
+     * Halve boxes that grew longer than DomainTools::longest_edge, along the
+     * edge that is longest in cell sizes.
      */
     bool
     split_domains(PointSet<dim> &points) const override;
@@ -148,9 +148,10 @@ namespace moraine
       return *this->space.mesh().box_grid();
     }
 
-    /** The edge that is longest in cell sizes, dim if none is too long. */
+    /** The edge that is longest in cell sizes, dim if no half length is above
+     * @p limit of them. */
     unsigned int
-    too_long_edge(const unsigned int point) const;
+    too_long_edge(const unsigned int point, const double limit) const;
 
     /** Half lengths between middles of faces that moved with the grid. */
     dealii::Tensor<1, dim>
