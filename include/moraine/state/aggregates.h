@@ -19,10 +19,10 @@ namespace moraine
    * (doi:10.1016/j.cma.2018.03.022). A cell is *filled* if its points fill at
    * least a given part of it; away from the bulk of a body, in parts less than
    * about one and a half cells thick, a fifth of that part of the fullest cell
-   * around, so that a thin part has filled cells, too. A node of active cells none of which is filled
-   * follows its *root*, the nearest filled cell: its value is that of the
-   * root's functions, continued to the node. We tie nodes one by one to the
-   * cell nearest to each, not cells to cells.
+   * around, so that a thin part has filled cells, too. A node of active cells
+   * none of which is filled follows its *root*, the nearest filled cell: its
+   * value is that of the root's functions, continued to the node. We tie nodes
+   * one by one to the cell nearest to each, not cells to cells.
    *
    * Roots are sought over active cells only, so that nothing is tied across a
    * gap, and at most three cells away, because continued functions grow with

@@ -1,0 +1,167 @@
+# ranks: 1  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Bodies that hardly fill any cell, that poke into cells, share them or leave and
+enter them as they move, and a bar stretched until points are cells apart."""
+
+from math import cos, log, radians, sin, sqrt
+
+METHODS = "GIMP", "material point", "CPDI1", "CPDI2", "finite element", "DM-GC"
+
+
+def largest_stress(result):
+    """von Mises stress of the points (plane strain)."""
+    return max(sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2 + 3 * t * t)
+               for ((a, t, _, _, b, _, _, _, c),) in result.points("stress"))
+
+
+def shifted(lower, upper, dx, dy, h):
+    """A mesh moved by (-dx, -dy) cells."""
+    return {"Mesh/Lower corner": f"{lower[0] - dx * h!r}, {lower[1] - dy * h!r}",
+            "Mesh/Upper corner": f"{upper[0] - dx * h!r}, {upper[1] - dy * h!r}"}
+
+
+# A strip one cell thick, or half of one. Exact: force E u A / L along it; stress
+# E u / L; across it 6 F (L / 2) / thickness^2 by the force F that is found.
+STRIP = "prm/hard-cases/thin-strip.prm"
+H = 0.125
+
+
+def strip(method, cells, angle, dy, across, settings):
+    c, s = cos(radians(angle)), sin(radians(angle))
+    x, y = (-s, c) if across else (c, s)
+    result = run(STRIP, {
+        **shifted((-1, -1.5), (3, 2.5), 0.37, dy, H),
+        "Method/Method": method,
+        "Bodies/strip/Upper corner": f"2, {cells * H!r}",
+        "Bodies/strip/Rotation angle": angle,
+        "Boundaries/moved/Displacement": f"{0.01 * x!r}*t; {0.01 * y!r}*t",
+        **settings})
+    force = result.reactions["moved"]
+    return force[0] * x + force[1] * y, largest_stress(result), result
+
+
+def strips(method, cells, across, settings={}):
+    """Least and largest force, largest stress over what is right, warnings."""
+    forces, stresses, notes = [], [], 0
+    for angle in 0, 17, 45:
+        for dy in 0, 1e-8, 0.5, 0.75, 1 - 1e-6:
+            f, s, result = strip(method, cells, angle, dy, across, settings)
+            t = cells * H
+            forces.append(f)
+            stresses.append(s / (6 * f / t ** 2 if across else 5.))
+            notes += len(result.summary.get("warnings", []))
+            notes += result.summary["rejected_steps"]
+    return min(forces), max(forces), max(stresses), notes
+
+
+# DM-GC takes its stiffness from Gauss points of whole cells.
+for method in METHODS:
+    for cells, of_dm_gc in (1, 0.05), (0.5, 0.15):
+        low, high, stress, notes = strips(method, cells, False)
+        exact = 1000 * 0.01 / 2 * cells * H
+        bound(f"{method}, {cells} cells thick: force over exact - 1",
+              max(high / exact - 1, 1 - low / exact),
+              of_dm_gc if method == "DM-GC" else 1e-8)
+        bound("  stress over exact - 1", stress - 1,
+              0.6 if method == "DM-GC" else 1e-4)
+        text("  warnings and rejected steps", notes)
+for cells in 1, 0.5:
+    _, free, unbounded, _ = strips("GIMP", cells, True,
+                                   {"Method/Aggregate below": 0})
+    _, high, stress, notes = strips("GIMP", cells, True)
+    bound(f"bent, {cells} cells thick: force over that of free nodes - 1",
+          high / free - 1, 0.02)
+    bound("  stress over that of the force", stress, 3)
+    at_least("  with free nodes", unbounded, 1000)
+    low, high, stress, notes = strips("finite element", cells, True,
+                                      {"Method/Degree": 2})
+    beam = 12 * 1000 * (cells * H) ** 3 / 12 * 0.01 / 2 ** 3
+    bound("  degree 2: force over that of a beam - 1",
+          max(high / beam - 1, 1 - low / beam), 0.012)
+    bound("  stress over that of the force - 1", stress - 1, 0.02)
+
+# A corner pokes into a row of cells, at a node of it and between two.
+BLOCK = "prm/hard-cases/cut-block.prm"
+down = "sin(pi/4); -cos(pi/4)"
+turned = {"Bodies/block/Rotation angle": 45,
+          "Boundaries/support/Rotation angle": 45,
+          "Loads/weight/Value": down, "Loads/end/Value": down,
+          "Probes/tip/Location":
+              f"{1.49 * sqrt(0.5)}, {2.49 * sqrt(0.5)}"}
+for method in METHODS:
+    found = []
+    for dx, poke in (0, 0), (0, 1e-6), (0.3, 1e-6), (0.3, 1e-9), (0.3, 1e-3):
+        result = run(BLOCK, {**turned, "Method/Method": method,
+                             **shifted((-1, -1.5), (3, 2.5), dx, -poke, H)})
+        found.append(largest_stress(result))
+    bound(f"corner, {method}: largest stress over that without - 1",
+          max(found) / found[0] - 1, 0.5)
+
+# Two bodies in one cell: the force is that of springs in a row, to O(h).
+TWO = "prm/hard-cases/two-in-a-cell.prm"
+for h, allowed in (0.125, 0.1), (0.0625, 0.05):
+    worst = 0
+    for dx in 0, 1e-6, 0.3, 0.8:
+        result = run(TWO, {**shifted((-1, -1.5), (3, 2.5), dx, 0.6, h),
+                           "Mesh/Cell size": h})
+        x, y = result.reactions["moved"]
+        force = x * cos(radians(17)) + y * sin(radians(17))
+        worst = max(worst, abs(force * (1 / 1000 + 1 / 10) / 0.01 - 1))
+    bound(f"two bodies, h = {h}: force over exact - 1", worst, allowed)
+
+# A body that leaves cells and enters others at every step.
+for method in [m for m in METHODS if m != "finite element"]:
+    result = run("prm/hard-cases/carried-block.prm", {
+        "Method/Method": method,
+        **shifted((-1, -1), (3, 3), 0.3, 0.73, H)})
+    later = [row for row in result.history() if row["t"] > 0.21]
+    bound(f"carried, {method}: reaction over weight - 1",
+          max(abs(row["reaction_y of support"] - 1) for row in later), 1e-10)
+    points = result.points("stress", "displacement")
+    bound("  largest stress over that at rest", max(-s[4] for s, _ in points), 1.05)
+    at_least("  smallest", min(-s[4] for s, _ in points), 0)
+    bound("  sideways", max(abs(u[0] - 0.8) for _, u in points), 1e-5)
+    text("  rejected steps", result.summary["rejected_steps"])
+
+# A bar stretched to four times its length: neo-Hookean, free to contract.
+BAR = "prm/large-deformation/bar-stretched.prm"
+E, nu = 1000, 0.3
+mu, lam = E / 2 / (1 + nu), E * nu / (1 + nu) / (1 - 2 * nu)
+
+
+def exact_force(stretch):
+    """P_11 with no stress across: mu (l_2^2 - 1) + lam ln(l_1 l_2) = 0."""
+    low, high = 0.01, 1.
+    for _ in range(100):
+        middle = (low + high) / 2
+        if mu * (middle ** 2 - 1) + lam * log(stretch * middle) > 0:
+            high = middle
+        else:
+            low = middle
+    return (mu * (stretch ** 2 - 1) + lam * log(stretch * low)) / stretch
+
+
+def force_error(result):
+    return max(abs(row["reaction_x of pulled"] / exact_force(1 + 3 * row["t"]) - 1)
+               for row in result.history() if row["t"] > 0)
+
+
+aggregated = {"Method/Aggregate below": 0.5, "Output/Points": "false",
+              "Output/Mesh": "false"}
+for name, settings in (
+        ("GIMP, corners", {"Method/Method": "GIMP"}),
+        ("GIMP, stretch", {"Method/Method": "GIMP",
+                           "Method/Domain update": "stretch"}),
+        ("CPDI1, split", {"Method/Method": "CPDI1",
+                          "Method/Split domains": "true"}),
+        ("finite element", {"Method/Method": "finite element"})):
+    worst = 0
+    for dx, dy in (0, 0), (0.37, 0.7), (1e-3, 1e-6), (0.75, 0.5):
+        result = run(BAR, {**settings, **aggregated,
+                           **shifted((0, -1), (21, 2), dx, dy, 0.5)})
+        worst = max(worst, force_error(result))
+    bound(f"stretched by 4, {name}: force over exact - 1, all steps", worst, 1e-2)
+torn = run(BAR, {**aggregated, "Method/Method": "material point"}, expect=1)
+text("stretched by 4, material point: says that it tears",
+     "came apart" in torn.summary["message"])
