@@ -45,8 +45,9 @@ namespace moraine
   /**
    * The material of a section.
    *
-   * @param cell_size that of all cells; 0 if it does not matter yet: then
-   * softening is that of the table
+   * @p cell_size is that of all cells; 0 if it does not matter yet: softening is
+   * that of the table then.
+   *
    * @throws InputError naming the section for values a material cannot have.
    */
   std::shared_ptr<const Material>
