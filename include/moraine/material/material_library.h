@@ -45,8 +45,8 @@ namespace moraine
   /**
    * The material of a section.
    *
-   * @p cell_size is that of all cells; 0 if it does not matter yet: softening is
-   * that of the table then.
+   * @p cell_size is that of all cells; 0 if it does not matter yet: softening
+   * is that of the table then.
    *
    * @throws InputError naming the section for values a material cannot have.
    */
