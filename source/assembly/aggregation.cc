@@ -25,7 +25,7 @@ namespace moraine
     std::string text = std::to_string(n[0]) + " nodes follow filled cells";
     if (n[1] > 0)
       text += ", " + std::to_string(n[1]) + " have none near";
-    return {{"aggregation", "cuts", text}};
+    return {{"aggregation", n[0] + n[1] > 0 ? "cuts" : "", text}};
   }
 
 

@@ -29,6 +29,13 @@ namespace moraine
     for (unsigned int node = 0; node < space->n_nodes(); ++node)
       nodes_in_matrix[node] = find_node(node);
     find_ghost_rows(couplings);
+    tied_rows.clear();
+    for (const auto dof : space->locally_owned())
+      if (const auto *line = constraints->get_constraint_entries(dof))
+        if (!line->empty())
+          tied_rows.push_back(dof);
+    any_tied =
+      Utilities::MPI::logical_or(!tied_rows.empty(), space->communicator());
   }
 
 
@@ -224,8 +231,25 @@ namespace moraine
                                  ghost.global_columns.data(),
                                  &ghost.values[c * ghost.columns.size()]);
         sum_of_matrices->compress(VectorOperation::add);
+        if (any_tied)
+          scale_tied_rows();
       }
     space->sum_node_values(node_forces, forces);
+  }
+
+
+
+  template <int dim>
+  void
+  GlobalSystem<dim>::scale_tied_rows()
+  {
+    double largest = 0;
+    for (const auto dof : space->locally_owned())
+      largest = std::max(largest, std::abs(sum_of_matrices->diag_element(dof)));
+    largest = Utilities::MPI::max(largest, space->communicator());
+    for (const auto dof : tied_rows)
+      sum_of_matrices->set(dof, dof, largest);
+    sum_of_matrices->compress(VectorOperation::insert);
   }
 
 

@@ -125,8 +125,8 @@ namespace moraine
                                          scene.method.strain_measure(),
                                          scene.method.weights(),
                                          scene.method.volumetric());
-    if (scene.method.aggregate_below > 0)
-      state->aggregate_below(scene.method.aggregate_below);
+    if (const double fill = scene.method.fill(); fill > 0)
+      state->aggregate_below(fill);
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);

@@ -58,7 +58,7 @@ for scene, cells in (
                    result.probes["y at top"] - place, 2)
     if name in ("gimp", "cpdi1"):
         at_least(f"{name}: order from 4 to 32 cells",
-                 log2(errors[0] / errors[3]) / 3, 1.7)
+                 log2(errors[0] / errors[3]) / 3, 1.6)
     elif name == "mpm":
         at_least("mpm: error with 64 cells over that with 4",
                  errors[-1] / errors[0], 1)

@@ -162,12 +162,20 @@ namespace moraine
     bool
     add_to_rows(const LocalSystem<dim> &local);
 
-    const GridSpace<dim>                    *space       = nullptr;
-    const dealii::AffineConstraints<double> *constraints = nullptr;
-    std::shared_ptr<LA::SparseMatrix>        sum_of_matrices;
-    LA::LocalRows                            rows;
-    std::vector<NodeInMatrix>                nodes_in_matrix;
-    std::vector<GhostRows>                   ghost_rows;
+    /** Rows of what follows others have nothing but a diagonal, the mean of
+     * cells that may hold next to nothing. Give them the largest of all, so
+     * that they do not spoil the condition. Collective. */
+    void
+    scale_tied_rows();
+
+    const GridSpace<dim>                        *space       = nullptr;
+    const dealii::AffineConstraints<double>     *constraints = nullptr;
+    std::shared_ptr<LA::SparseMatrix>            sum_of_matrices;
+    LA::LocalRows                                rows;
+    std::vector<NodeInMatrix>                    nodes_in_matrix;
+    std::vector<GhostRows>                       ghost_rows;
+    std::vector<dealii::types::global_dof_index> tied_rows; ///< owned
+    bool any_tied = false;                                  ///< on any rank
     std::vector<std::pair<int, unsigned int>>
       by_column; ///< scratch: columns of nodes
     std::vector<dealii::Tensor<1, dim>> node_forces;
