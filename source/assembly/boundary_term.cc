@@ -131,6 +131,15 @@ namespace moraine
 
 
   template <int dim>
+  void
+  BoundaryTerm<dim>::move_trial(const StepContext<dim> &context)
+  {
+    boundary.move_target(context.t_end);
+  }
+
+
+
+  template <int dim>
   bool
   BoundaryTerm<dim>::symmetric(const StepContext<dim> &context) const
   {

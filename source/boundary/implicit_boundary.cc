@@ -331,20 +331,31 @@ namespace moraine
   void
   ImplicitBoundary<dim>::set_target(const double t_end)
   {
+    move_target(t_end);
+    const Tensor<2, dim> turn =
+      turns_multiplier ? motion.pose(t_end).rotation() *
+                           transpose(motion.pose(t_start).rotation()) :
+                         Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    for (auto &point : boundary_points)
+      point.multiplier = how.carries_multiplier ?
+                           turn * point.multiplier_at_start :
+                           Tensor<1, dim>();
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::move_target(const double t_end)
+  {
     const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);
     at_end.set_pose(moves_with_points ? end : at_start.pose());
-    const Tensor<2, dim> turn = turns_multiplier ?
-                                  end.rotation() * transpose(start.rotation()) :
-                                  Tensor<2, dim>(unit_symmetric_tensor<dim>());
     for (auto &point : boundary_points)
       {
         const Point<dim> X = at_start.pose().inverse(point.x);
         point.prescribed   = (end.map(X) - start.map(X)) +
                            displacement(point.x, t_end) -
                            displacement(point.x, t_start);
-        point.multiplier = how.carries_multiplier ?
-                             turn * point.multiplier_at_start :
-                             Tensor<1, dim>();
       }
   }
 

@@ -79,7 +79,7 @@ namespace moraine
     , model(model)
     , options(options)
     , console(console)
-    , t_begun(scene.start_time())
+    , begun(scene.start_time())
   {}
 
 
@@ -125,6 +125,8 @@ namespace moraine
             << std::defaultfloat << time.n_steps
             << (name.empty() ? "" : " steps") << " from t = " << time.start_time
             << " to " << time.end_time;
+    if (time.follows_path())
+      console << ", along the path by " << time.arc_length << " each";
     if (time.integrator.dynamic())
       console << ", " << time.integrator.integrator << ", Courant number "
               << std::setprecision(3) << courant_number(time)
@@ -218,7 +220,7 @@ namespace moraine
   void
   ConsoleReport<dim>::run_resumes(const TimeControl &time)
   {
-    t_begun = time.time();
+    begun = time.coordinate();
     std::ostringstream text;
     text << "goes on after step " << time.n_accepted()
          << ", t = " << std::setprecision(6) << time.time() << ", on "
@@ -301,7 +303,7 @@ namespace moraine
          << std::setprecision(6) << time.trial_time() << "  iteration "
          << iteration.number << "  residual " << std::scientific
          << std::setprecision(1) << iteration.residual
-         << time_left(time.time());
+         << time_left(time);
     console.progress(line.str());
   }
 
@@ -309,9 +311,10 @@ namespace moraine
 
   template <int dim>
   std::string
-  ConsoleReport<dim>::time_left(const double t) const
+  ConsoleReport<dim>::time_left(const TimeControl &time) const
   {
-    const double done = (t - t_begun) / (scene.end_time() - t_begun);
+    const double done =
+      (time.coordinate() - begun) / (time.last_coordinate() - begun);
     if (!(done > 0))
       return "";
     const double       seconds = since_start.wall_time() * (1 - done) / done;

@@ -161,7 +161,8 @@ namespace moraine
   ResultFiles<dim>::step_accepted(const AcceptedStep<dim> &step)
   {
     TimerOutput::Scope scope(timer, "output");
-    t_accepted = step.time.time();
+    // ParaView wants times that grow.
+    t_accepted = step.time.coordinate();
     history.add_row(row_of(step));
     if (scene.output.times.due(step.time))
       write_vtu(t_accepted, step.increments);
@@ -202,6 +203,8 @@ namespace moraine
   {
     std::vector<NamedValue> row;
     row.push_back({"t", "-", step.time.time()});
+    if (scene.stages.back().second.time.follows_path())
+      row.push_back({"path_length", "length", step.time.path_length()});
     // What does not act in a stage has columns, too, of zeros.
     std::vector<BoundaryReport<dim>> reports;
     const auto                       add = [&](const std::string &name) {

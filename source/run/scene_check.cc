@@ -9,6 +9,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
+#include <sstream>
 
 namespace moraine
 {
@@ -149,6 +150,39 @@ namespace moraine
 
 
 
+    /** Where a path of equilibria cannot be followed. */
+    template <int dim>
+    void
+    check_path(const Scene<dim> &scene)
+    {
+      for (const auto &[name, stage] : scene.stages)
+        {
+          if (!stage.time.follows_path())
+            continue;
+          const auto refuse = [&, &of = name](const std::string &why) {
+            std::ostringstream found;
+            found << stage.time.arc_length;
+            reject(time_section(of), "Arc length", found.str(), "0; " + why);
+          };
+          if (stage.time.integrator.dynamic())
+            refuse("'Integrator' is '" + stage.time.integrator.integrator +
+                   "', and inertia takes a body past limit points");
+          if (&stage != &scene.stages.back().second)
+            refuse("another stage follows, which begins at 'End time', where a "
+                   "path need not end");
+          if (!scene.mesh_motion.follow.empty() ||
+              !scene.mesh_motion.stretch.empty())
+            refuse("section 'Mesh motion' moves the mesh by times that are "
+                   "known before the step");
+          if (scene.newton.limit_points != "stop")
+            refuse("'Limit points' in section 'Solver' is '" +
+                   scene.newton.limit_points +
+                   "', which leaves the path, or 'stop' there");
+        }
+    }
+
+
+
     /** What prescribes or enforces a motion. */
     bool
     is_of_motion(const std::string &key)
@@ -217,6 +251,7 @@ namespace moraine
     mesh.check();
     CheckpointTimes::from_text(output.times.checkpoint_every);
     check_dynamics(*this, given);
+    check_path(*this);
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
       reject("Mesh motion",
              "Stretch between",

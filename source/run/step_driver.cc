@@ -77,6 +77,8 @@ namespace moraine
       lasting.add(load);
     lasting.add(*model.probes);
     lasting.add(time_control);
+    if (scene.stages.back().second.time.follows_path())
+      lasting.add(last_increment.emplace(*model.space));
     for (RunObserver<dim> *observer : observers)
       if (StatePart *record = observer->record())
         lasting.add_record(*record);
@@ -88,10 +90,7 @@ namespace moraine
   bool
   StepDriver<dim>::run(const std::function<void()> &after_step)
   {
-    newton.watch([this](const NewtonIteration &iteration) {
-      for (RunObserver<dim> *observer : observers)
-        observer->newton_iteration(iteration, time_control);
-    });
+    newton.watch(tell_of_iteration());
     for (RunObserver<dim> *observer : observers)
       if (time_control.n_accepted() == 0)
         observer->run_begins();
@@ -106,6 +105,18 @@ namespace moraine
           after_step();
       }
     return true;
+  }
+
+
+
+  template <int dim>
+  Newton::Watcher
+  StepDriver<dim>::tell_of_iteration() const
+  {
+    return [this](const NewtonIteration &iteration) {
+      for (RunObserver<dim> *observer : observers)
+        observer->newton_iteration(iteration, time_control);
+    };
   }
 
 
@@ -196,7 +207,10 @@ namespace moraine
     MechanicsSystem<dim> &system = *model.system;
     for (;;)
       {
-        system.set_target(time_control.trial_time());
+        // Along a path the time is found from where it is.
+        system.set_target(time_control.follows_path() ?
+                            time_control.time() :
+                            time_control.trial_time());
         system.initial_guess(x);
         if (!first_step && system.coupling_changed())
           {
@@ -205,13 +219,44 @@ namespace moraine
             system.start_over();
           }
         const NewtonReport report =
-          newton.solve(system, *model.linear_solver, x);
+          time_control.follows_path() ?
+            follow_path(x) :
+            newton.solve(system, *model.linear_solver, x);
         count(report);
         if (report.status != NewtonStatus::linear_solver_failed ||
             !model.linear_solver->solves_directly() ||
             !hold_empty_parts(report.message))
           return report;
       }
+  }
+
+
+
+  template <int dim>
+  NewtonReport
+  StepDriver<dim>::follow_path(LA::Vector &x)
+  {
+    const TimeParameters &time = scene.stages[stage].second.time;
+    PathStep              step{time_control.trial_length(),
+                  time_control.time(),
+                  time.earliest_time(),
+                  time.end_time,
+                  {}};
+    if (time_control.path_length() > 0)
+      step.before = {last_increment->values(), time_control.path_rate()};
+    const PathReport report = moraine::follow_path(scene.newton,
+                                                   *model.system,
+                                                   *model.linear_solver,
+                                                   step,
+                                                   x,
+                                                   tell_of_iteration());
+    if (!report.parameter_acts)
+      throw InputError(
+        "section '" + time_section(scene.stages[stage].first) +
+        "', key 'Arc length': found a path along which no load and no "
+        "prescribed displacement changes with t, allowed: 0, or one that does");
+    time_control.set_trial_time(report.t);
+    return report;
   }
 
 
@@ -288,6 +333,8 @@ namespace moraine
       last_reports = model.system->accept(x);
       model.probes->keep_step();
       time_control.accept(report.iterations, growth);
+      if (last_increment)
+        last_increment->keep(increments);
     });
     first_step = false;
     if (support)
@@ -342,9 +389,11 @@ namespace moraine
       report.status == NewtonStatus::too_many_iterations;
     throw ComputationError(
       time_control.message() +
-      (scene.newton.limit_points == "stop" && path_may_end ?
+      (scene.newton.limit_points == "stop" && path_may_end &&
+           !time_control.follows_path() ?
          " If a path of equilibria ends here, 'Limit points = "
-         "pseudo-transient' in section 'Solver' looks for one beyond." :
+         "pseudo-transient' in section 'Solver' looks for one beyond; 'Arc "
+         "length' in section 'Time' follows the path where the load falls." :
          ""));
   }
 

@@ -47,6 +47,8 @@ namespace moraine
     : stages(stages)
     , current(stages.front().start_time)
     , trial(current)
+    , current_time(current)
+    , found_time(current)
   {
     for (unsigned int stage = 0; stage < stages.size(); ++stage)
       {
@@ -56,7 +58,7 @@ namespace moraine
                ExcMessage("A stage starts where the one before ends."));
         add_stops(stage, asked);
       }
-    size = accepted_size = one_step() * parameters().largest_step;
+    size = accepted_size = parameters().one_step() * parameters().largest_step;
   }
 
 
@@ -72,9 +74,17 @@ namespace moraine
   TimeControl::add_stops(const unsigned int         stage,
                          const std::vector<double> &asked)
   {
-    const TimeParameters &times  = stages[stage];
-    const double          length = times.end_time - times.start_time;
-    const std::size_t     first  = stops.size();
+    const TimeParameters &times = stages[stage];
+    if (times.follows_path())
+      {
+        // The same for any number of steps: a run that goes on may have more.
+        for (unsigned int k = 1; k <= times.n_steps; ++k)
+          stops.push_back(
+            {times.start_time + k * times.arc_length, true, stage});
+        return;
+      }
+    const double      length = times.end_time - times.start_time;
+    const std::size_t first  = stops.size();
     for (unsigned int k = 1; k < times.n_steps; ++k)
       stops.push_back(
         {times.start_time + length * k / times.n_steps, true, stage});
@@ -108,10 +118,27 @@ namespace moraine
 
 
   double
-  TimeControl::one_step() const
+  TimeControl::path_length() const
   {
-    const TimeParameters &times = parameters();
-    return (times.end_time - times.start_time) / times.n_steps;
+    return follows_path() ? current - parameters().start_time : 0.;
+  }
+
+
+
+  bool
+  TimeControl::path_leaves_interval() const
+  {
+    return current_time <= parameters().earliest_time() ||
+           current_time >= parameters().end_time;
+  }
+
+
+
+  void
+  TimeControl::set_trial_time(const double t)
+  {
+    Assert(follows_path(), ExcMessage("Steps of time have theirs."));
+    found_time = t;
   }
 
 
@@ -126,6 +153,8 @@ namespace moraine
     trial_is_stop = n_parts == 1.;
     trial =
       trial_is_stop ? stops[next_stop].time : current + remaining / n_parts;
+    if (!follows_path())
+      found_time = trial;
   }
 
 
@@ -138,6 +167,9 @@ namespace moraine
     const double       taken  = trial - current;
     const unsigned int before = stage();
     current                   = trial;
+    rate                      = (found_time - current_time) / taken;
+    current_time              = found_time;
+    path_ended                = follows_path() && path_leaves_interval();
     on_step_end               = trial_is_stop && stops[next_stop].ends_step;
     if (trial_is_stop)
       ++next_stop;
@@ -145,7 +177,7 @@ namespace moraine
       ++completed_steps;
     ++accepted;
     in_a_row             = rejected > rejected_before ? 1 : in_a_row + 1;
-    const double largest = one_step() * parameters().largest_step;
+    const double largest = parameters().one_step() * parameters().largest_step;
     if (iterations <= parameters().easy_iterations ||
         in_a_row == enough_in_a_row)
       {
@@ -154,7 +186,7 @@ namespace moraine
       }
     if (allowed_growth * taken < size)
       size = std::max(allowed_growth * taken,
-                      one_step() * parameters().smallest_step);
+                      parameters().one_step() * parameters().smallest_step);
     if (stage() != before)
       size = largest;
     accepted_size   = size;
@@ -166,7 +198,9 @@ namespace moraine
   void
   TimeControl::write(Archive &archive) const
   {
-    archive.write("time/time", current, "time");
+    archive.write("time/coordinate", current, "time");
+    archive.write("time/time", current_time, "time");
+    archive.write("time/path_rate", rate, "time/length");
     archive.write("time/step_size", accepted_size, "time");
     archive.write("time/at_step_end", on_step_end ? 1u : 0u);
     archive.write("time/accepted", accepted);
@@ -179,16 +213,21 @@ namespace moraine
   void
   TimeControl::read(const Archive &archive)
   {
-    current       = archive.number("time/time");
+    current       = archive.number("time/coordinate");
+    current_time  = archive.number("time/time");
+    rate          = archive.number("time/path_rate");
+    path_ended    = false;
     accepted_size = archive.number("time/step_size");
     on_step_end   = archive.integer("time/at_step_end") != 0;
     // There may be other stops from here on.
     next_stop = completed_steps = 0;
-    while (!finished() &&
-           stops[next_stop].time - current <= same_time * one_step())
+    while (!finished() && stops[next_stop].time - current <=
+                            same_time * parameters().one_step())
       completed_steps += stops[next_stop++].ends_step ? 1 : 0;
+    path_ended = path_length() > 0 && path_leaves_interval();
     accepted_size =
-      std::min(accepted_size, one_step() * parameters().largest_step);
+      std::min(accepted_size,
+               parameters().one_step() * parameters().largest_step);
     accepted        = archive.integer("time/accepted");
     rejected        = archive.integer("time/rejected");
     rejected_before = rejected;
@@ -201,8 +240,9 @@ namespace moraine
   void
   TimeControl::undo()
   {
-    trial = current;
-    size  = accepted_size;
+    trial      = current;
+    found_time = current_time;
+    size       = accepted_size;
   }
 
 
@@ -211,7 +251,8 @@ namespace moraine
   TimeControl::can_cut() const
   {
     return parameters().cut * (trial - current) >=
-           one_step() * parameters().smallest_step * (1. - same_time);
+           parameters().one_step() * parameters().smallest_step *
+             (1. - same_time);
   }
 
 
@@ -223,13 +264,16 @@ namespace moraine
     ++rejected;
     const bool repeat = can_cut();
     size              = parameters().cut * (trial - current);
-    text = "The step from t = " + in_words(current) + " to " + in_words(trial) +
+    text              = "The step from t = " + in_words(current_time) +
+           (follows_path() ? " along the path by " + in_words(trial - current) :
+                             " to " + in_words(trial)) +
            " failed: " + reason + ".";
-    trial = current;
+    trial      = current;
+    found_time = current_time;
     if (repeat)
       return true;
     text += " A cut would go below the smallest step, " +
-            in_words(one_step() * parameters().smallest_step) +
+            in_words(parameters().one_step() * parameters().smallest_step) +
             " (Smallest step = " + in_words(parameters().smallest_step) +
             " of a step).";
     return false;
@@ -248,7 +292,7 @@ namespace moraine
   bool
   TimeControl::finished() const
   {
-    return next_stop == stops.size();
+    return path_ended || next_stop == stops.size();
   }
 
 
@@ -256,7 +300,7 @@ namespace moraine
   double
   TimeControl::time() const
   {
-    return current;
+    return current_time;
   }
 
 
@@ -264,7 +308,7 @@ namespace moraine
   double
   TimeControl::trial_time() const
   {
-    return trial;
+    return found_time;
   }
 
 
@@ -319,6 +363,16 @@ namespace moraine
                       n_steps,
                       "equal steps from start to end; always hit exactly",
                       patterns::integer_in_range(1, 10000000));
+    prm.add_parameter(
+      "Arc length",
+      arc_length,
+      "0: steps are of time. Else each step goes this far along the path of "
+      "equilibria (root mean square of the displacement of the material, "
+      "length), and its time, on which loads and prescribed values depend, is "
+      "found with it: a load may reach a limit and fall. The run ends after "
+      "Steps such steps, or where time reaches End time or falls as far below "
+      "Start time",
+      patterns::non_negative());
     prm.add_parameter("Smallest step",
                       smallest_step,
                       "as a fraction of one step; the run stops below it",

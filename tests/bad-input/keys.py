@@ -169,6 +169,12 @@ refused("velocity transfer of finite elements",
                   "Time/Velocity transfer": "PIC"})
 refused("limit points in dynamics",
         settings={**dynamic, "Solver/Limit points": "pseudo-transient"})
+refused("a path in dynamics", settings={**dynamic, "Time/Arc length": 0.1})
+refused("a path and pseudo-transient continuation",
+        settings={"Time/Arc length": 0.1, "Solver/Limit points": "pseudo-transient"})
+refused("a path on a mesh that moves",
+        settings={"Time/Arc length": 0.1, "Mesh motion/Follow": "left"})
+refused("a negative arc length", settings={"Time/Arc length": -0.1})
 refused("velocity of a node that is held",
         settings={**dynamic, "Bodies/block/Lower corner": "0, 0.5",
                   "Grid conditions/left/Side": "left",
@@ -205,6 +211,8 @@ refused("dynamic key in a quasi-static stage", staged,
         {"Stages/later/Time/Spectral radius": 0.5})
 refused("error tolerance in a quasi-static scene",
         settings={"Time/Error tolerance": 1e-4})
+refused("a path before another stage", staged,
+        {"Stages/gravity/Time/Arc length": 0.1})
 refused("another mass in a later stage", staged,
         {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
          "Stages/later/Time/Integrator": "Newmark",

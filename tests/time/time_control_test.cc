@@ -369,3 +369,70 @@ TEST(TimeControl, GrowsNoMoreThanAllowed)
   time.next();
   EXPECT_LE(time.trial_time() - time.time(), 2.1e-3); // it doubles at most
 }
+
+TEST(TimeControl, FollowsAPathByItsLength)
+{
+  TimeParameters parameters = steps(4, 3.);
+  parameters.arc_length     = 0.5;
+  TimeControl  time(parameters);
+  const double found[]  = {1., 2., 1.5, -1.};
+  double       previous = 0.;
+  for (unsigned int k = 0; k < 4; ++k)
+    {
+      ASSERT_TRUE(time.follows_path());
+      ASSERT_FALSE(time.finished());
+      time.next();
+      EXPECT_EQ(time.trial_length(), 0.5);
+      time.set_trial_time(found[k]);
+      EXPECT_EQ(time.time(), previous);
+      EXPECT_EQ(time.trial_time(), found[k]);
+      time.accept(1);
+      EXPECT_EQ(time.time(), found[k]);
+      EXPECT_EQ(time.path_length(), 0.5 * (k + 1));
+      EXPECT_DOUBLE_EQ(time.path_rate(), (found[k] - previous) / 0.5);
+      EXPECT_TRUE(time.at_step_end());
+      previous = found[k];
+    }
+  EXPECT_TRUE(time.finished());
+}
+
+TEST(TimeControl, CutsTheLengthOfAPathAndEndsAtTheEndTime)
+{
+  std::vector<TimeParameters> stages{steps(2), steps(8, 2.)};
+  stages[1].start_time = 1.;
+  stages[1].arc_length = 0.2;
+  TimeControl time(stages);
+  step(time);
+  EXPECT_FALSE(time.follows_path());
+  EXPECT_EQ(time.path_length(), 0.);
+  step(time);
+  time.next();
+  time.set_trial_time(1.7);
+  EXPECT_TRUE(time.reject("test"));
+  EXPECT_EQ(time.time(), 1.);
+  EXPECT_EQ(time.trial_time(), 1.);
+  time.next();
+  EXPECT_NEAR(time.trial_length(), 0.1, 1e-12);
+  time.set_trial_time(1.4);
+  time.accept(9);
+
+  // Where it goes on from an archive.
+  Archive archive;
+  time.write(archive);
+  TimeControl other(stages);
+  other.read(archive);
+  EXPECT_EQ(other.time(), 1.4);
+  EXPECT_EQ(other.path_rate(), time.path_rate());
+  EXPECT_EQ(other.path_length(), time.path_length());
+  EXPECT_FALSE(other.finished());
+
+  time.next();
+  EXPECT_NEAR(time.trial_length(), 0.1, 1e-12);
+  time.set_trial_time(2.);
+  time.accept(9);
+  EXPECT_TRUE(time.finished());
+  Archive at_end;
+  time.write(at_end);
+  other.read(at_end);
+  EXPECT_TRUE(other.finished());
+}

@@ -43,6 +43,9 @@ namespace moraine
     begin_trial(const StepContext<dim> &context) override;
 
     void
+    move_trial(const StepContext<dim> &context) override;
+
+    void
     add(const StepContext<dim> &context,
         const bool              tangent,
         GlobalSystem<dim>      &system) const override;

@@ -8,7 +8,7 @@
 #include <moraine/assembly/constraint_table.h>
 #include <moraine/assembly/make_terms.h>
 #include <moraine/boundary/mesh_motion.h>
-#include <moraine/solver/nonlinear_system.h>
+#include <moraine/solver/path_following.h>
 
 #include <deal.II/base/timer.h>
 
@@ -30,7 +30,7 @@ namespace moraine
    * condensed.
    */
   template <int dim>
-  class MechanicsSystem : public NonlinearSystem
+  class MechanicsSystem : public PathSystem
   {
   public:
     /**
@@ -227,6 +227,18 @@ namespace moraine
 
     bool
     augment(const LA::Vector &x) override;
+
+    /** The time at which the step ends. */
+    void
+    set_parameter(const double t) override;
+
+    /**
+     * The share of each unknown's node in the volume,
+     * @f$m_a = \sum_p N_a v_p / \sum_p v_p@f$: the norm is the root mean
+     * square of the displacement.
+     */
+    LA::Vector
+    path_weights() const override;
 
   private:
     /** Find the forces of all terms but inertia in the committed state, by

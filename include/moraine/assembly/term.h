@@ -90,6 +90,11 @@ namespace moraine
     begin_trial(const StepContext<dim> &)
     {}
 
+    /** Aim at another end of the step; what was tried stays. */
+    virtual void
+    move_trial(const StepContext<dim> &)
+    {}
+
     /** Whether its forces depend on time alone, not on the trial state. */
     virtual bool
     is_dead() const

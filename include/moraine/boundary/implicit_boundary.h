@@ -145,9 +145,14 @@ namespace moraine
                const StrainMeasure   measure,
                const bool            cells_changed);
 
-    /** Set the prescribed increments of a step to @p t_end. */
+    /** Set the prescribed increments of a step to @p t_end, and multipliers as
+     * they are at its start. */
     void
     set_target(const double t_end);
+
+    /** Set the prescribed increments alone. */
+    void
+    move_target(const double t_end);
 
     /** The constraint at a point for the trial increment @p du there; @p
      * in_the_middle says where a roller pushes. */

@@ -88,7 +88,7 @@ namespace moraine
 
     /** ", about 3 min left"; nothing before the first step is done. */
     std::string
-    time_left(const double t) const;
+    time_left(const TimeControl &time) const;
 
     /** Of the largest step in a cell of typical size. */
     double
@@ -111,7 +111,7 @@ namespace moraine
     const RunOptions  options;
     Console          &console;
     dealii::Timer     since_start;
-    double            t_begun;
+    double            begun; ///< TimeControl::coordinate()
     unsigned int      n_returned      = 0;
     bool              has_far_domains = false;
   };

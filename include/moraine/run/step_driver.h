@@ -8,8 +8,10 @@
 #include <moraine/core/simulation_state.h>
 #include <moraine/run/run_observer.h>
 #include <moraine/run/step_checks.h>
+#include <moraine/state/last_increment.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +89,10 @@ namespace moraine
     void
     begin_next_stage();
 
+    /** Of Newton's method, for the observers. */
+    Newton::Watcher
+    tell_of_iteration() const;
+
     /** Give empty parts of cells @p fraction of the material's stiffness. */
     void
     add_support(const double fraction);
@@ -98,6 +104,11 @@ namespace moraine
     /** Aim at the trial time and look for equilibrium. */
     NewtonReport
     solve(LA::Vector &x);
+
+    /** Look for it along the path of equilibria, in a step that has begun.
+     * @throw InputError if nothing depends on time. */
+    NewtonReport
+    follow_path(LA::Vector &x);
 
     /** The same by Newton::pseudo_transient() after a solution that @p failed.
      */
@@ -177,6 +188,7 @@ namespace moraine
     const MPI_Comm                        communicator;
     Newton                                newton;
     TimeControl                           time_control;
+    std::optional<LastIncrement<dim>>     last_increment; ///< along a path
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;

@@ -30,6 +30,12 @@ namespace moraine
     /** Equal steps from start to end; their ends are always hit exactly. */
     unsigned int n_steps = 1;
 
+    /**
+     * Length of a step along the path of equilibria, with time as an unknown:
+     * root mean square of the displacement; 0: steps are of time.
+     */
+    double arc_length = 0.;
+
     /** As a fraction of one step; a cut below it ends the run. */
     double smallest_step = 1e-3;
 
@@ -60,6 +66,26 @@ namespace moraine
      */
     void
     check(const std::string &section = "Time") const;
+
+    bool
+    follows_path() const
+    {
+      return arc_length > 0.;
+    }
+
+    /** A path ends here, too: as far before the start as the end is behind. */
+    double
+    earliest_time() const
+    {
+      return follows_path() ? 2 * start_time - end_time : start_time;
+    }
+
+    /** One of the user's, of time or along the path. */
+    double
+    one_step() const
+    {
+      return follows_path() ? arc_length : (end_time - start_time) / n_steps;
+    }
   };
 
 
@@ -72,6 +98,11 @@ namespace moraine
    * times asked for. Between two stops, what remains is split into equal parts
    * no larger than the current size, so that stops are hit exactly and no
    * sliver of a step is left over.
+   *
+   * The last interval may follow a path of equilibria. Then what is divided is
+   * its length, and the solver finds the time; the run ends after the user's
+   * steps, or where time reaches the end of the interval or falls as far below
+   * its start.
    *
    *     while (!time.finished())
    *       {
@@ -96,6 +127,50 @@ namespace moraine
     /** The same for stages, each of which starts where the one before ends. */
     explicit TimeControl(const std::vector<TimeParameters> &stages,
                          const std::vector<double>         &stops = {});
+
+    /** Whether the next step follows a path of equilibria. */
+    bool
+    follows_path() const
+    {
+      return parameters().follows_path();
+    }
+
+    /** Of the trial step, along the path. */
+    double
+    trial_length() const
+    {
+      return trial - current;
+    }
+
+    /** Of the path so far; 0 without one. */
+    double
+    path_length() const;
+
+    /** Change of time per length in the last accepted step along a path. */
+    double
+    path_rate() const
+    {
+      return rate;
+    }
+
+    /** Of a trial step along a path: where it ends. */
+    void
+    set_trial_time(const double t);
+
+    /** What is divided into steps: time, or where a path begins, its length on
+     * top of that. It always grows. */
+    double
+    coordinate() const
+    {
+      return current;
+    }
+
+    /** Of the end, unless a path ends before. */
+    double
+    last_coordinate() const
+    {
+      return stops.back().time;
+    }
 
     /** To which the next step belongs; the last one at the end. */
     unsigned int
@@ -176,7 +251,7 @@ namespace moraine
   private:
     struct Stop
     {
-      double       time;
+      double       time; ///< or coordinate()
       bool         ends_step;
       unsigned int stage;
     };
@@ -188,9 +263,8 @@ namespace moraine
       return stages[stage()];
     }
 
-    /** The user's, in that stage. */
-    double
-    one_step() const;
+    bool
+    path_leaves_interval() const;
 
     void
     add_stops(const unsigned int stage, const std::vector<double> &asked);
@@ -198,12 +272,16 @@ namespace moraine
     const std::vector<TimeParameters> stages;
     std::vector<Stop>                 stops;
     unsigned int                      next_stop = 0;
-    double                            current;
+    double                            current; ///< coordinate()
     double                            trial;
+    double                            current_time;
+    double                            found_time; ///< of the trial step
     double                            size;
     double       accepted_size; ///< after the last accepted step
     bool         trial_is_stop   = false;
     bool         on_step_end     = false;
+    bool         path_ended      = false;
+    double       rate            = 0; ///< path_rate()
     unsigned int completed_steps = 0;
     unsigned int accepted        = 0;
     unsigned int rejected        = 0;

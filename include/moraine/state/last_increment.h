@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_state_last_increment_h
+#define moraine_state_last_increment_h
+
+#include <moraine/core/simulation_state.h>
+#include <moraine/mesh/grid_space.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The increment of the nodes in the last accepted step, for the one that
+   * begins with it. By then nodes may have other numbers, or be others.
+   */
+  template <int dim>
+  class LastIncrement : public StatePart
+  {
+  public:
+    explicit LastIncrement(const GridSpace<dim> &space);
+
+    /** Take over the @p increments of an accepted step. */
+    void
+    keep(const std::vector<dealii::Tensor<1, dim>> &increments);
+
+    /** For the unknowns as they are now; zero where nodes are new. Collective.
+     */
+    LA::Vector
+    values() const;
+
+    /** Group "path/increment". */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+  private:
+    const GridSpace<dim> &space;
+    /** By cells and their nodes. */
+    Archive stored;
+  };
+} // namespace moraine
+
+#endif
