@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace moraine
 {
@@ -62,11 +63,11 @@ namespace moraine
       void
       move(const LA::Vector &dx, const double dt);
 
-      bool
-      begin_path();
+      double
+      attempt(const LA::Vector &dx, const double dt);
 
       bool
-      go_on();
+      predict();
 
       bool
       correct();
@@ -197,18 +198,36 @@ namespace moraine
       x -= prescribed;
       system.apply_constraints(x);
       x += prescribed;
-      ++report.iterations;
-      report.linear_iterations += linear_iterations;
     }
 
 
 
-    /** Along the tangent. */
+    /** To dx + dt rate from the start of the step. @return how far that is from
+     * equilibrium. */
+    double
+    PathIteration::attempt(const LA::Vector &dx, const double dt)
+    {
+      system.set_parameter(step.t_start);
+      system.initial_guess(prescribed);
+      x        = prescribed;
+      report.t = step.t_start;
+      move(dx, dt);
+      system.assemble(x, false);
+      measure.update(x, false);
+      return measure.finite() ? measure.distance() :
+                                std::numeric_limits<double>::infinity();
+    }
+
+
+
+    /** Along the tangent or as in the step before, whichever is closer to
+     * equilibrium. */
     bool
-    PathIteration::begin_path()
+    PathIteration::predict()
     {
       if (!assemble() || !find_rate())
         return false;
+      measure.start();
       const double length = std::sqrt(product(rate, rate));
       if (!(length > 0))
         {
@@ -216,26 +235,27 @@ namespace moraine
           return stop(NewtonStatus::diverged, "nothing changes with t");
         }
       LA::Vector none(x);
-      none = 0.;
-      move(none, step.radius / length);
-      return true;
-    }
-
-
-
-    /** On as in the step before. */
-    bool
-    PathIteration::go_on()
-    {
-      LA::Vector   dx     = step.before->x;
-      const double length = std::sqrt(product(dx, dx));
-      if (!(length > 0))
-        return begin_path();
-      dx *= step.radius / length;
-      // The first tangent may be that of the start, to which x is not close.
-      system.assemble(x, false);
-      rate.reinit(x);
-      move(dx, step.radius * step.before->dt_ds);
+      none      = 0.;
+      double dt = step.radius / length;
+      if (!step.before)
+        {
+          attempt(none, dt);
+          return true;
+        }
+      if (product(rate, step.before->x) < 0)
+        dt = -dt;
+      const double of_tangent = attempt(none, dt);
+      const double last = std::sqrt(product(step.before->x, step.before->x));
+      if (!(last > 0))
+        return true;
+      const LA::Vector tangent(rate);
+      LA::Vector       dx(step.before->x);
+      dx *= step.radius / last;
+      rate = 0.;
+      if (attempt(dx, step.radius * step.before->dt_ds) < of_tangent)
+        return true;
+      rate = tangent;
+      attempt(none, dt);
       return true;
     }
 
@@ -270,6 +290,8 @@ namespace moraine
         return stop(NewtonStatus::diverged,
                     "the path turns at a right angle to the step");
       move(dx, dt);
+      ++report.iterations;
+      report.linear_iterations += linear_iterations;
       return true;
     }
 
@@ -293,10 +315,8 @@ namespace moraine
         {
           if (!assemble())
             return false;
-          if (report.residuals.empty())
-            measure.start();
           report.residuals.push_back(measure.relative());
-          if (watcher && (n > 0 || report.iterations == 1))
+          if (watcher && n > 0)
             watcher({report.iterations,
                      report.residuals.back(),
                      linear_iterations,
@@ -322,7 +342,7 @@ namespace moraine
       weights  = system.path_weights();
       system.initial_guess(x);
       prescribed = x;
-      if (!(step.before ? go_on() : begin_path()) || !settle())
+      if (!predict() || !settle())
         return report;
       while (system.augment(x))
         {

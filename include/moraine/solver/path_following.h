@@ -82,10 +82,10 @@ namespace moraine
    * No root has to be chosen, as Crisfield's own way asks for.
    * @f$\partial r/\partial t@f$ is a difference quotient.
    *
-   * The predictor is the increment of the step before, at the length R: where
-   * material flows, the tangent at the start of a step is that of unloading and
-   * points elsewhere. In the first step it is @f$R\, \delta_t / \lVert \delta_t
-   * \rVert@f$.
+   * The predictor is @f$\pm R\, \delta_t / \lVert \delta_t \rVert@f$, ahead of
+   * the step before, or that step's increment at the length R, whichever leaves
+   * less residual: where material flows, the tangent at the start of a step is
+   * that of unloading and points elsewhere.
    *
    * @param system at the start of a step, with t_start as its parameter
    * @param x at the end the last iterate, a solution if the report says so;
