@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace moraine
 {
@@ -16,6 +15,10 @@ namespace moraine
   {
     /** Of the radius; the length of a step is no result. */
     constexpr double tolerance_of_length = 1e-3;
+
+    /** A step whose tangent is within an angle of this cosine of the step
+     * before continues a smooth path. */
+    constexpr double smooth_path = 0.9;
 
     /** Of the range of the parameter: the size of its differences. */
     constexpr double part_of_range = 1e-6;
@@ -62,9 +65,6 @@ namespace moraine
 
       void
       move(const LA::Vector &dx, const double dt);
-
-      double
-      attempt(const LA::Vector &dx, const double dt);
 
       bool
       predict();
@@ -202,26 +202,8 @@ namespace moraine
 
 
 
-    /** To dx + dt rate from the start of the step. @return how far that is from
-     * equilibrium. */
-    double
-    PathIteration::attempt(const LA::Vector &dx, const double dt)
-    {
-      system.set_parameter(step.t_start);
-      system.initial_guess(prescribed);
-      x        = prescribed;
-      report.t = step.t_start;
-      move(dx, dt);
-      system.assemble(x, false);
-      measure.update(x, false);
-      return measure.finite() ? measure.distance() :
-                                std::numeric_limits<double>::infinity();
-    }
-
-
-
-    /** Along the tangent or as in the step before, whichever is closer to
-     * equilibrium. */
+    /** Along the tangent, or as in the step before where that does not lead on.
+     */
     bool
     PathIteration::predict()
     {
@@ -234,28 +216,25 @@ namespace moraine
           report.parameter_acts = false;
           return stop(NewtonStatus::diverged, "nothing changes with t");
         }
-      LA::Vector none(x);
-      none      = 0.;
-      double dt = step.radius / length;
-      if (!step.before)
+      LA::Vector   dx(x);
+      double       dt = step.radius / length;
+      const double last =
+        step.before ? std::sqrt(product(step.before->x, step.before->x)) : 0.;
+      dx = 0.;
+      if (last > 0)
         {
-          attempt(none, dt);
-          return true;
+          const double cosine = product(rate, step.before->x) / (length * last);
+          if (cosine < 0)
+            dt = -dt;
+          if (std::abs(cosine) < smooth_path)
+            {
+              dx = step.before->x;
+              dx *= step.radius / last;
+              dt   = step.radius * step.before->dt_ds;
+              rate = 0.;
+            }
         }
-      if (product(rate, step.before->x) < 0)
-        dt = -dt;
-      const double of_tangent = attempt(none, dt);
-      const double last = std::sqrt(product(step.before->x, step.before->x));
-      if (!(last > 0))
-        return true;
-      const LA::Vector tangent(rate);
-      LA::Vector       dx(step.before->x);
-      dx *= step.radius / last;
-      rate = 0.;
-      if (attempt(dx, step.radius * step.before->dt_ds) < of_tangent)
-        return true;
-      rate = tangent;
-      attempt(none, dt);
+      move(dx, dt);
       return true;
     }
 

@@ -83,9 +83,9 @@ namespace moraine
    * @f$\partial r/\partial t@f$ is a difference quotient.
    *
    * The predictor is @f$\pm R\, \delta_t / \lVert \delta_t \rVert@f$, ahead of
-   * the step before, or that step's increment at the length R, whichever leaves
-   * less residual: where material flows, the tangent at the start of a step is
-   * that of unloading and points elsewhere.
+   * the step before; or, if the angle between the two has a cosine below 0.9,
+   * that step's increment at the length R: where material flows, the tangent at
+   * the start of a step is that of unloading and points elsewhere.
    *
    * @param system at the start of a step, with t_start as its parameter
    * @param x at the end the last iterate, a solution if the report says so;
