@@ -198,9 +198,12 @@ namespace moraine
   void
   TimeControl::write(Archive &archive) const
   {
-    archive.write("time/coordinate", current, "time");
-    archive.write("time/time", current_time, "time");
-    archive.write("time/path_rate", rate, "time/length");
+    archive.write("time/time", current, "time");
+    if (follows_path())
+      {
+        archive.write("time/found_time", current_time, "time");
+        archive.write("time/path_rate", rate, "time/length");
+      }
     archive.write("time/step_size", accepted_size, "time");
     archive.write("time/at_step_end", on_step_end ? 1u : 0u);
     archive.write("time/accepted", accepted);
@@ -213,9 +216,12 @@ namespace moraine
   void
   TimeControl::read(const Archive &archive)
   {
-    current       = archive.number("time/coordinate");
-    current_time  = archive.number("time/time");
-    rate          = archive.number("time/path_rate");
+    current = current_time = archive.number("time/time");
+    if (archive.contains("time/found_time"))
+      {
+        current_time = archive.number("time/found_time");
+        rate         = archive.number("time/path_rate");
+      }
     path_ended    = false;
     accepted_size = archive.number("time/step_size");
     on_step_end   = archive.integer("time/at_step_end") != 0;
