@@ -424,10 +424,8 @@ namespace moraine
       violation = std::max(violation, term->violation(context));
     violation = Utilities::MPI::max(violation, communicator);
     motion    = Utilities::MPI::max(motion, communicator);
-    // Stop when the constraint holds to round-off or gets no better; once it
-    // holds well, when it gets little better, as slivers of a surface may.
-    const double enough = violation <= 1e-8 * motion ? 0.1 : 0.5;
-    if (violation <= 1e-14 * motion || violation > enough * last_violation)
+    // Stop when the constraint holds to round-off or gets no better.
+    if (violation <= 1e-14 * motion || violation > 0.5 * last_violation)
       return false;
     last_violation = violation;
     for (const auto &term : terms)

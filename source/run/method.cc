@@ -428,7 +428,7 @@ namespace moraine
       "functions of the nearest cell that they fill more of, so that small "
       "cuts are not felt (aggregation). 0: they are free. With more, at most "
       "0.5, bodies that bend far need fewer iterations; coarse meshes get "
-      "less exact. default: 0.05; 0 with 'Volumetric strain = cell mean', "
+      "less exact. default: 0.1; 0 with 'Volumetric strain = cell mean', "
       "which takes at most 0.05.",
       Patterns::Anything());
     prm.add_parameter(
@@ -463,7 +463,7 @@ namespace moraine
   MethodParameters<dim>::fill() const
   {
     if (aggregate_below == "default")
-      return volumetric() == VolumetricStrain::cell_mean ? 0. : 0.05;
+      return volumetric() == VolumetricStrain::cell_mean ? 0. : 0.1;
     double             value = 0;
     std::istringstream text(aggregate_below);
     if (!(text >> value) || !(text >> std::ws).eof())

@@ -20,7 +20,7 @@ for i in range(60):
 PY
 }
 
-for below in 0 0.05; do
+for below in 0 0.1; do
   echo "stress,iterations" >"cuts-$below.csv"
   while read -r angle lower upper tip; do
     settings=("Bodies/block/Rotation angle = $angle"
@@ -54,10 +54,10 @@ set format y '10^{%T}'
 set xlabel 'place, sorted'
 set ylabel 'largest stress of a point [kPa]'
 plot '< tail -n +2 cuts-0.csv | cut -d, -f1 | sort -g' using 0:1 w lp lt 1 title 'free nodes', \
-     '< tail -n +2 cuts-0.05.csv | cut -d, -f1 | sort -g' using 0:1 w lp lt 3 title 'aggregated below 0.05 (default)'
+     '< tail -n +2 cuts-0.1.csv | cut -d, -f1 | sort -g' using 0:1 w lp lt 3 title 'aggregated below 0.1 (default)'
 set format y '%g'
 set ylabel 'linear iterations'
 plot '< tail -n +2 cuts-0.csv | cut -d, -f2 | sort -g' using 0:1 w lp lt 1 title 'free nodes', \
-     '< tail -n +2 cuts-0.05.csv | cut -d, -f2 | sort -g' using 0:1 w lp lt 3 title 'aggregated below 0.05 (default)'
+     '< tail -n +2 cuts-0.1.csv | cut -d, -f2 | sort -g' using 0:1 w lp lt 3 title 'aggregated below 0.1 (default)'
 unset multiplot
 GP
