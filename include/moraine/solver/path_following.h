@@ -87,7 +87,10 @@ namespace moraine
    * that step's increment at the length R: where material flows, the tangent at
    * the start of a step is that of unloading and points elsewhere.
    *
+   * @param parameters tolerance and number of iterations, as of Newton's method
    * @param system at the start of a step, with t_start as its parameter
+   * @param linear_solver for the tangents of the system
+   * @param step how far to go, between which parameters, and after which step
    * @param x at the end the last iterate, a solution if the report says so;
    * the system then has the report's parameter
    * @param watcher called after each correction
