@@ -20,7 +20,9 @@ SCENES = {
                        "Bodies/root/Expression": "1+sqrt(61-y)",
                        "Loads/drag/Bodies": "body"}),
     "random points": ("prm/verification/patch-random.prm", {}),
-    "ring, gmres": ("prm/boundaries/ring.prm", {"Solver/Solver": "gmres"}),
+    "ring, gmres": ("prm/boundaries/ring.prm",
+                    {"Solver/Solver": "gmres",
+                     "Method/Aggregate below": 0}),
     "ring on a roller": ("prm/boundaries/ring-roller.prm", {}),
     "column": ("prm/verification/column.prm", {}),
     # Boxes and domains that come to lie across cells of two ranks.

@@ -158,7 +158,7 @@ def scale_of(values, name):
 for name, make, dynamic, settings in (
         ("plastic block, GIMP, finite strain", block, False, {}),
         ("plastic block, aggregated, cell means", block, False,
-         {"Method/Aggregate below": 0.5, "Method/Volumetric strain": "cell mean"}),
+         {"Method/Aggregate below": 0.05, "Method/Volumetric strain": "cell mean"}),
         ("plastic block, multigrid", block, False, {"Solver/Solver": "gmres"}),
         ("block, Newmark", block, True, {}),
         ("beam, finite elements", beam, False, {}),
