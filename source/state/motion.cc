@@ -7,41 +7,11 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace moraine
 {
   using namespace dealii;
-
-  double
-  Works::out_of_balance() const
-  {
-    double sum = kinetic_at_start - lost_in_transfer - kinetic +
-                 stored_at_start - stored - dissipated;
-    for (unsigned int k = 0; k < n_kinds; ++k)
-      if (WorkKind(k) != WorkKind::internal)
-        sum += of_forces[k];
-    return sum;
-  }
-
-
-
-  double
-  Works::largest() const
-  {
-    double part = std::max({kinetic_at_start,
-                            kinetic,
-                            stored_at_start,
-                            stored,
-                            dissipated,
-                            std::abs(lost_in_transfer)});
-    for (const double work : of_forces)
-      part = std::max(part, std::abs(work));
-    return part;
-  }
-
-
 
   VelocityTransfer::VelocityTransfer(const IntegratorParameters &parameters)
     : scheme(parameters.transfer == "APIC" ? Scheme::apic :
@@ -441,44 +411,6 @@ namespace moraine
 
 
   template <int dim>
-  template <std::size_t n>
-  std::array<double, n>
-  Motion<dim>::mass_products(const std::array<Pair, n> &pairs) const
-  {
-    const Basis<dim>     &basis = state.point_basis();
-    StencilBlock<dim>     block;
-    BlockMass<dim>        matrix;
-    NodeValues            u, w;
-    std::array<double, n> products{};
-    for (unsigned int g = 0; g < basis.n_batches(); ++g)
-      {
-        basis.evaluate(g, block);
-        matrix.find_lumped(
-          block,
-          [this](const unsigned int p) { return state.mass(p); },
-          lumped);
-        u.resize(block.n_nodes);
-        w.resize(block.n_nodes);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
-              {
-                u[k] = (*pairs[i].first)[block.nodes[k]];
-                w[k] = (*pairs[i].second)[block.nodes[k]];
-              }
-            for (unsigned int p = 0; p < block.n_points; ++p)
-              products[i] +=
-                state.mass(block.points[p]) * matrix.product(block.N(p), u, w);
-          }
-      }
-    for (double &product : products)
-      product = Utilities::MPI::sum(product, state.grid().communicator());
-    return products;
-  }
-
-
-
-  template <int dim>
   double
   Motion<dim>::error_of_increment() const
   {
@@ -491,109 +423,6 @@ namespace moraine
     const auto [squares, mass] =
       mass_products<2>({{{&change.a, &change.a}, {&ones, &ones}}});
     return rule.error_of_increment(step_size) * std::sqrt(squares / mass);
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::StepWorks::sum_over_ranks(const MPI_Comm &communicator)
-  {
-    for (unsigned int k = 0; k < Works::n_kinds; ++k)
-      {
-        at_start[k] = Utilities::MPI::sum(at_start[k], communicator);
-        at_end[k]   = Utilities::MPI::sum(at_end[k], communicator);
-      }
-    on_prescribed_at_start =
-      Utilities::MPI::sum(on_prescribed_at_start, communicator);
-    on_prescribed_at_end =
-      Utilities::MPI::sum(on_prescribed_at_end, communicator);
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::count(const StepWorks       &step,
-                     const KineticProducts &products,
-                     const Nodal           &end)
-  {
-    if (!done.begun)
-      done.kinetic_at_start = 0.5 * products.v_v;
-    else
-      done.lost_in_transfer += done.kinetic - 0.5 * products.v_v;
-    // The parts of the forces at both ends in what moves the nodes.
-    const double share   = rule.forces_in_the_middle() ? 0. : 0.5;
-    double       missing = share * products.a_du;
-    for (unsigned int k = 0; k < Works::n_kinds; ++k)
-      {
-        const double of_start = share * step.at_start[k];
-        done.of_forces[k] += of_start + (1 - share) * step.at_end[k];
-        missing -= of_start;
-      }
-    if (!prescribed.empty())
-      {
-        const auto [at_start, at_end] =
-          mass_products<2>({{{&a, &prescribed}, {&end.a, &prescribed}}});
-        const double of_start =
-          share * (at_start - step.on_prescribed_at_start);
-        const double of_end =
-          (1 - share) * (at_end - step.on_prescribed_at_end);
-        done.of_forces[unsigned(WorkKind::boundaries)] += of_start + of_end;
-        missing -= of_start;
-      }
-    // Only Newmark's rule has accelerations that balance the forces.
-    if (points_carry() && rule.start_forces() == 0.)
-      done.lost_in_transfer -= missing;
-    done.kinetic = 0.5 * products.v_v_end;
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::count(const StepEnergies &energies)
-  {
-    const MPI_Comm communicator = state.grid().communicator();
-    const double   start =
-      Utilities::MPI::sum(energies.stored_at_start, communicator);
-    if (!done.begun)
-      done.stored_at_start = start;
-    else
-      done.lost_in_transfer += done.stored - start;
-    done.begun  = true;
-    done.stored = Utilities::MPI::sum(energies.stored, communicator);
-    done.dissipated += Utilities::MPI::sum(energies.dissipated, communicator);
-  }
-
-
-
-  template <int dim>
-  MotionSums<dim>
-  Motion<dim>::sums() const
-  {
-    MotionSums<dim> result;
-    for (unsigned int p = 0; p < points.n_local(); ++p)
-      {
-        const double         m = state.mass(p);
-        const Point<dim>     x = points.position(p);
-        const Tensor<1, dim> v = v_field(points.values(p));
-        result.mass += m;
-        result.momentum += m * v;
-        result.kinetic_energy += 0.5 * m * v.norm_square();
-        if constexpr (dim == 2)
-          result.angular_momentum[0] += m * (x[0] * v[1] - x[1] * v[0]);
-        else
-          result.angular_momentum += m * cross_product_3d(x, v);
-      }
-    const MPI_Comm communicator = state.grid().communicator();
-    result.mass     = Utilities::MPI::sum(result.mass, communicator);
-    result.momentum = Utilities::MPI::sum(result.momentum, communicator);
-    result.angular_momentum =
-      Utilities::MPI::sum(result.angular_momentum, communicator);
-    result.kinetic_energy =
-      Utilities::MPI::sum(result.kinetic_energy, communicator);
-    return result;
   }
 
 
