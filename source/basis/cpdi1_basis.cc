@@ -121,9 +121,8 @@ namespace moraine
 
   namespace
   {
-    /** Of the edges of a domain, columns, the one that is longest in sizes of
-     * the
-     * @p cell, and how long that is. */
+    /** Of the @p edges of a domain, columns, the one that is longest in sizes
+     * of the @p cell, and how long that is. */
     template <int dim>
     std::pair<unsigned int, double>
     longest_in_cell(const CellVertices<dim> &cell, const Tensor<2, dim> &edges)
