@@ -34,7 +34,11 @@ def under_display():
             fail(f"fields are drawn below {tool}, which is not here "
                  "(Debian packages xvfb and xauth)")
     os.environ[HAS_DISPLAY] = "1"
-    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable] + sys.argv)
+    # A server that is going down takes the socket of its number with it, also
+    # from the next one: each run looks for a free number from another one on.
+    first = str(100 + os.getpid() % 50000)
+    os.execvp("xvfb-run",
+              ["xvfb-run", "-n", first, "-a", sys.executable] + sys.argv)
 
 
 def load_vtk():
