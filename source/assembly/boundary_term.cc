@@ -28,37 +28,94 @@ namespace moraine
 
 
 
+    /** The functions at a place of a boundary: those of the cell, and of the
+     * cells with which it has a mean. */
+    template <int dim>
+    class PlaceFunctions
+    {
+    public:
+      /** For places in a cell. */
+      void
+      reinit(const State<dim> &state, const unsigned int cell);
+
+      /** Take the functions of the cell at a place. */
+      void
+      set(const double *N_of_cell, const Tensor<1, dim> *grad_N_of_cell);
+
+      /** @p nodal has the increments of all nodes. */
+      Increment<dim>
+      increment(const std::vector<Tensor<1, dim>> &nodal) const;
+
+      std::vector<unsigned int>   nodes; ///< those of the cell first
+      std::vector<double>         N;
+      std::vector<Tensor<1, dim>> grad_N;
+      /** The mean, or @p grad_N if there is none. */
+      std::vector<Tensor<1, dim>> mean_grad_N;
+
+    private:
+      unsigned int                               n_of_cell = 0;
+      std::vector<typename CellMeans<dim>::Part> parts; ///< of the mean
+    };
+
+
+
+    template <int dim>
+    void
+    PlaceFunctions<dim>::reinit(const State<dim>  &state,
+                                const unsigned int cell)
+    {
+      const GridSpace<dim> &space = state.grid();
+      n_of_cell                   = space.nodes_per_cell();
+      const unsigned int *first   = space.cell_nodes(cell);
+      nodes.assign(first, first + n_of_cell);
+      mean_grad_N.assign(n_of_cell, Tensor<1, dim>());
+      state.mean_of_cell(cell, parts);
+      for (const auto &part : parts)
+        for (unsigned int a = 0; a < n_of_cell; ++a)
+          {
+            const unsigned int node = space.cell_nodes(part.cell)[a];
+            const auto found = std::find(nodes.begin(), nodes.end(), node);
+            const auto place = found - nodes.begin();
+            if (found == nodes.end())
+              {
+                nodes.push_back(node);
+                mean_grad_N.emplace_back();
+              }
+            mean_grad_N[place] += part.weight * part.gradients[a];
+          }
+      N.assign(nodes.size(), 0.);
+      grad_N.assign(nodes.size(), Tensor<1, dim>());
+    }
+
+
+
+    template <int dim>
+    void
+    PlaceFunctions<dim>::set(const double         *N_of_cell,
+                             const Tensor<1, dim> *grad_N_of_cell)
+    {
+      std::copy_n(N_of_cell, n_of_cell, N.begin());
+      std::copy_n(grad_N_of_cell, n_of_cell, grad_N.begin());
+      if (parts.empty())
+        std::copy_n(grad_N_of_cell, n_of_cell, mean_grad_N.begin());
+    }
+
+
+
     template <int dim>
     Increment<dim>
-    increment_at(const std::vector<Tensor<1, dim>> &nodal,
-                 const unsigned int                *nodes,
-                 const unsigned int                 n_nodes,
-                 const double                      *N,
-                 const Tensor<1, dim>              *grad_N,
-                 const Tensor<1, dim>              *mean_grad_N)
+    PlaceFunctions<dim>::increment(
+      const std::vector<Tensor<1, dim>> &nodal) const
     {
       Increment<dim> du;
-      for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int a = 0; a < nodes.size(); ++a)
         {
-          const Tensor<1, dim> &u = nodal[nodes ? nodes[a] : a];
+          const Tensor<1, dim> &u = nodal[nodes[a]];
           du.value += N[a] * u;
           du.gradient += outer_product(u, grad_N[a]);
           du.mean_gradient += outer_product(u, mean_grad_N[a]);
         }
       return du;
-    }
-
-
-
-    /** The mean over the cell, or @p grad_N if there is none. */
-    template <int dim>
-    const Tensor<1, dim> *
-    mean_gradients(const State<dim>     &state,
-                   const unsigned int    cell,
-                   const Tensor<1, dim> *grad_N)
-    {
-      const Tensor<1, dim> *mean = state.mean_gradients(cell);
-      return mean ? mean : grad_N;
     }
 
 
@@ -159,25 +216,19 @@ namespace moraine
                          GlobalSystem<dim>      &system) const
   {
     LocalSystem<dim>            local;
+    PlaceFunctions<dim>         at;
     std::vector<Tensor<1, dim>> fluxes;
     const bool                  in_the_middle = forces_in_the_middle(context);
-    const GridSpace<dim>       &space         = context.state.grid();
-    const unsigned int          n             = space.nodes_per_cell();
     const auto                 &points        = boundary.points();
     for (unsigned int begin = 0, end = 0; begin < points.size(); begin = end)
       {
         const unsigned int cell = points[begin].cell;
-        local.reinit(context.state, space.cell_nodes(cell), n, tangent);
+        at.reinit(context.state, cell);
+        local.reinit(context.state, at.nodes.data(), at.nodes.size(), tangent);
         for (; end < points.size() && points[end].cell == cell; ++end)
           {
-            const Tensor<1, dim> *mean_grad_N =
-              mean_gradients(context.state, cell, boundary.grad_N(end));
-            const auto du = increment_at<dim>(local.nodal_increments,
-                                              nullptr,
-                                              n,
-                                              boundary.N(end),
-                                              boundary.grad_N(end),
-                                              mean_grad_N);
+            at.set(boundary.N(end), boundary.grad_N(end));
+            const auto du = at.increment(context.increments());
             add_boundary_point(points[end],
                                boundary.constraint_state(points[end],
                                                          du.value,
@@ -185,9 +236,9 @@ namespace moraine
                                boundary.enforcement(),
                                context.cell_materials.elastic_stiffness(cell),
                                context.state.strain_measure(),
-                               boundary.N(end),
-                               boundary.grad_N(end),
-                               mean_grad_N,
+                               at.N.data(),
+                               at.grad_N.data(),
+                               at.mean_grad_N.data(),
                                du.gradient,
                                du.mean_gradient,
                                tangent,
@@ -206,21 +257,18 @@ namespace moraine
                               std::vector<Tensor<1, dim>> &tractions,
                               std::vector<Tensor<1, dim>> &violations) const
   {
-    const bool            in_the_middle = forces_in_the_middle(context);
-    const GridSpace<dim> &space         = context.state.grid();
-    const auto           &points        = boundary.points();
+    const bool          in_the_middle = forces_in_the_middle(context);
+    const auto         &points        = boundary.points();
+    PlaceFunctions<dim> at;
     tractions.resize(points.size());
     violations.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       {
-        const auto du = increment_at<dim>(context.increments(),
-                                          space.cell_nodes(points[q].cell),
-                                          space.nodes_per_cell(),
-                                          boundary.N(q),
-                                          boundary.grad_N(q),
-                                          mean_gradients(context.state,
-                                                         points[q].cell,
-                                                         boundary.grad_N(q)));
+        const unsigned int cell = points[q].cell;
+        if (q == 0 || cell != points[q - 1].cell)
+          at.reinit(context.state, cell);
+        at.set(boundary.N(q), boundary.grad_N(q));
+        const auto du = at.increment(context.increments());
         const auto constraint =
           boundary.constraint_state(points[q], du.value, in_the_middle);
         violations[q] = constraint.violation;
@@ -228,8 +276,7 @@ namespace moraine
           boundary_traction(points[q],
                             constraint,
                             boundary.enforcement(),
-                            context.cell_materials.elastic_stiffness(
-                              points[q].cell),
+                            context.cell_materials.elastic_stiffness(cell),
                             context.state.strain_measure(),
                             du.gradient,
                             du.mean_gradient);

@@ -209,13 +209,19 @@ namespace moraine
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
       couplings.add(nodes, n);
     };
+    std::vector<unsigned int> nodes_of_mean;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
-        couple(space.cell_nodes(cell), space.nodes_per_cell());
+        {
+          couple(space.cell_nodes(cell), space.nodes_per_cell());
+          state.nodes_of_mean(cell->active_cell_index(), nodes_of_mean);
+          if (nodes_of_mean.size() > space.nodes_per_cell())
+            couple(nodes_of_mean.data(), nodes_of_mean.size());
+        }
     for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
       {
-        const auto nodes = state.point_basis().batch_nodes(g);
+        const auto nodes = state.nodes_of_batch(g);
         if (nodes.size() != space.nodes_per_cell())
           couple(nodes.data(), nodes.size());
       }

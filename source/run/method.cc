@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace moraine
 {
@@ -21,15 +20,6 @@ namespace moraine
 
   namespace
   {
-    /** With means of their own in cells whose nodes follow others: the mean
-     * stress of a nearly incompressible cylinder is 1 % off (as without ties),
-     * with twice as much 13 %. */
-    constexpr double largest_fill_with_means = 0.05;
-
-    constexpr const char *fills_allowed = "default or a number from 0 to 1";
-
-
-
     template <int dim>
     CellSeeder<dim>
     gauss_points(const MethodParameters<dim> &parameters)
@@ -428,9 +418,8 @@ namespace moraine
       "functions of the nearest cell that they fill more of, so that small "
       "cuts are not felt (aggregation). 0: they are free. With more, at most "
       "0.5, bodies that bend far need fewer iterations; coarse meshes get "
-      "less exact. default: 0.1; 0 with 'Volumetric strain = cell mean', "
-      "which takes at most 0.05.",
-      Patterns::Anything());
+      "less exact.",
+      Patterns::Double(0., 1.));
     prm.add_parameter(
       "Fictitious stiffness",
       fictitious_stiffness,
@@ -454,21 +443,6 @@ namespace moraine
     });
     AssertThrow(one != all.end(), ExcInternalError());
     return *one;
-  }
-
-
-
-  template <int dim>
-  double
-  MethodParameters<dim>::fill() const
-  {
-    if (aggregate_below == "default")
-      return volumetric() == VolumetricStrain::cell_mean ? 0. : 0.1;
-    double             value = 0;
-    std::istringstream text(aggregate_below);
-    if (!(text >> value) || !(text >> std::ws).eof())
-      reject("Method", "Aggregate below", aggregate_below, fills_allowed);
-    return value;
   }
 
 
@@ -542,15 +516,6 @@ namespace moraine
                names_where<dim>(
                  [](const auto &m) { return m.can_average_volume; }, "") +
                " of degree 1 average");
-    if (!(fill() >= 0 && fill() <= 1))
-      reject("Method", "Aggregate below", aggregate_below, fills_allowed);
-    if (volumetric() == VolumetricStrain::cell_mean &&
-        fill() > largest_fill_with_means)
-      reject("Method",
-             "Aggregate below",
-             aggregate_below,
-             "0 to 0.05 with 'Volumetric strain = cell mean', because cells "
-             "whose nodes follow others have means of their own");
     if (split_domains == "true" && !kind.can_split_domains)
       reject("Method",
              "Split domains",

@@ -125,7 +125,7 @@ namespace moraine
                                          scene.method.strain_measure(),
                                          scene.method.weights(),
                                          scene.method.volumetric());
-    if (const double fill = scene.method.fill(); fill > 0)
+    if (const double fill = scene.method.aggregate_below; fill > 0)
       state->aggregate_below(fill);
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);

@@ -6,6 +6,7 @@
 #include <moraine/mesh/active_search.h>
 
 #include <limits>
+#include <numeric>
 #include <set>
 
 namespace moraine
@@ -143,8 +144,9 @@ namespace moraine
 
 
   template <int dim>
-  Aggregates<dim>::Aggregates(const double fill)
+  Aggregates<dim>::Aggregates(const double fill, const bool group_cells)
     : fill(fill)
+    , with_groups(group_cells)
   {
     Assert(fill > 0 && fill <= 1, ExcInternalError());
   }
@@ -160,14 +162,17 @@ namespace moraine
     std::vector<unsigned char>                       active)
   {
     find_parts(space, points, volume);
-    const std::vector<Tie> before = std::move(tied);
+    const std::vector<Tie>          ties_before  = std::move(tied);
+    const std::vector<unsigned int> roots_before = std::move(roots);
     find_ties(space);
+    group_cells(space);
     for (const Tie &tie : tied)
       active[tie.root] = 1;
+    ask_for_groups(space, active);
     const bool new_nodes = space.set_active_cells(std::move(active));
     if (new_nodes)
       find_ties(space);
-    return new_nodes || !(tied == before);
+    return new_nodes || !(tied == ties_before) || !(roots == roots_before);
   }
 
 
@@ -248,13 +253,54 @@ namespace moraine
 
 
   template <int dim>
+  void
+  Aggregates<dim>::group_cells(const GridSpace<dim> &space)
+  {
+    roots.clear();
+    if (!with_groups || !any_cut())
+      return;
+    roots.resize(parts.size());
+    std::iota(roots.begin(), roots.end(), 0u);
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (part(cell) == Part::cut)
+        {
+          const unsigned int root = find_root(space, {cell}, cell->center());
+          if (root != GridSpace<dim>::no_cell)
+            roots[cell->active_cell_index()] = root;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  Aggregates<dim>::ask_for_groups(const GridSpace<dim>       &space,
+                                  std::vector<unsigned char> &active) const
+  {
+    if (roots.empty())
+      return;
+    std::vector<bool> here(roots.size(), false); // groups, by their roots
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (const unsigned int c = cell->active_cell_index();
+          active[c] != 0 || (cell->is_locally_owned() && space.is_active(cell)))
+        here[roots[c]] = true;
+    for (unsigned int c = 0; c < roots.size(); ++c)
+      if (roots[c] != c && here[roots[c]])
+        active[c] = active[roots[c]] = 1;
+  }
+
+
+
+  template <int dim>
   unsigned int
   Aggregates<dim>::find_root(const GridSpace<dim>            &space,
-                             const std::vector<CellIterator> &cells_of_node,
+                             const std::vector<CellIterator> &cut_cells,
                              const Point<dim>                &x) const
   {
     unsigned int root = GridSpace<dim>::no_cell;
-    visit_layers(space, cells_of_node, [&](const auto &layer) {
+    visit_layers(space, cut_cells, [&](const auto &layer) {
       double nearest = std::numeric_limits<double>::max();
       for (const auto &cell : layer)
         if (part(cell) == Part::filled)

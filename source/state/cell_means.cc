@@ -30,26 +30,24 @@ namespace moraine
 
   template <int dim>
   void
-  CellMeans<dim>::update(const GridSpace<dim> &space,
-                         const Basis<dim>     &basis,
-                         const Volume         &volume)
+  CellMeans<dim>::update(const GridSpace<dim>            &space,
+                         const Basis<dim>                &basis,
+                         const Volume                    &volume,
+                         const std::vector<unsigned int> &roots)
   {
     cells.clear();
     volumes.clear();
     gradients.clear();
     numbers_of.assign(space.mesh().triangulation().n_active_cells(),
                       numbers::invalid_unsigned_int);
-    batches.clear();
-    cells_of_batches.clear();
-    corners_of_batches.clear();
-    shares_of_batches.clear();
+    batches = {};
     StencilBlock<dim> block;
     CellParts<dim>    parts;
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
         basis.evaluate(g, block);
         basis.evaluate_parts(g, block, parts);
-        append_batch(parts);
+        append_batch(block.n_points, parts);
         const unsigned int m = parts.cells.size();
         for (unsigned int c = 0; c < m; ++c)
           {
@@ -64,11 +62,56 @@ namespace moraine
               }
           }
       }
+    find_groups(space, roots);
     sum_over_ranks(space);
     for (unsigned int k = 0; k < cells.size(); ++k)
       for (unsigned int a = 0; a < n_corners; ++a)
         if (volumes[k] > 0)
           gradients[k * n_corners + a] /= volumes[k];
+    take_groups(space, basis);
+  }
+
+
+
+  template <int dim>
+  void
+  CellMeans<dim>::find_groups(const GridSpace<dim>            &space,
+                              const std::vector<unsigned int> &roots)
+  {
+    groups.clear();
+    members.clear();
+    group_of.clear();
+    std::map<unsigned int, std::vector<unsigned int>> followers;
+    for (unsigned int cell = 0; cell < roots.size(); ++cell)
+      if (roots[cell] != cell)
+        followers[roots[cell]].push_back(cell);
+    if (followers.empty())
+      return;
+
+    std::vector<bool> here(roots.size(), false);
+    for (const unsigned int cell : cells)
+      here[roots[cell]] = true;
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && space.is_active(cell))
+        here[roots[cell->active_cell_index()]] = true;
+    group_of.assign(roots.size(), numbers::invalid_unsigned_int);
+    for (const auto &[root, cells_of_group] : followers)
+      if (here[root])
+        {
+          const unsigned int first = members.size();
+          members.push_back(root);
+          members.insert(members.end(),
+                         cells_of_group.begin(),
+                         cells_of_group.end());
+          for (unsigned int i = first; i < members.size(); ++i)
+            {
+              group_of[members[i]] = groups.size();
+              number_of(members[i]);
+            }
+          groups.push_back(
+            {first, static_cast<unsigned int>(members.size()), 0.});
+        }
   }
 
 
@@ -133,22 +176,138 @@ namespace moraine
 
   template <int dim>
   void
-  CellMeans<dim>::append_batch(const CellParts<dim> &parts)
+  CellMeans<dim>::append_batch(const unsigned int    n_points,
+                               const CellParts<dim> &parts)
   {
     const unsigned int m = parts.cells.size();
-    batches.push_back({static_cast<unsigned int>(cells_of_batches.size()),
-                       m,
-                       shares_of_batches.size()});
-    cells_of_batches.insert(cells_of_batches.end(),
-                            parts.cells.begin(),
-                            parts.cells.end());
-    corners_of_batches.insert(corners_of_batches.end(),
-                              parts.places.begin(),
-                              parts.places.end());
+    batches.list.push_back({n_points,
+                            static_cast<unsigned int>(batches.cells.size()),
+                            m,
+                            batches.shares.size(),
+                            0,
+                            0});
+    batches.cells.insert(batches.cells.end(),
+                         parts.cells.begin(),
+                         parts.cells.end());
+    batches.corners.insert(batches.corners.end(),
+                           parts.places.begin(),
+                           parts.places.end());
     if (m > 1)
-      shares_of_batches.insert(shares_of_batches.end(),
-                               parts.shares.begin(),
-                               parts.shares.end());
+      batches.shares.insert(batches.shares.end(),
+                            parts.shares.begin(),
+                            parts.shares.end());
+  }
+
+
+
+  template <int dim>
+  void
+  CellMeans<dim>::Batches::parts_of(const Batch &g, CellParts<dim> &parts) const
+  {
+    const auto copy = [](const auto       &from,
+                         const std::size_t first,
+                         const std::size_t n,
+                         auto             &to) {
+      to.assign(from.begin() + first, from.begin() + first + n);
+    };
+    copy(cells, g.first_cell, g.n_cells, parts.cells);
+    copy(corners,
+         g.first_cell * n_corners,
+         g.n_cells * n_corners,
+         parts.places);
+    copy(shares,
+         g.first_share,
+         g.n_cells > 1 ? g.n_points * g.n_cells : 0,
+         parts.shares);
+  }
+
+
+
+  template <int dim>
+  void
+  CellMeans<dim>::take_groups(const GridSpace<dim> &space,
+                              const Basis<dim>     &basis)
+  {
+    if (groups.empty())
+      return;
+    for (Group &group : groups)
+      for (unsigned int i = group.first; i < group.end; ++i)
+        group.volume += volumes[numbers_of[members[i]]];
+    const Batches             before = std::move(batches);
+    CellParts<dim>            parts;
+    std::vector<unsigned int> nodes;
+    batches = {};
+    for (unsigned int g = 0; g < before.list.size(); ++g)
+      {
+        const Batch &batch = before.list[g];
+        before.parts_of(batch, parts);
+        if (std::none_of(parts.cells.begin(),
+                         parts.cells.end(),
+                         [this](const auto cell) { return is_grouped(cell); }))
+          {
+            append_batch(batch.n_points, parts);
+            continue;
+          }
+        const auto own = basis.batch_nodes(g);
+        nodes.assign(own.begin(), own.end());
+        group_parts(space, batch.n_points, nodes, parts);
+        append_batch(batch.n_points, parts);
+        if (nodes.size() > own.size())
+          {
+            batches.list.back().first_node = batches.nodes.size();
+            batches.list.back().n_nodes    = nodes.size();
+            batches.nodes.insert(batches.nodes.end(),
+                                 nodes.begin(),
+                                 nodes.end());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  CellMeans<dim>::group_parts(const GridSpace<dim>      &space,
+                              const unsigned int         n_points,
+                              std::vector<unsigned int> &nodes,
+                              CellParts<dim>            &parts) const
+  {
+    CellParts<dim> own;
+    std::swap(own, parts);
+    std::vector<Part>  in_place;
+    const unsigned int n_own = own.cells.size();
+    for (unsigned int c = 0; c < n_own; ++c)
+      if (std::find(parts.cells.begin(), parts.cells.end(), own.cells[c]) ==
+          parts.cells.end())
+        {
+          of_cell(own.cells[c], in_place);
+          for (const Part &part : in_place)
+            parts.cells.push_back(part.cell);
+        }
+    const unsigned int n = parts.cells.size();
+    parts.shares.assign(n_points * n, 0.);
+    for (unsigned int c = 0; c < n_own; ++c)
+      {
+        of_cell(own.cells[c], in_place);
+        for (const Part &part : in_place)
+          {
+            const unsigned int k =
+              std::find(parts.cells.begin(), parts.cells.end(), part.cell) -
+              parts.cells.begin();
+            for (unsigned int p = 0; p < n_points; ++p)
+              parts.shares[p * n + k] +=
+                part.weight * (n_own > 1 ? own.shares[p * n_own + c] : 1.);
+          }
+      }
+    for (const unsigned int cell : parts.cells)
+      for (unsigned int a = 0; a < n_corners; ++a)
+        {
+          const unsigned int node = space.cell_nodes(cell)[a];
+          const auto found        = std::find(nodes.begin(), nodes.end(), node);
+          parts.places.push_back(found - nodes.begin());
+          if (found == nodes.end())
+            nodes.push_back(node);
+        }
   }
 
 
@@ -158,15 +317,17 @@ namespace moraine
   CellMeans<dim>::attach(const unsigned int batch,
                          StencilBlock<dim> &block) const
   {
-    const Batch        &g     = batches[batch];
+    const Batch        &g     = batches.list[batch];
     CellMeanBlock<dim> &means = block.means;
-    means.n_cells             = g.n_cells;
-    means.places              = &corners_of_batches[g.first_cell * n_corners];
-    means.shares = g.n_cells > 1 ? &shares_of_batches[g.first_share] : nullptr;
+    if (g.n_nodes > 0)
+      block.append_nodes(g.n_nodes, &batches.nodes[g.first_node]);
+    means.n_cells = g.n_cells;
+    means.places  = &batches.corners[g.first_cell * n_corners];
+    means.shares  = g.n_cells > 1 ? &batches.shares[g.first_share] : nullptr;
     means.gradients.resize(g.n_cells * n_corners);
     for (unsigned int c = 0; c < g.n_cells; ++c)
       std::copy_n(
-        &gradients[numbers_of[cells_of_batches[g.first_cell + c]] * n_corners],
+        &gradients[numbers_of[batches.cells[g.first_cell + c]] * n_corners],
         n_corners,
         &means.gradients[c * n_corners]);
   }
@@ -174,13 +335,38 @@ namespace moraine
 
 
   template <int dim>
-  const Tensor<1, dim> *
-  CellMeans<dim>::of_cell(const unsigned int cell) const
+  ArrayView<const unsigned int>
+  CellMeans<dim>::nodes_of_batch(const unsigned int                  batch,
+                                 const ArrayView<const unsigned int> own) const
   {
-    const unsigned int k = numbers_of[cell];
-    return k == numbers::invalid_unsigned_int || !(volumes[k] > 0) ?
-             nullptr :
-             &gradients[k * n_corners];
+    const Batch &g = batches.list[batch];
+    return g.n_nodes > 0 ?
+             ArrayView<const unsigned int>(&batches.nodes[g.first_node],
+                                           g.n_nodes) :
+             own;
+  }
+
+
+
+  template <int dim>
+  void
+  CellMeans<dim>::of_cell(const unsigned int cell,
+                          std::vector<Part> &parts) const
+  {
+    parts.clear();
+    const auto add = [&](const unsigned int of, const double volume) {
+      const unsigned int k = numbers_of[of];
+      if (k != numbers::invalid_unsigned_int && volumes[k] > 0)
+        parts.push_back({of, volumes[k] / volume, &gradients[k * n_corners]});
+    };
+    if (is_grouped(cell))
+      {
+        const Group &group = groups[group_of[cell]];
+        for (unsigned int i = group.first; i < group.end; ++i)
+          add(members[i], group.volume);
+      }
+    else if (numbers_of[cell] != numbers::invalid_unsigned_int)
+      add(cell, volumes[numbers_of[cell]]);
   }
 
 

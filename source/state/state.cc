@@ -185,11 +185,14 @@ namespace moraine
           factors = fitted_weights->factors(space, points);
       }
     if (cell_means && moved)
-      cell_means->update(space,
-                         basis,
-                         [this](const auto &block, const unsigned int i) {
-                           return volume_in_cell(block, i);
-                         });
+      cell_means->update(
+        space,
+        basis,
+        [this](const auto &block, const unsigned int i) {
+          return volume_in_cell(block, i);
+        },
+        cell_aggregates ? cell_aggregates->roots_of_cells() :
+                          std::vector<unsigned int>());
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
   }
@@ -236,6 +239,24 @@ namespace moraine
     basis.evaluate(batch, block);
     if (cell_means)
       cell_means->attach(batch, block);
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::nodes_of_mean(const unsigned int         active_cell_index,
+                            std::vector<unsigned int> &nodes) const
+  {
+    nodes.clear();
+    std::vector<typename CellMeans<dim>::Part> parts;
+    mean_of_cell(active_cell_index, parts);
+    for (const auto &part : parts)
+      nodes.insert(nodes.end(),
+                   space.cell_nodes(part.cell),
+                   space.cell_nodes(part.cell) + space.nodes_per_cell());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
 

@@ -93,7 +93,7 @@ namespace
       Point<dim>            lower, upper;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          lower[d] = fe ? 0. : 0.3;
+          lower[d] = fe ? 0. : 0.1;
           upper[d] = fe ? 3. : 2.4;
         }
       const std::vector<Body<dim>> bodies{{"box", make_box<dim>(lower, upper)}};
@@ -139,6 +139,15 @@ namespace
                                                           forces ==
                                                             Forces::conserving),
                                                std::vector<std::string>{"box"});
+      begin_step(0);
+    }
+
+    /** Tie the nodes of cells that points fill less than @p fill of. */
+    void
+    aggregate(const double fill)
+    {
+      state->aggregate_below(fill);
+      state->points_changed();
       begin_step(0);
     }
 
@@ -315,13 +324,16 @@ namespace
   void
   check_cell_means(const Method        method,
                    const bool          plastic,
-                   const StrainMeasure measure)
+                   const StrainMeasure measure,
+                   const bool          grouped)
   {
     Box<dim> box(method,
                  plastic,
                  Forces::at_the_end,
                  measure,
                  VolumetricStrain::cell_mean);
+    if (grouped)
+      box.aggregate(0.6);
     check_tangent(box);
     box.deform();
     check_tangent(box);
@@ -345,9 +357,61 @@ namespace
             SCOPED_TRACE(std::to_string(static_cast<int>(method)) +
                          (plastic ? " plastic" : " elastic") +
                          (measure == StrainMeasure::finite ? " finite" : ""));
-            check_cell_means<2>(method, plastic, measure);
-            check_cell_means<3>(method, plastic, measure);
+            for (const bool grouped : {false, true})
+              {
+                check_cell_means<2>(method, plastic, measure, grouped);
+                check_cell_means<3>(method, plastic, measure, grouped);
+              }
           }
+  }
+
+
+
+  /** Cells follow the filled ones beside them in the last layer of each
+   * direction, and at corners. */
+  template <int dim>
+  void
+  check_one_mean_for_a_group()
+  {
+    Box<dim> box(Method::material_point,
+                 false,
+                 Forces::at_the_end,
+                 StrainMeasure::small,
+                 VolumetricStrain::cell_mean);
+    box.aggregate(0.6);
+    box.system->accept(box.displacements(0.03, 0.4));
+    const auto &roots = box.state->aggregates()->roots_of_cells();
+    ASSERT_FALSE(roots.empty());
+    std::map<unsigned int, std::pair<double, double>> of_group;
+    std::map<unsigned int, std::set<unsigned int>>    cells;
+    for (unsigned int p = 0; p < box.points.n_local(); ++p)
+      {
+        const unsigned int cell = box.points.cell_of(p)->active_cell_index();
+        const double       mean =
+          trace(box.points.stress_field()(box.points.values(p)));
+        auto &[least, largest] =
+          of_group.emplace(roots[cell], std::pair(mean, mean)).first->second;
+        least   = std::min(least, mean);
+        largest = std::max(largest, mean);
+        cells[roots[cell]].insert(cell);
+      }
+    double       range = 0, first = 0;
+    unsigned int n_largest = 0;
+    for (const auto &[root, means] : of_group)
+      {
+        EXPECT_LT(means.second - means.first, 1e-12 * std::abs(means.first));
+        range     = std::max(range, std::abs(means.first - first));
+        first     = means.first;
+        n_largest = std::max<unsigned int>(n_largest, cells[root].size());
+      }
+    EXPECT_GT(range, 1.);
+    EXPECT_GT(Utilities::MPI::max(n_largest, MPI_COMM_WORLD), 1u);
+  }
+
+  TEST(CellMeans, OneMeanForACutCellAndTheFilledOneNearest)
+  {
+    check_one_mean_for_a_group<2>();
+    check_one_mean_for_a_group<3>();
   }
 
 

@@ -46,9 +46,6 @@ for name, settings in (
     refused(f"cell means, {name}", settings={**MEAN, **settings})
 refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
 refused("part of a cell in words", settings={"Method/Aggregate below": "half"})
-refused("half a cell with means of cells",
-        settings={"Method/Aggregate below": 0.5,
-                  "Method/Volumetric strain": "cell mean"})
 STRENGTH = {"Materials/soil/Model": "von Mises",
             "Materials/soil/Shear yield stress": "1"}
 SOFTENING = {"Materials/soil/Model": "von Mises",

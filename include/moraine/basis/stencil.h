@@ -23,8 +23,8 @@ namespace moraine
     unsigned int n_cells = 0;
     /** The corners of the cells among the nodes of the block, cell major. */
     const unsigned int *places = nullptr;
-    /** The parts of the points in each cell, point major; none if there is one
-     * cell. */
+    /** The parts of the points that each cell stands for, point major; none if
+     * there is one cell. */
     const double *shares = nullptr;
     /** @f$b_{ca}@f$, means of gradients at the corners [1/length], cell major.
      */
@@ -97,6 +97,29 @@ namespace moraine
           values.resize(n_points * n_nodes);
           gradients.resize(n_points * n_nodes);
         }
+    }
+
+    /** Have the @p n_longer nodes of @p longer, which begins with the nodes of
+     * the block; functions of the others are zero at all points. */
+    void
+    append_nodes(const unsigned int n_longer, const unsigned int *longer)
+    {
+      const unsigned int n = n_nodes;
+      if (values.size() < n_points * n_longer)
+        {
+          values.resize(n_points * n_longer);
+          gradients.resize(n_points * n_longer);
+        }
+      // From the end, so that nothing is overwritten before it has moved.
+      for (unsigned int p = n_points; p-- > 0;)
+        for (unsigned int a = n_longer; a-- > 0;)
+          {
+            values[p * n_longer + a] = a < n ? values[p * n + a] : 0.;
+            gradients[p * n_longer + a] =
+              a < n ? gradients[p * n + a] : dealii::Tensor<1, dim>();
+          }
+      n_nodes = n_longer;
+      nodes   = longer;
     }
   };
 } // namespace moraine

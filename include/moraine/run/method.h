@@ -36,7 +36,7 @@ namespace moraine
     std::string  mesh_after_step      = "default";
     std::string  point_weights        = "volumes";
     std::string  volumetric_strain    = "pointwise";
-    std::string  aggregate_below      = "default";
+    double       aggregate_below      = 0.1;
     double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";
@@ -53,11 +53,6 @@ namespace moraine
     /** The entry of methods() that is chosen. */
     const Method<dim> &
     chosen() const;
-
-    /** The part of a cell that points must fill for its nodes to be free.
-     * @throw InputError for what is no number. */
-    double
-    fill() const;
 
     MeshAfterStep
     after_step() const;

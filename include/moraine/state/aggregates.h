@@ -46,14 +46,16 @@ namespace moraine
       }
     };
 
-    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1. */
-    explicit Aggregates(const double fill);
+    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1.
+     * @param group_cells whether roots_of_cells() will be asked for */
+    explicit Aggregates(const double fill, const bool group_cells = false);
 
     /**
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
      * cell that holds it. Roots that this rank does not know are asked for
-     * beside @p active, its own cells.
-     * @return whether ties or nodes of this rank changed. Collective.
+     * beside @p active, its own cells; so are cells that have a root in common
+     * with one that it flags or owns, if cells are grouped.
+     * @return whether ties, groups or nodes of this rank changed. Collective.
      */
     bool
     tie_nodes(GridSpace<dim>                                  &space,
@@ -66,6 +68,15 @@ namespace moraine
     ties() const
     {
       return tied;
+    }
+
+    /** By active_cell_index(): the filled cell nearest to the middle of a cut
+     * cell, in the reach of ties; of any other cell the cell itself. The same
+     * on all ranks; empty if cells are not grouped or no cell is cut. */
+    const std::vector<unsigned int> &
+    roots_of_cells() const
+    {
+      return roots;
     }
 
     /**
@@ -104,17 +115,25 @@ namespace moraine
     void
     find_ties(const GridSpace<dim> &space);
 
+    void
+    group_cells(const GridSpace<dim> &space);
+
+    /** Flag the cells of groups of which this rank flags or owns one. */
+    void
+    ask_for_groups(const GridSpace<dim>       &space,
+                   std::vector<unsigned char> &active) const;
+
     Part
     part(const CellIterator &cell) const
     {
       return parts[cell->active_cell_index()];
     }
 
-    /** The nearest filled cell around the cut cells of a node, which all meet
-     * at it; no_cell if there is none. */
+    /** The filled cell nearest to @p x around cut cells, which all meet there;
+     * no_cell if there is none. */
     unsigned int
     find_root(const GridSpace<dim>            &space,
-              const std::vector<CellIterator> &cells_of_node,
+              const std::vector<CellIterator> &cut_cells,
               const dealii::Point<dim>        &x) const;
 
     /** The value of the root of a tie at its node. */
@@ -140,8 +159,10 @@ namespace moraine
     }
 
     const double              fill;
+    const bool                with_groups;
     std::vector<Part>         parts; ///< of all cells, the same on all ranks
     std::vector<Tie>          tied;
+    std::vector<unsigned int> roots;
     std::vector<unsigned int> rootless;
   };
 } // namespace moraine

@@ -20,6 +20,13 @@ namespace moraine
    * with @f$s_{pc}@f$ the part of point p in cell c. What changes the volume of
    * a cell is then @f$\sum_a \Delta u_a \cdot b_{ca}@f$ for all that is in
    * it (Nagtegaal, Parks and Rice 1974; Hughes 1980).
+   *
+   * Cells whose nodes follow a root (Aggregates) and the root are a *group* g
+   * with one mean for all that is in it, @f$\sum_{c \in g} (V_c / V_g)\,
+   * b_{ca}@f$: there are no more means than cells whose nodes are free, so that
+   * a cut does not lock. Where a point has a part @f$s_{pc}@f$ in cells of a
+   * group, the cells of the group take its place with
+   * @f$s_{pc'} = (V_{c'} / V_g) \sum_{c \in g} s_{pc}@f$.
    */
   template <int dim>
   class CellMeans
@@ -31,45 +38,113 @@ namespace moraine
     using Volume =
       std::function<double(const StencilBlock<dim> &, const unsigned int i)>;
 
-    /** Of the points as @p basis has batched them. Collective. */
-    void
-    update(const GridSpace<dim> &space,
-           const Basis<dim>     &basis,
-           const Volume         &volume);
+    /** A cell, with what part it counts in the mean of its group, and
+     * @f$b_{ca}@f$ [1/length] of its corners. */
+    struct Part
+    {
+      unsigned int                  cell; ///< active_cell_index()
+      double                        weight;
+      const dealii::Tensor<1, dim> *gradients;
+    };
 
-    /** Give a block of the batch @p batch, as it was in update(), its means. */
+    /** Of the points as @p basis has batched them; @p roots are those of cells
+     * by active_cell_index(), of each group the same, and may be empty. This
+     * rank knows the cells of groups of which it owns or touches one.
+     * Collective. */
+    void
+    update(const GridSpace<dim>            &space,
+           const Basis<dim>                &basis,
+           const Volume                    &volume,
+           const std::vector<unsigned int> &roots);
+
+    /** Give a block of the batch @p batch, as it was in update(), its means,
+     * and the nodes that they have and the block has not. */
     void
     attach(const unsigned int batch, StencilBlock<dim> &block) const;
 
-    /** @f$b_{ca}@f$ [1/length] of the corners of a cell that this rank owns or
-     * touches and in which a part of a point lies; else a null pointer. */
-    const dealii::Tensor<1, dim> *
-    of_cell(const unsigned int active_cell_index) const;
+    /** The nodes of a batch with those that attach() adds to @p own. */
+    dealii::ArrayView<const unsigned int>
+    nodes_of_batch(const unsigned int                          batch,
+                   const dealii::ArrayView<const unsigned int> own) const;
+
+    /** What the mean of a cell that this rank owns or touches consists of; no
+     * parts if no part of a point lies there. */
+    void
+    of_cell(const unsigned int active_cell_index,
+            std::vector<Part> &parts) const;
 
   private:
+    struct Group
+    {
+      unsigned int first; ///< in members
+      unsigned int end;
+      double       volume;
+    };
+
+    struct Batch
+    {
+      unsigned int n_points;
+      unsigned int first_cell;
+      unsigned int n_cells;
+      std::size_t  first_share;
+      unsigned int first_node;
+      unsigned int n_nodes; ///< of the block and of groups; 0: of the block
+    };
+
+    /** What the batches of points are made of, one after the other. */
+    struct Batches
+    {
+      std::vector<Batch>        list;
+      std::vector<unsigned int> cells;
+      std::vector<unsigned int> corners; ///< among the nodes of the batch
+      std::vector<double>       shares;  ///< none of batches in one cell
+      std::vector<unsigned int> nodes;   ///< of those that have more nodes
+
+      /** Cells, places and shares, if any, of one. */
+      void
+      parts_of(const Batch &batch, CellParts<dim> &parts) const;
+    };
+
     /** Number of a cell among those with points here, which may be new. */
     unsigned int
     number_of(const unsigned int active_cell_index);
+
+    /** Groups of which this rank owns or touches a cell. */
+    void
+    find_groups(const GridSpace<dim>            &space,
+                const std::vector<unsigned int> &roots);
+
+    bool
+    is_grouped(const unsigned int cell) const
+    {
+      return !group_of.empty() &&
+             group_of[cell] != dealii::numbers::invalid_unsigned_int;
+    }
 
     /** Add what all ranks have, of cells that more than one of them touches. */
     void
     sum_over_ranks(const GridSpace<dim> &space);
 
-    struct Batch
-    {
-      unsigned int first_cell;
-      unsigned int n_cells;
-      std::size_t  first_share;
-    };
-
     /** Keep what a batch is made of. */
     void
-    append_batch(const CellParts<dim> &parts);
+    append_batch(const unsigned int n_points, const CellParts<dim> &parts);
 
-    std::vector<Batch>                  batches;
-    std::vector<unsigned int>           cells_of_batches;
-    std::vector<unsigned int>           corners_of_batches;
-    std::vector<double>                 shares_of_batches;
+    /** Let groups take the place of their cells in all batches. */
+    void
+    take_groups(const GridSpace<dim> &space, const Basis<dim> &basis);
+
+    /** Let groups take the place of cells in the @p parts of a batch, and add
+     * to its @p nodes those that it lacks. */
+    void
+    group_parts(const GridSpace<dim>      &space,
+                const unsigned int         n_points,
+                std::vector<unsigned int> &nodes,
+                CellParts<dim>            &parts) const;
+
+    Batches                             batches;
+    std::vector<Group>                  groups;
+    std::vector<unsigned int>           members;    ///< cells of groups
+    std::vector<unsigned int>           group_of;   ///< by active_cell_index()
     std::vector<unsigned int>           cells;      ///< active_cell_index()
     std::vector<unsigned int>           numbers_of; ///< by active_cell_index()
     std::vector<double>                 volumes;

@@ -78,7 +78,7 @@ namespace moraine
     void
     aggregate_below(const double fill)
     {
-      cell_aggregates.emplace(fill);
+      cell_aggregates.emplace(fill, cell_means.has_value());
     }
 
     /**
@@ -171,13 +171,29 @@ namespace moraine
     void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const;
 
-    /** The gradients by which the volume of a cell changes, one for each of its
-     * corners; a null pointer if that is a matter of each point. */
-    const dealii::Tensor<1, dim> *
-    mean_gradients(const unsigned int active_cell_index) const
+    /** The nodes of a batch, as evaluate() gives them. */
+    dealii::ArrayView<const unsigned int>
+    nodes_of_batch(const unsigned int batch) const
     {
-      return cell_means ? cell_means->of_cell(active_cell_index) : nullptr;
+      const auto own = basis.batch_nodes(batch);
+      return cell_means ? cell_means->nodes_of_batch(batch, own) : own;
     }
+
+    /** The mean by which the volume of a cell changes; no parts if that is a
+     * matter of each point. */
+    void
+    mean_of_cell(const unsigned int                          active_cell_index,
+                 std::vector<typename CellMeans<dim>::Part> &parts) const
+    {
+      parts.clear();
+      if (cell_means)
+        cell_means->of_cell(active_cell_index, parts);
+    }
+
+    /** The nodes of the cells that have a part in mean_of_cell(), sorted. */
+    void
+    nodes_of_mean(const unsigned int         active_cell_index,
+                  std::vector<unsigned int> &nodes) const;
 
     /**
      * The end of the run of points of one body that starts at @p begin of a
