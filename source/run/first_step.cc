@@ -31,6 +31,26 @@ namespace moraine
 
 
 
+    /** Bodies may come to a condition later, so that none need be there now. */
+    template <int dim>
+    void
+    note_idle_conditions(const std::vector<GridCondition<dim>> &active,
+                         const GridSpace<dim>                  &space,
+                         const double                           t,
+                         std::vector<std::string>              &notes)
+    {
+      std::vector<unsigned int> n(active.size(), 0);
+      for (const auto &entry : find_prescribed_nodes(active, space, t).entries)
+        ++n[entry.condition];
+      Utilities::MPI::sum(n, space.communicator(), n);
+      for (unsigned int c = 0; c < active.size(); ++c)
+        if (n[c] == 0)
+          notes.push_back(active[c].name +
+                          ": holds no node of a body at the start");
+    }
+
+
+
     /**
      * A motion without a value at the end of a step is found here, before
      * anything is computed or written; so are conditions that contradict each
@@ -38,7 +58,9 @@ namespace moraine
      */
     template <int dim>
     void
-    check_prescribed_motion(const StageParameters &stage, Model<dim> &model)
+    check_prescribed_motion(const StageParameters    &stage,
+                            Model<dim>               &model,
+                            std::vector<std::string> &notes)
     {
       const TimeParameters &time = stage.time;
       const double size = (time.end_time - time.start_time) / time.n_steps;
@@ -51,6 +73,7 @@ namespace moraine
           active.push_back(condition);
       check_agreement(
         active, *model.space, time.start_time, time.end_time, time.n_steps);
+      note_idle_conditions(active, *model.space, time.start_time, notes);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
@@ -326,7 +349,7 @@ namespace moraine
     system.begin_step(scene.start_time());
     check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
-    check_prescribed_motion(stage, model);
+    check_prescribed_motion(stage, model, notes);
     check_loads(stage, model);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(model, notes);
@@ -383,7 +406,7 @@ namespace moraine
         model.points->reset_displacements();
       }
     check_places_of_boundaries(stage, model);
-    check_prescribed_motion(stage, model);
+    check_prescribed_motion(stage, model, notes);
     check_loads(stage, model);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));

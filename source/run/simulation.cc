@@ -14,6 +14,7 @@
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
 #include <moraine/run/step_driver.h>
+#include <moraine/run/stress_signs.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -302,6 +303,13 @@ namespace moraine
       Summary summary = make_summary(scene, model, driver, times);
       summary.status  = status;
       summary.message = message;
+      if (summary.steps > 0)
+        for (const std::string &doubt : doubts_of_stress(scene, model))
+          {
+            summary.warnings.push_back(doubt);
+            for (RunObserver<dim> *observer : observers)
+              observer->note(doubt);
+          }
       for (RunObserver<dim> *observer : observers)
         observer->run_ends(summary, driver.counts());
       return summary;

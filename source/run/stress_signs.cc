@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/stress_signs.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What has to be filled of a cell that is fitted, and of one whose stress
+     * does not depend on the cut. */
+    constexpr double filled_to_fit = 0.75;
+    constexpr double filled_half   = 0.5;
+
+    /** Of points in a unit cell, in each direction, squared. */
+    constexpr double least_spread = 0.01;
+
+    /** Jumps over the deviatoric stress, and stress in cuts over that
+     * elsewhere, that are told of: healthy scenes have up to 0.9 and 2.5. */
+    constexpr double told_jump = 1;
+    constexpr double told_cut  = 3;
+
+    /** Next to no stress, over the shear modulus; next to no strain energy,
+     * over the largest part of the energy of motion. */
+    constexpr double no_stress = 1e-6;
+    constexpr double no_energy = 1e-3;
+
+
+
+    /** Mean stress in a unit cell: volume of what it is fitted to (0: none),
+     * value in the middle and gradient. */
+    template <int dim>
+    struct Fit
+    {
+      double         volume = 0;
+      double         middle = 0;
+      Tensor<1, dim> gradient;
+
+      double
+      at(const Point<dim> &xi) const
+      {
+        return middle + gradient * (xi - unit_middle());
+      }
+
+      static Point<dim>
+      unit_middle()
+      {
+        Point<dim> xi;
+        for (unsigned int d = 0; d < dim; ++d)
+          xi[d] = 0.5;
+        return xi;
+      }
+    };
+
+
+
+    template <int dim>
+    double
+    mean_stress(const PointSet<dim> &points, const unsigned int p)
+    {
+      return trace(points.stress_field()(points.values(p))) / 3;
+    }
+
+
+
+    template <int dim>
+    Fit<dim>
+    fit_mean_stress(const PointSet<dim>                      &points,
+                    const typename PointSet<dim>::CellPoints &in_cell)
+    {
+      Fit<dim>       fit;
+      Tensor<1, dim> place;
+      double         stress = 0;
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        {
+          if (points.body(p) != points.body(in_cell.first))
+            return {};
+          const double v = points.volume(p);
+          fit.volume += v;
+          place += v * (points.reference_position(p) - Fit<dim>::unit_middle());
+          stress += v * mean_stress(points, p);
+        }
+      place /= fit.volume;
+      stress /= fit.volume;
+      SymmetricTensor<2, dim> spread;
+      Tensor<1, dim>          product;
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        {
+          const double         part = points.volume(p) / fit.volume;
+          const Tensor<1, dim> away =
+            points.reference_position(p) - Fit<dim>::unit_middle() - place;
+          spread += part * symmetrize(outer_product(away, away));
+          product += part * (mean_stress(points, p) - stress) * away;
+        }
+      if (eigenvalues(spread)[dim - 1] < least_spread)
+        return {};
+      fit.gradient = invert(spread) * product;
+      fit.middle   = stress - fit.gradient * place;
+      return fit;
+    }
+
+
+
+    /** The squares of jumps between the cells of this rank and those after
+     * them, times volumes, and the sum of these volumes. */
+    template <int dim>
+    std::pair<double, double>
+    squares_of_jumps(const GridSpace<dim>      &space,
+                     const std::vector<double> &fits)
+    {
+      const auto fit_of = [&](const auto &cell) {
+        const double *values = &fits[(dim + 2) * cell->active_cell_index()];
+        Fit<dim>      fit;
+        fit.volume = values[0];
+        fit.middle = values[1];
+        std::copy_n(values + 2, dim, fit.gradient.begin_raw());
+        return fit;
+      };
+      double squares = 0, volumes = 0;
+      for (const auto &cell :
+           space.mesh().triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            {
+              if (cell->at_boundary(f) || !cell->neighbor(f)->is_active() ||
+                  cell->neighbor(f)->active_cell_index() <
+                    cell->active_cell_index())
+                continue;
+              const Fit<dim> here  = fit_of(cell),
+                             there = fit_of(cell->neighbor(f));
+              if (here.volume == 0 || there.volume == 0)
+                continue;
+              const auto middle = [](const unsigned int face) {
+                Point<dim> xi = Fit<dim>::unit_middle();
+                xi[face / 2]  = face % 2;
+                return xi;
+              };
+              const double jump =
+                here.at(middle(f)) -
+                there.at(middle(cell->neighbor_of_neighbor(f)));
+              squares += (here.volume + there.volume) * jump * jump;
+              volumes += here.volume + there.volume;
+            }
+      return {squares, volumes};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StressSigns
+  stress_signs(const GridSpace<dim> &space, const PointSet<dim> &points)
+  {
+    std::vector<double> fits((dim + 2) *
+                               space.mesh().triangulation().n_active_cells(),
+                             0.);
+    double              squares = 0, volume = 0;
+    StressSigns         signs;
+    for (const auto &in_cell : points.cells())
+      {
+        double largest = 0, filled = 0;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          {
+            const auto   stress = points.stress_field()(points.values(p));
+            const double v      = points.volume(p);
+            squares += v * deviator(stress).norm() * deviator(stress).norm();
+            filled += v;
+            largest = std::max(largest, stress.norm());
+          }
+        volume += filled;
+        filled /= in_cell.cell->measure();
+        double &of_kind =
+          filled < filled_half ? signs.in_cuts : signs.elsewhere;
+        of_kind = std::max(of_kind, largest);
+        if (filled < filled_to_fit)
+          continue;
+        const Fit<dim> fit = fit_mean_stress(points, in_cell);
+        double *to = &fits[(dim + 2) * in_cell.cell->active_cell_index()];
+        to[0]      = fit.volume;
+        to[1]      = fit.middle;
+        std::copy_n(fit.gradient.begin_raw(), dim, to + 2);
+      }
+    const MPI_Comm communicator = space.communicator();
+    Utilities::MPI::sum(fits, communicator, fits);
+    const auto   jumps = squares_of_jumps(space, fits);
+    const double faces = Utilities::MPI::sum(jumps.second, communicator);
+    if (faces > 0)
+      signs.jump =
+        std::sqrt(Utilities::MPI::sum(jumps.first, communicator) / faces);
+    volume = Utilities::MPI::sum(volume, communicator);
+    signs.deviatoric =
+      std::sqrt(Utilities::MPI::sum(squares, communicator) / volume);
+    signs.in_cuts   = Utilities::MPI::max(signs.in_cuts, communicator);
+    signs.elsewhere = Utilities::MPI::max(signs.elsewhere, communicator);
+    return signs;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    bool
+    is_at_rest(const Model<dim> &model, const StressSigns &signs)
+    {
+      double mu = std::numeric_limits<double>::max();
+      for (const auto &material : model.materials)
+        mu = std::min(mu, material->elastic_stiffness().mu);
+      if (!(signs.deviatoric > no_stress * mu))
+        return true;
+      return model.motion && model.motion->works().stored <
+                               no_energy * model.motion->works().largest();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  doubts_of_stress(const Scene<dim> &scene, const Model<dim> &model)
+  {
+    const StressSigns signs = stress_signs(*model.space, *model.points);
+    if (is_at_rest(model, signs))
+      return {};
+    const MethodParameters<dim> &method = scene.method;
+    std::vector<std::string>     doubts;
+    std::ostringstream           text;
+    text << std::setprecision(3);
+    if (signs.jump > told_jump * signs.deviatoric)
+      {
+        text << "mean stress jumps from cell to cell by " << signs.jump
+             << " (root of the mean square), " << signs.jump / signs.deviatoric
+             << " times the deviatoric stress: do not trust it, nor forces and "
+                "displacements if material flows or hardly changes its volume";
+        if (method.volumetric() == VolumetricStrain::pointwise &&
+            method.chosen().can_average_volume && method.degree == 1)
+          text << "; there 'Volumetric strain = cell mean' in section 'Method' "
+                  "helps";
+        if (method.method == "material point")
+          text << "; where points cross cells 'Method = GIMP' does";
+        doubts.push_back(text.str());
+      }
+    else if (signs.in_cuts > told_cut * signs.elsewhere)
+      {
+        text << "stress of points in cells that are filled by less than a half "
+                "is up to "
+             << signs.in_cuts / signs.elsewhere
+             << " times that of all others: it depends on where the mesh cuts";
+        if (method.aggregate_below < 0.5)
+          text << "; 'Aggregate below = "
+               << (method.aggregate_below < 0.1 ? 0.1 : 0.5)
+               << "' in section 'Method' helps";
+        doubts.push_back(text.str());
+      }
+    return doubts;
+  }
+
+
+
+  template std::vector<std::string>
+  doubts_of_stress(const Scene<2> &, const Model<2> &);
+  template std::vector<std::string>
+  doubts_of_stress(const Scene<3> &, const Model<3> &);
+  template StressSigns
+  stress_signs(const GridSpace<2> &, const PointSet<2> &);
+  template StressSigns
+  stress_signs(const GridSpace<3> &, const PointSet<3> &);
+} // namespace moraine

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A run whose stress shows that its volume locks, that points cross cells or that
+cuts are felt says so, with the key that helps; one that took the key does not."""
+
+POINT = {"Method/Volumetric strain": "pointwise"}
+BEARING = {"Mesh/Cell size": 0.25, "Time/Steps": 4}
+BLOCK = "prm/hard-cases/cut-block.prm"
+
+
+def told(result):
+    return result.summary.get("warnings", [])
+
+
+def show(name, scene, settings):
+    result = run(scene, settings)
+    warnings = told(result)
+    for warning in warnings:
+        for what in ("from cell to cell", "less than a half", "'cell mean'",
+                     "'Volumetric strain = cell mean'", "'Method = GIMP'",
+                     "'Aggregate below = 0.1'"):
+            if what in warning:
+                text(f"{name}: says", what)
+        text(f"{name}: on the console, once",
+             result.output.count("note: " + warning))
+    text(f"{name}: warnings", len(warnings))
+
+
+# Plastic soil, and elastic material with a Poisson ratio near 0.5.
+for method in ("fe", "gimp"):
+    scene = f"prm/hard-cases/bearing-{method}.prm"
+    settings = {**BEARING,
+                "Mesh/Upper corner": "5, 0" if method == "fe" else "5, 0.25"}
+    show(f"footing, {method}, pointwise", scene, {**settings, **POINT})
+    show(f"footing, {method}, cell mean", scene, settings)
+    show(f"membrane, {method}, pointwise, nu = 0.49",
+         f"prm/hard-cases/cook-{method}.prm",
+         {**POINT, "Materials/panel/Poisson ratio": 0.49})
+    show(f"membrane, {method}, pointwise, nu = 0.33",
+         f"prm/hard-cases/cook-{method}.prm",
+         {**POINT, "Materials/panel/Poisson ratio": 0.33})
+show("footing, MPM, pointwise", "prm/hard-cases/bearing-gimp.prm",
+     {**BEARING, **POINT, "Mesh/Upper corner": "5, 0.25",
+      "Method/Method": "material point"})
+show("slope, pointwise", "prm/geotechnics/slope.prm",
+     {"Mesh/Cell size": 1, "Time/End time": 1, "Time/Steps": 20})
+
+# Hardly filled cells: the block turned by 30 degrees, and its mesh moved.
+DOWN = "sin(30*pi/180); -cos(30*pi/180)"
+CUT = {"Bodies/block/Rotation angle": 30, "Loads/weight/Value": DOWN,
+       "Boundaries/support/Rotation angle": 30, "Loads/end/Value": DOWN,
+       "Probes/tip/Location": "1.47, 1.42",
+       "Mesh/Lower corner": "-1.057084, -1.5000023",
+       "Mesh/Upper corner": "2.942916, 2.4999977"}
+for fill in (0, 0.1):
+    show(f"block, Aggregate below = {fill}", BLOCK,
+         {**CUT, "Method/Aggregate below": fill})
+
+# A condition that holds nothing: here the ground ends below the side.
+idle = run("prm/hard-cases/bearing-fe.prm",
+           {**BEARING, "Mesh/Upper corner": "5, 0.25"})
+text("footing above the ground: said",
+     "footing: holds no node of a body at the start" in idle.output)
