@@ -67,17 +67,18 @@ namespace moraine
 
 
 
-    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$. */
+    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$, and c_3 by @p depth.
+     */
     template <int dim>
     SymmetricTensor<2, dim>
     penalty(const Enforcement             &how,
-            const double                   h,
+            const double                   depth,
             const Tensor<1, dim>          &n,
             const SymmetricTensor<2, dim> &M,
             const LameConstants           &C)
     {
       const Tensor<1, dim> Mn = M * n;
-      return how.stiffness_factor / h *
+      return how.stiffness_factor / depth *
              ((C.lambda + C.mu) * symmetrize(outer_product(Mn, Mn)) + C.mu * M);
     }
   } // namespace
@@ -109,7 +110,7 @@ namespace moraine
     for (unsigned int d = 0; d < dim; ++d)
       strain[d][d] += change / dim;
     traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
-    traction -= penalty(how, point.h, n, M, C) * constraint.violation;
+    traction -= penalty(how, point.depth, n, M, C) * constraint.violation;
     return pushed(traction, constraint);
   }
 
@@ -169,7 +170,7 @@ namespace moraine
 
     // f lies in the range of M, so M e_j acts as e_j on it.
     const SymmetricTensor<2, dim> symmetric_beta =
-      penalty(how, point.h, n, M, C);
+      penalty(how, point.depth, n, M, C);
     Tensor<2, dim> beta; // its columns
     for (unsigned int j = 0; j < dim; ++j)
       beta[j] = pushed(Tensor<2, dim>(symmetric_beta)[j], constraint);

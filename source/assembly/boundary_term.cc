@@ -120,6 +120,22 @@ namespace moraine
 
 
 
+    /** Of the points of this rank, by active_cell_index(). */
+    template <int dim>
+    std::vector<double>
+    volumes_in_cells(const State<dim> &state)
+    {
+      std::vector<double> volumes(
+        state.grid().mesh().triangulation().n_active_cells(), 0.);
+      for (const auto &in_cell : state.material_points().cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          volumes[in_cell.cell->active_cell_index()] +=
+            state.integration_volume(p);
+      return volumes;
+    }
+
+
+
     template <int dim>
     bool
     forces_in_the_middle(const StepContext<dim> &context)
@@ -164,6 +180,14 @@ namespace moraine
                         context.state.mesh_after_step() != MeshAfterStep::keep,
                         context.state.strain_measure(),
                         context.cells_moved);
+    // A form that is not definite feeds what one step leaves to the next: in
+    // vibrations, and as points move. Elsewhere the larger factor costs
+    // accuracy for nothing.
+    const Enforcement &how     = boundary.enforcement();
+    const bool         nitsche = how.carries_multiplier && !how.augments;
+    const bool finite = context.state.strain_measure() == StrainMeasure::finite;
+    if (nitsche && (context.motion || (finite && how.adjoint_sign > 0)))
+      boundary.set_depths(volumes_in_cells(context.state));
     return false;
   }
 

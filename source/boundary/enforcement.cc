@@ -30,10 +30,13 @@ namespace moraine
                       "'augmented Lagrangian', whose penalty is 4/(3 delta); "
                       "0.01 there if left out with finite strain.",
                       Patterns::Double(1e-12, 1.));
-    prm.add_parameter("Nitsche factor",
-                      nitsche_factor,
-                      "Of Nitsche's method: gamma in gamma/h, > 0.",
-                      Patterns::Double(1e-12));
+    prm.add_parameter(
+      "Nitsche factor",
+      nitsche_factor,
+      "Of Nitsche's method: gamma in gamma/h, > 0. In dynamics, "
+      "and of the symmetric one with finite strain, the depth "
+      "of the material in the cell takes the place of h.",
+      Patterns::Double(1e-12));
     prm.add_parameter("Penalty factor",
                       penalty_factor,
                       "Of 'penalty': beta in beta/h, > 0.",

@@ -27,6 +27,12 @@ namespace moraine
 
 
 
+    /** Of the cell size: cells filled less follow their neighbours by default,
+     * and what lies in a cell without a point would be nothing. */
+    constexpr double smallest_depth = 0.1;
+
+
+
     template <int dim>
     unsigned int
     n_gauss_points_in(const CellVertices<dim> &cell)
@@ -160,6 +166,8 @@ namespace moraine
     const bool moves = moves_points && motion.moves();
     if (has_pieces && !cells_changed && !moves)
       {
+        for (auto &point : boundary_points)
+          point.depth = point.h;
         if (kept_at_points)
           for (unsigned int q = 0; q < carried.size(); ++q)
             take_over(carried[q], boundary_points[q]);
@@ -252,6 +260,7 @@ namespace moraine
         point.JxW    = piece.JxW;
         point.cell   = owner->active_cell_index();
         point.h      = std::pow(owner->measure(), 1. / dim);
+        point.depth  = point.h;
         boundary_points.push_back(point);
       }
   }
@@ -329,13 +338,35 @@ namespace moraine
 
   template <int dim>
   void
+  ImplicitBoundary<dim>::set_depths(const std::vector<double> &volumes)
+  {
+    for (unsigned int begin = 0, end = 0; begin < boundary_points.size();
+         begin = end)
+      {
+        const unsigned int cell = boundary_points[begin].cell;
+        double             area = 0;
+        for (;
+             end < boundary_points.size() && boundary_points[end].cell == cell;
+             ++end)
+          area += boundary_points[end].JxW;
+        const double h     = boundary_points[begin].h;
+        const double depth = std::max(volumes[cell] / area, smallest_depth * h);
+        for (unsigned int q = begin; q < end; ++q)
+          boundary_points[q].depth = std::min(depth, h);
+      }
+  }
+
+
+
+  template <int dim>
+  void
   ImplicitBoundary<dim>::set_target(const double t_end)
   {
     move_target(t_end);
-    const Tensor<2, dim> turn =
-      turns_multiplier ? motion.pose(t_end).rotation() *
-                           transpose(motion.pose(t_start).rotation()) :
-                         Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    const Tensor<2, dim> turn = turns_multiplier ?
+                                  motion.pose(t_end).rotation() *
+                                    transpose(motion.pose(t_start).rotation()) :
+                                  Tensor<2, dim>(unit_symmetric_tensor<dim>());
     for (auto &point : boundary_points)
       point.multiplier = how.carries_multiplier ?
                            turn * point.multiplier_at_start :

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 
 #include "../small_scene.h"
 
@@ -170,4 +171,51 @@ TEST(ImplicitBoundary, AStepThatIsNotKeptLeavesNoTrace)
   tried.expect(traction);
   tried.line.write(after);
   EXPECT_TRUE(after == before);
+}
+
+
+
+TEST(ImplicitBoundary, DepthsAreThoseOfTheMaterialWithinTheCellAndATenthOfIt)
+{
+  SmallScene<2> scene;
+  State<2>      state(scene.space,
+                 scene.points,
+                 *scene.basis,
+                 {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                 MeshAfterStep::reset,
+                 StrainMeasure::small);
+  state.begin_step();
+  ImplicitBoundary<2> line(
+    "line",
+    make_flat_face<2>(std::vector<Point<2>>{{1.25, 1.}, {1.25, 2.5}}),
+    RigidMotion<2>(
+      {}, [](const double) { return 0.; }, Point<2>()),
+    [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+    {Constraint<2>::fixed, {}},
+    EnforcementParameters().enforcement_of(),
+    0.);
+  const auto begin_step = [&]() {
+    line.begin_step(scene.space, 0, 0.5, true, StrainMeasure::small, false);
+  };
+  // In the upper of its two cells it has half the length.
+  const auto expect = [&](const double lower, const double upper) {
+    for (const auto &point : line.points())
+      EXPECT_NEAR(point.depth, point.x[1] < 2 ? lower : upper, 1e-12);
+  };
+  begin_step();
+  EXPECT_GT(Utilities::MPI::sum<unsigned int>(line.points().size(),
+                                              MPI_COMM_WORLD),
+            0u);
+  expect(1, 1);
+  const unsigned int n_cells = scene.mesh.triangulation().n_active_cells();
+  for (const auto &[volume, lower, upper] :
+       {std::array<double, 3>{{0.3, 0.3, 0.6}},
+        std::array<double, 3>{{0.75, 0.75, 1}},
+        std::array<double, 3>{{0.04, 0.1, 0.1}}})
+    {
+      line.set_depths(std::vector<double>(n_cells, volume));
+      expect(lower, upper);
+    }
+  begin_step();
+  expect(1, 1);
 }

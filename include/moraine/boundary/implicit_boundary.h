@@ -51,6 +51,7 @@ namespace moraine
     unsigned int           cell;       ///< active_cell_index()
     unsigned int           number;     ///< among the points of the cell
     double                 h;          ///< size of that cell
+    double                 depth;      ///< h, or see set_depths()
     dealii::Tensor<1, dim> prescribed; ///< @f$\Delta g@f$ of the step
     dealii::Tensor<1, dim> multiplier; ///< @f$t@f$ of the trial state
     dealii::Tensor<1, dim> multiplier_at_start; ///< of the step
@@ -144,6 +145,19 @@ namespace moraine
                const bool            moves_points,
                const StrainMeasure   measure,
                const bool            cells_changed);
+
+    /**
+     * Let the factor of Nitsche's method act over the depth of the material
+     * behind the surface in the cell of each point,
+     * @f$\min(h, |\Omega \cap c| / |\Gamma \cap c|)@f$, instead of h, but over
+     * no less than h/10: by so much the energy of linear displacements bounds
+     * their flux, @f$\int_{\Gamma \cap c} f\, Q^{-1} f \leq |\Gamma \cap c| /
+     * |\Omega \cap c| \int_{\Omega \cap c} \sigma : \varepsilon@f$.
+     * Until the next begin_step().
+     * @param volumes @f$|\Omega \cap c|@f$ by active_cell_index()
+     */
+    void
+    set_depths(const std::vector<double> &volumes);
 
     /** Set the prescribed increments of a step to @p t_end, and multipliers as
      * they are at its start. */
