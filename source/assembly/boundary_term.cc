@@ -415,6 +415,7 @@ namespace moraine
         const Tensor<1, dim> force = point.JxW * tractions[q];
         prepared.reaction += force;
         prepared.force_magnitude += force.norm();
+        prepared.work_of_motion += force * point.prescribed;
         prepared.moment +=
           boundary.rigid_motion().moment(point.x + point.prescribed,
                                          force,

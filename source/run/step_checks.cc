@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 
 namespace moraine
@@ -60,6 +61,27 @@ namespace moraine
         }
       return "";
     }
+
+
+
+    /** The energy of the stiffest material in all bodies at a strain of 1e-8.
+     */
+    template <int dim>
+    double
+    round_off_of_energy(const Model<dim> &model)
+    {
+      constexpr double strain  = 1e-8;
+      double           modulus = 0;
+      for (const auto &material : model.materials)
+        {
+          const LameConstants C = material->elastic_stiffness();
+          modulus               = std::max(modulus, C.lambda + 2 * C.mu);
+        }
+      return strain * strain * modulus *
+             std::accumulate(model.body_volumes.begin(),
+                             model.body_volumes.end(),
+                             0.);
+    }
   } // namespace
 
 
@@ -68,6 +90,7 @@ namespace moraine
   StepChecks<dim>::StepChecks(const Scene<dim> &scene, const Model<dim> &model)
     : scene(scene)
     , model(model)
+    , energy(round_off_of_energy(model))
   {}
 
 
@@ -115,6 +138,13 @@ namespace moraine
     for (const BoundaryReport<dim> &report : reports)
       found.push_back(missed_boundary(t, report, largest_motion));
     found.push_back(energy_made(t));
+    if (model.motion)
+      {
+        double work_of_motions = 0;
+        for (const BoundaryReport<dim> &report : reports)
+          work_of_motions += report.work_of_motion;
+        energy.count(model.motion->works(), work_of_motions, t);
+      }
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;
   }
@@ -178,6 +208,7 @@ namespace moraine
     archive.write_text("checks/missed_boundaries", names);
     archive.write("checks/share_of_energy_made", share_made);
     archive.write("checks/told_of_energy", told_of_energy ? 1u : 0u);
+    energy.write(archive);
   }
 
 
@@ -193,6 +224,7 @@ namespace moraine
       missed.insert(name);
     share_made     = archive.number("checks/share_of_energy_made");
     told_of_energy = archive.integer("checks/told_of_energy") != 0;
+    energy.read(archive);
   }
 
 

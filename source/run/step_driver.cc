@@ -357,6 +357,9 @@ namespace moraine
       time_control, t_start, report, last_reports, increments, distance};
     for (RunObserver<dim> *observer : observers)
       observer->step_accepted(step);
+    const std::string failure = checks.failure();
+    if (!failure.empty())
+      throw ComputationError(failure);
   }
 
 

@@ -25,6 +25,8 @@ namespace moraine
     /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
      */
     double force_magnitude;
+    /** Of these forces in the motion that is prescribed in the step. */
+    double work_of_motion = 0;
   };
 
   /** Add up what the ranks know of the forces of a boundary. */
@@ -36,6 +38,7 @@ namespace moraine
     report.reaction        = MPI::sum(report.reaction, communicator);
     report.moment          = MPI::sum(report.moment, communicator);
     report.force_magnitude = MPI::sum(report.force_magnitude, communicator);
+    report.work_of_motion  = MPI::sum(report.work_of_motion, communicator);
   }
 } // namespace moraine
 

@@ -4,6 +4,7 @@
 #ifndef moraine_run_step_checks_h
 #define moraine_run_step_checks_h
 
+#include <moraine/run/energy_watch.h>
 #include <moraine/run/model.h>
 
 #include <limits>
@@ -28,6 +29,7 @@ namespace moraine
     bodies_change()
     {
       n_parts.clear();
+      energy.bodies_change();
     }
 
     /**
@@ -46,6 +48,13 @@ namespace moraine
     of_step(const double                            t,
             const std::vector<BoundaryReport<dim>> &reports,
             const double                            largest_motion);
+
+    /** Why the run cannot be believed any more; see EnergyWatch::failure(). */
+    std::string
+    failure() const
+    {
+      return energy.failure();
+    }
 
     /** Data sets "checks/...": what was told, and what it is told by. */
     void
@@ -67,6 +76,7 @@ namespace moraine
     const Model<dim>         &model;
     std::vector<unsigned int> n_parts; ///< of each body
     std::set<std::string>     missed;  ///< boundaries told of
+    EnergyWatch               energy;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

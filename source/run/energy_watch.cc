@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/energy_watch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  namespace
+  {
+    /** Of what was given: more than that without errors is not possible. */
+    constexpr double most_without_errors = 4;
+
+    /** And this is no error that can be lived with. */
+    constexpr double most_allowed = 100;
+  } // namespace
+
+
+
+  EnergyWatch::EnergyWatch(const double round_off)
+    : round_off(round_off)
+  {}
+
+
+
+  void
+  EnergyWatch::count(const Works &of_run,
+                     const double work_of_motions,
+                     const double t)
+  {
+    works = of_run;
+    time  = t;
+    moved += work_of_motions;
+    total           = works.kinetic + works.stored + works.dissipated;
+    const auto work = [this](const WorkKind kind) {
+      return works.of_forces[unsigned(kind)];
+    };
+    given       = std::max({given,
+                            works.kinetic_at_start + works.stored_at_start,
+                            std::abs(work(WorkKind::external)),
+                            std::abs(moved),
+                            work(WorkKind::absorbed),
+                      starts_anew ? total : 0.});
+    starts_anew = false;
+    if (total <= std::max(most_without_errors * given, round_off))
+      grows_since = t;
+  }
+
+
+
+  std::string
+  EnergyWatch::failure() const
+  {
+    if (total <= std::max(most_allowed * given, round_off))
+      return "";
+    std::ostringstream text;
+    text << std::setprecision(6) << "energy comes from nowhere: at t = " << time
+         << " kinetic energy, strain energy and plastic dissipation are "
+         << std::setprecision(2) << total
+         << " together, while the start, loads and boundaries that move have "
+            "given no more than "
+         << given << "; they have been more than that can explain since t = "
+         << std::setprecision(6) << grows_since << ". ";
+    const double held = works.of_forces[unsigned(WorkKind::boundaries)] - moved;
+    const double made = -works.out_of_balance();
+    const double transferred = -works.lost_in_transfer;
+    if (held >= std::max(made, transferred))
+      text << "It comes from boundaries that hold: another 'Enforcement' "
+              "('augmented Lagrangian', 'penalty'), a larger 'Nitsche factor', "
+              "or 'Aggregate below = 0.1' in section 'Method' where they cut "
+              "cells";
+    else if (made >= transferred)
+      text << "It comes from the integrator: shorter steps, or 'Integrator = "
+              "energy-momentum' or 'generalised-alpha' in section 'Time'";
+    else
+      text << "It comes from carrying velocities between nodes and points: "
+              "another 'Velocity transfer' or 'Integrator = "
+              "generalised-alpha' in section 'Time', or 'Aggregate below = "
+              "0.1' in section 'Method'";
+    return text.str();
+  }
+
+
+
+  void
+  EnergyWatch::write(Archive &archive) const
+  {
+    archive.write("checks/energy/given", given, "force length");
+    archive.write("checks/energy/moved", moved, "force length");
+    archive.write("checks/energy/grows_since", grows_since, "time");
+  }
+
+
+
+  void
+  EnergyWatch::read(const Archive &archive)
+  {
+    given       = archive.number("checks/energy/given");
+    moved       = archive.number("checks/energy/moved");
+    grows_since = archive.number("checks/energy/grows_since");
+    total       = 0;
+  }
+} // namespace moraine
