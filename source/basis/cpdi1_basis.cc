@@ -3,8 +3,6 @@
 
 #include <moraine/basis/cpdi1_basis.h>
 
-#include <utility>
-
 namespace moraine
 {
   using namespace dealii;
@@ -24,8 +22,7 @@ namespace moraine
                               const CellSeeder<dim>        &seeder,
                               const std::vector<Body<dim>> &bodies,
                               const bool                    split)
-    : CpdiBasis<dim>(space, points, seeder, bodies, "CPDI1")
-    , split(split)
+    : CpdiBasis<dim>(space, points, seeder, bodies, split, "CPDI1")
     , offsets(
         DomainTools::offsets_of_vectors<dim, dim>(points.fields(), "half_edge"))
   {}
@@ -119,80 +116,22 @@ namespace moraine
 
 
 
-  namespace
-  {
-    /** Of the @p edges of a domain, columns, the one that is longest in sizes
-     * of the @p cell, and how long that is. */
-    template <int dim>
-    std::pair<unsigned int, double>
-    longest_in_cell(const CellVertices<dim> &cell, const Tensor<2, dim> &edges)
-    {
-      Tensor<2, dim> size; // columns: along the cell, between opposite faces
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int v = 0; v < cell.size(); ++v)
-          for (unsigned int i = 0; i < dim; ++i)
-            size[i][d] +=
-              ((v >> d) & 1 ? 1. : -1.) * cell[v][i] / (cell.size() / 2);
-      const Tensor<2, dim>            in_cell = invert(size) * edges;
-      std::pair<unsigned int, double> longest(0, 0.);
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int i = 0; i < dim; ++i)
-          if (std::abs(in_cell[i][d]) > longest.second)
-            longest = {d, std::abs(in_cell[i][d])};
-      return longest;
-    }
-  } // namespace
-
-
-
   template <int dim>
-  unsigned int
-  Cpdi1Basis<dim>::too_long_edge(const unsigned int p,
-                                 CellPatch<dim>    &patch) const
+  DomainTools::Halves<dim>
+  Cpdi1Basis<dim>::halve(PointSet<dim>     &points,
+                         const unsigned int lower,
+                         const unsigned int upper,
+                         const unsigned int d) const
   {
-    const auto &neighbours = this->mesh_neighbours();
-    const auto  cell =
-      neighbours.cell_around(this->points.cell_of(p), this->points.position(p));
-    // The search for cells tells about points that left the mesh.
-    if (cell == this->points.mesh().triangulation().end())
-      return dim;
-    const auto [edge, length] =
-      longest_in_cell(vertices_of<dim>(cell), 2. * half_edges(p));
-    if (length > (1 + 1e-9) * DomainTools::longest_edge)
-      return edge;
-    // In meshes of distorted cells.
-    patch.reinit(cell);
-    for (const Point<dim> &corner : domain_corners(p))
+    DomainTools::Halves<dim> halves;
+    for (unsigned int i = 0; i < dim; ++i)
       {
-        unsigned int index;
-        double       N[n_corners];
-        if (!patch.locate(this->points.position(p), corner, index, N))
-          return edge;
+        for (const unsigned int p : {lower, upper})
+          points.values(p)[offsets[d] + i] *= 0.5;
+        halves.upper[i] = points.values(upper)[offsets[d] + i];
       }
-    return dim;
-  }
-
-
-
-  template <int dim>
-  bool
-  Cpdi1Basis<dim>::split_domains(PointSet<dim> &points) const
-  {
-    if (!split)
-      return false;
-    CellPatch<dim> patch(this->mesh_neighbours());
-    return DomainTools::split_points<dim>(
-      points,
-      [&](const unsigned int p) { return too_long_edge(p, patch); },
-      [&](const unsigned int p, const unsigned int d) {
-        Tensor<1, dim> offset;
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            points.values(p)[offsets[d] + i] *= 0.5;
-            offset[i] = points.values(p)[offsets[d] + i];
-          }
-        return offset;
-      });
+    halves.lower = -halves.upper;
+    return halves;
   }
 
 

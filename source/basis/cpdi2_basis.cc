@@ -20,8 +20,9 @@ namespace moraine
   Cpdi2Basis<dim>::Cpdi2Basis(const GridSpace<dim>         &space,
                               const PointSet<dim>          &points,
                               const CellSeeder<dim>        &seeder,
-                              const std::vector<Body<dim>> &bodies)
-    : CpdiBasis<dim>(space, points, seeder, bodies, "CPDI2")
+                              const std::vector<Body<dim>> &bodies,
+                              const bool                    split)
+    : CpdiBasis<dim>(space, points, seeder, bodies, split, "CPDI2")
     , finite_strain(DomainTools::finite_strain(points))
     , offsets(DomainTools::offsets_of_vectors<dim, n_corners>(points.fields(),
                                                               "corner"))
@@ -152,6 +153,41 @@ namespace moraine
             corner += shift;
           store_corners(points, p, corners);
         }
+  }
+
+
+
+  template <int dim>
+  DomainTools::Halves<dim>
+  Cpdi2Basis<dim>::halve(PointSet<dim>     &points,
+                         const unsigned int lower,
+                         const unsigned int upper,
+                         const unsigned int d) const
+  {
+    struct Region
+    {
+      double     volume;
+      Point<dim> centroid;
+    };
+    const auto region = [](const CellVertices<dim> &corners) {
+      double         w[n_corners];
+      Tensor<1, dim> g[n_corners];
+      Region found{DomainTools::average_weights<dim>(corners, w, g), {}};
+      for (unsigned int c = 0; c < n_corners; ++c)
+        found.centroid += w[c] * corners[c];
+      return found;
+    };
+    const auto whole  = domain_corners(lower);
+    const auto parts  = DomainTools::halves_of<dim>(whole, d);
+    const auto before = region(whole), below = region(parts[0]),
+               above = region(parts[1]);
+    store_corners(points, lower, parts[0]);
+    store_corners(points, upper, parts[1]);
+    DomainTools::Halves<dim> halves;
+    halves.lower       = below.centroid - before.centroid;
+    halves.upper       = above.centroid - before.centroid;
+    halves.upper_share = above.volume / (below.volume + above.volume);
+    return halves;
   }
 
 

@@ -11,6 +11,9 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace moraine
 {
@@ -21,9 +24,11 @@ namespace moraine
                             const PointSet<dim>          &points,
                             const CellSeeder<dim>        &seeder,
                             const std::vector<Body<dim>> &bodies,
+                            const bool                    split,
                             const std::string            &name)
     : Basis<dim>(space, points)
     , seeder(seeder)
+    , split(split)
     , name(name)
     , neighbours(space.mesh())
   {
@@ -358,6 +363,177 @@ namespace moraine
     for (unsigned int a = 0; a < n_corners; ++a)
       increment += N[a] * nodal_increments[nodes[a]];
     return increment;
+  }
+
+
+
+  namespace
+  {
+    /** In cell sizes: what is shorter is not why a corner is far away. */
+    constexpr double shortest_split = 0.1;
+
+
+
+    /** Of smallest_corner(): domains more distorted than that did not grow by
+     * being stretched. */
+    constexpr double sharpest_split = 0.25;
+
+
+
+    /** Of the way from a point to a corner of its domain: what has to be in the
+     * mesh, for a half mostly outside of it would soon leave it. */
+    constexpr double inner_part = 0.9;
+
+
+
+    /** The centroid of a domain. */
+    template <int dim>
+    Point<dim>
+    middle_of(const CellVertices<dim> &corners)
+    {
+      double         w[1 << dim];
+      Tensor<1, dim> g[1 << dim];
+      DomainTools::average_weights<dim>(corners, w, g);
+      Point<dim> middle;
+      for (unsigned int c = 0; c < corners.size(); ++c)
+        middle += w[c] * corners[c];
+      return middle;
+    }
+
+
+
+    /** Determinant of the edges at a corner of a domain, where it is smallest,
+     * over the domain's volume: 1 for a parallelogram, 0 where an angle is
+     * straight. */
+    template <int dim>
+    double
+    smallest_corner(const CellVertices<dim> &corners)
+    {
+      double smallest = std::numeric_limits<double>::infinity();
+      for (unsigned int c = 0; c < corners.size(); ++c)
+        {
+          Tensor<2, dim> edges; // columns
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int i = 0; i < dim; ++i)
+              edges[i][d] =
+                corners[c | (1u << d)][i] - corners[c & ~(1u << d)][i];
+          smallest = std::min(smallest, determinant(edges));
+        }
+      return smallest / DomainTools::volume<dim>(corners);
+    }
+
+
+
+    /** Direction of the edge of a domain that is longest in sizes of the @p
+     * cell, and how long that is. */
+    template <int dim>
+    std::pair<unsigned int, double>
+    longest_in_cell(const CellVertices<dim> &cell,
+                    const CellVertices<dim> &domain)
+    {
+      Tensor<2, dim> size; // columns: along the cell, between opposite faces
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int v = 0; v < cell.size(); ++v)
+          for (unsigned int i = 0; i < dim; ++i)
+            size[i][d] +=
+              ((v >> d) & 1 ? 1. : -1.) * cell[v][i] / (cell.size() / 2);
+      const Tensor<2, dim>            to_cell = invert(size);
+      std::pair<unsigned int, double> longest(0, 0.);
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int c = 0; c < domain.size(); ++c)
+          if (!((c >> d) & 1))
+            {
+              const Tensor<1, dim> edge =
+                to_cell * (domain[c | (1u << d)] - domain[c]);
+              for (unsigned int i = 0; i < dim; ++i)
+                if (std::abs(edge[i]) > longest.second)
+                  longest = {d, std::abs(edge[i])};
+            }
+      return longest;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  bool
+  CpdiBasis<dim>::can_be_halved(
+    const CellVertices<dim>                     &corners,
+    const unsigned int                           d,
+    const Point<dim>                            &x,
+    const typename CellPatch<dim>::CellIterator &cell) const
+  {
+    if (smallest_corner<dim>(corners) < sharpest_split)
+      return false;
+    const auto is_outside = [&](const Point<dim> &place) {
+      return neighbours.cell_around(cell, place) ==
+             this->points.mesh().triangulation().end();
+    };
+    for (const Point<dim> &corner : corners)
+      if (is_outside(x + inner_part * (corner - x)))
+        return false;
+    // At a hole in the mesh the middle may be outside though no corner is.
+    const Point<dim> whole = middle_of<dim>(corners);
+    for (const auto &half : DomainTools::halves_of<dim>(corners, d))
+      if (is_outside(x + (middle_of<dim>(half) - whole)))
+        return false;
+    return true;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  CpdiBasis<dim>::too_long_edge(
+    const unsigned int                     p,
+    typename CellPatch<dim>::CellIterator &cell_of_patch,
+    CellPatch<dim>                        &patch) const
+  {
+    const Point<dim> x    = this->points.position(p);
+    const auto       cell = neighbours.cell_around(this->points.cell_of(p), x);
+    // The search for cells tells about points that left the mesh.
+    if (cell == this->points.mesh().triangulation().end())
+      return dim;
+    const auto corners = this->domain_corners(p);
+    const auto longest = longest_in_cell<dim>(vertices_of<dim>(cell), corners);
+    const double limit =
+      std::max(DomainTools::longest_edge,
+               std::pow(seeder.n_sub_cells(), -1. / dim)); // as at the start
+    bool is_far = longest.second > (1 + 1e-9) * limit;
+    if (!is_far && longest.second > shortest_split)
+      {
+        // In meshes of distorted cells.
+        if (cell != cell_of_patch)
+          patch.reinit(cell_of_patch = cell);
+        for (const Point<dim> &corner : corners)
+          {
+            unsigned int index;
+            double       N[n_corners];
+            is_far = is_far || !patch.locate(x, corner, index, N);
+          }
+      }
+    if (!is_far)
+      return dim;
+    return can_be_halved(corners, longest.first, x, cell) ? longest.first : dim;
+  }
+
+
+
+  template <int dim>
+  bool
+  CpdiBasis<dim>::split_domains(PointSet<dim> &points)
+  {
+    if (!split)
+      return false;
+    neighbours.update(); // the mesh may have moved
+    typename CellPatch<dim>::CellIterator cell;
+    CellPatch<dim>                        patch(neighbours);
+    return DomainTools::split_points<dim>(
+      points,
+      [&](const unsigned int p) { return too_long_edge(p, cell, patch); },
+      [&](const unsigned int lower,
+          const unsigned int upper,
+          const unsigned int d) { return halve(points, lower, upper, d); });
   }
 
 

@@ -269,16 +269,38 @@ namespace moraine
 
 
     template <int dim>
+    std::array<CellVertices<dim>, 2>
+    halves_of(const CellVertices<dim> &corners, const unsigned int d)
+    {
+      std::array<CellVertices<dim>, 2> halves{{corners, corners}};
+      for (unsigned int c = 0; c < corners.size(); ++c)
+        if (!((c >> d) & 1))
+          {
+            const unsigned int opposite = c | (1u << d);
+            const Point<dim>   middle =
+              corners[c] + 0.5 * (corners[opposite] - corners[c]);
+            halves[0][opposite] = halves[1][c] = middle;
+          }
+      return halves;
+    }
+
+
+
+    template <int dim>
     bool
     split_points(
       PointSet<dim>                                           &points,
       const std::function<unsigned int(const unsigned int p)> &split_direction,
-      const std::function<Tensor<1, dim>(const unsigned int p,
-                                         const unsigned int d)> &halve)
+      const std::function<Halves<dim>(const unsigned int lower,
+                                      const unsigned int upper,
+                                      const unsigned int d)>  &halve)
     {
       const MPI_Comm communicator =
         points.mesh().triangulation().get_communicator();
-      const auto   v_0 = points.fields().find(FieldNames<dim>::initial_volume);
+      const auto v_0 = points.fields().find(FieldNames<dim>::initial_volume);
+      const auto F =
+        points.fields().find(FieldNames<dim>::deformation_gradient);
+      const auto  &u       = points.displacement_field();
       unsigned int next_id = next_free_id(points, communicator);
 
       std::vector<unsigned int> candidates(points.n_local());
@@ -299,23 +321,36 @@ namespace moraine
           if (ids.empty())
             return round > 0;
 
-          std::vector<typename PointSet<dim>::Copy> halves;
-          for (unsigned int i = 0; i < wholes.size(); ++i)
+          std::vector<typename PointSet<dim>::Copy> copies;
+          for (const unsigned int p : wholes)
             {
-              const unsigned int   p      = wholes[i];
-              const Tensor<1, dim> offset = halve(p, directions[i]);
-              points.set_volume(p, 0.5 * points.volume(p));
-              if (v_0.exists())
-                v_0.store(0.5 * v_0(points.values(p)), points.values(p));
               const unsigned int place =
                 std::lower_bound(ids.begin(), ids.end(), points.id(p)) -
                 ids.begin();
-              halves.push_back(
-                {p, next_id + place, points.position(p) + offset});
-              points.set_position(p, points.position(p) - offset);
+              copies.push_back({p, next_id + place, points.position(p)});
             }
           const unsigned int first_half = points.n_local();
-          points.insert_copies(halves);
+          points.insert_copies(copies);
+          for (unsigned int i = 0; i < wholes.size(); ++i)
+            {
+              const unsigned int lower = wholes[i], upper = first_half + i;
+              const Halves<dim>  halves = halve(lower, upper, directions[i]);
+              const auto         become = [&](const unsigned int    p,
+                                      const Tensor<1, dim> &offset,
+                                      const double          share) {
+                points.set_position(p, points.position(p) + offset);
+                // Of the half's own place.
+                if (F.exists())
+                  u.store(u(points.values(p)) + offset -
+                            invert(F(points.values(p))) * offset,
+                          points.values(p));
+                points.set_volume(p, share * points.volume(p));
+                if (v_0.exists())
+                  v_0.store(share * v_0(points.values(p)), points.values(p));
+              };
+              become(lower, halves.lower, 1 - halves.upper_share);
+              become(upper, halves.upper, halves.upper_share);
+            }
           next_id += ids.size();
           candidates = wholes;
           candidates.resize(2 * wholes.size());
@@ -342,11 +377,13 @@ namespace moraine
     const CellSeeder<dim> &,                                                     \
     const std::vector<bool> &,                                                   \
     const std::vector<Tensor<2, dim>> &);                                        \
+  template std::array<CellVertices<dim>, 2> halves_of<dim>(                      \
+    const CellVertices<dim> &, const unsigned int);                              \
   template bool split_points(                                                    \
     PointSet<dim> &,                                                             \
     const std::function<unsigned int(const unsigned int)> &,                     \
-    const std::function<Tensor<1, dim>(const unsigned int,                       \
-                                       const unsigned int)> &);
+    const std::function<Halves<dim>(                                             \
+      const unsigned int, const unsigned int, const unsigned int)> &);
     INSTANTIATE(2)
     INSTANTIATE(3)
 #undef INSTANTIATE

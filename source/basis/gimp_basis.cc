@@ -472,7 +472,7 @@ namespace moraine
 
   template <int dim>
   bool
-  GimpBasis<dim>::split_domains(PointSet<dim> &points) const
+  GimpBasis<dim>::split_domains(PointSet<dim> &points)
   {
     if (!split || update == DomainUpdate::frozen)
       return false;
@@ -482,14 +482,19 @@ namespace moraine
     return DomainTools::split_points<dim>(
       points,
       [&](const unsigned int p) { return too_long_edge(p, limit); },
-      [&](const unsigned int p, const unsigned int d) {
-        double *l = points.values(p) + half_length_offset;
-        l[d] *= 0.5;
-        if (initial_half_length_field.exists())
-          (points.values(p) + initial_half_length_field.offset())[d] *= 0.5;
-        Tensor<1, dim> offset;
-        offset[d] = l[d];
-        return offset;
+      [&](const unsigned int lower,
+          const unsigned int upper,
+          const unsigned int d) {
+        for (const unsigned int p : {lower, upper})
+          {
+            (points.values(p) + half_length_offset)[d] *= 0.5;
+            if (initial_half_length_field.exists())
+              (points.values(p) + initial_half_length_field.offset())[d] *= 0.5;
+          }
+        DomainTools::Halves<dim> halves;
+        halves.upper[d] = (points.values(upper) + half_length_offset)[d];
+        halves.lower    = -halves.upper;
+        return halves;
       });
   }
 

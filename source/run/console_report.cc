@@ -302,8 +302,7 @@ namespace moraine
     line << "  step " << time.n_accepted() + 1 << "  t = " << std::defaultfloat
          << std::setprecision(6) << time.trial_time() << "  iteration "
          << iteration.number << "  residual " << std::scientific
-         << std::setprecision(1) << iteration.residual
-         << time_left(time);
+         << std::setprecision(1) << iteration.residual << time_left(time);
     console.progress(line.str());
   }
 
@@ -360,7 +359,8 @@ namespace moraine
       note(std::to_string(n_far) +
            " domains reach beyond the cells around their point; of more cells "
            "than that they see only those of their corners" +
-           (scene.method.chosen().can_split_domains ?
+           (scene.method.chosen().can_split_domains &&
+                !scene.method.splits_domains() ?
               " (Method / Split domains = true halves them)" :
               ""));
     has_far_domains = has_far_domains || n_far > 0;

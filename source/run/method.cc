@@ -84,7 +84,6 @@ namespace moraine
       method.can_fit_weights     = false;
       method.can_average_volume  = true;
       method.can_split_domains   = false;
-      method.must_split_domains  = false;
       method.make_seeder         = gauss_points<dim>;
       method.request_fields      = [](const auto &, PointFields &) {};
       method.make_basis          = cell_basis<dim>;
@@ -106,7 +105,6 @@ namespace moraine
       method.can_fit_weights     = true;
       method.can_average_volume  = true;
       method.can_split_domains   = false;
-      method.must_split_domains  = false;
       method.make_seeder         = material_points<dim>;
       method.request_fields      = [](const auto &, PointFields &) {};
       method.make_basis          = cell_basis<dim>;
@@ -159,8 +157,7 @@ namespace moraine
         with_domains<dim>("GIMP",
                           "the same, averaged over the box of each point; "
                           "needs a box of equal cells.");
-      method.can_split_domains  = true;
-      method.must_split_domains = true;
+      method.can_split_domains = true;
       method.request_fields = [](const auto &parameters, PointFields &fields) {
         GimpBasis<dim>::request_fields(fields, parameters.update_of_domains());
       };
@@ -206,12 +203,17 @@ namespace moraine
         with_domains<dim>("CPDI2",
                           "the same over a quadrilateral (in 3D a hexahedron) "
                           "whose corners are carried along.");
-      method.request_fields = [](const auto &, PointFields &fields) {
+      method.can_split_domains = true;
+      method.request_fields    = [](const auto &, PointFields &fields) {
         Cpdi2Basis<dim>::request_fields(fields);
       };
       method.make_basis = [](const auto &of) {
         return std::make_unique<Cpdi2Basis<dim>>(
-          of.space, of.points, material_points<dim>(of.parameters), of.bodies);
+          of.space,
+          of.points,
+          material_points<dim>(of.parameters),
+          of.bodies,
+          of.parameters.splits_domains());
       };
       return method;
     }
@@ -390,11 +392,11 @@ namespace moraine
     prm.add_parameter(
       "Split domains",
       split_domains,
-      "Of methods with boxes and CPDI1 at finite strain: halve points whose "
-      "domain grows longer than 3/4 of a cell, so that they stay together "
-      "however far they are stretched. false: points beyond the cells that "
-      "touch the point's end the run. auto: boxes are split, unless the scene "
-      "has a force on points.",
+      "Of methods whose points have domains: halve points whose domain grows "
+      "longer than 3/4 of a cell, so that they stay together however far they "
+      "are stretched. false: bodies may tear where domains grow as long as "
+      "cells; boxes of GIMP beyond the cells that touch the point's end the "
+      "run. auto: at finite strain, unless the scene has a force on points.",
       patterns::selection({"auto", "true", "false"}));
     prm.add_parameter(
       "Separation",

@@ -114,12 +114,13 @@ namespace moraine
     const std::string found = name_separation(parts, n_parts, model.body_names);
     if (!found.empty() && scene.method.separation == "stop")
       throw ComputationError(
-        found + ". Points that drift apart leave a cell empty between them: "
-                "more points per direction, domains that follow the material "
-                "and are split ('Method = GIMP' with 'Domain update = "
-                "corners', or CPDI1 with 'Split domains = true') or larger "
-                "cells keep them together; 'Separation = note' in "
-                "section 'Method' goes on");
+        found +
+        ". Points that drift apart leave a cell empty between them: "
+        "domains that follow the material and are split (methods CPDI1, "
+        "CPDI2, and GIMP with 'Domain update = corners', unless "
+        "'Split domains = false'), more points per direction or larger "
+        "cells keep them together; 'Separation = note' in "
+        "section 'Method' goes on");
     if (!found.empty())
       for (unsigned int b = 0; b < parts.size(); ++b)
         n_parts[b] = std::max<unsigned int>(n_parts[b], parts[b].size());

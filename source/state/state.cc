@@ -411,9 +411,9 @@ namespace moraine
       space.move_nodes(trial);
     else
       {
-        basis.split_domains(points);
         if (move_mesh)
           move_mesh();
+        basis.split_domains(points);
         points.find_cells();
       }
   }

@@ -127,10 +127,8 @@ namespace moraine
             return std::make_unique<Cpdi1Basis<dim>>(
               space, points, seeder, bodies, options.split);
           case Method::cpdi2:
-            return std::make_unique<Cpdi2Basis<dim>>(space,
-                                                     points,
-                                                     seeder,
-                                                     bodies);
+            return std::make_unique<Cpdi2Basis<dim>>(
+              space, points, seeder, bodies, options.split);
           default:
             return std::make_unique<GimpBasis<dim>>(
               space,
@@ -154,6 +152,9 @@ namespace moraine
       , seeder(2, options.layout)
     {
       seed_bodies(bodies, seeder, points);
+      if (options.finite_strain)
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          F().store(dealii::unit_symmetric_tensor<dim>(), points.values(p));
       basis = make_basis();
       basis->initialise_points(points);
       prepare();
@@ -219,6 +220,12 @@ namespace moraine
       throw std::invalid_argument("no field " + name);
     }
 
+    auto
+    F() const
+    {
+      return points.fields().find(FieldNames<dim>::deformation_gradient);
+    }
+
     const Options               options;
     BackgroundMesh<dim>         mesh;
     const bool                  is_distorted;
@@ -229,27 +236,16 @@ namespace moraine
     std::unique_ptr<Basis<dim>> basis;
 
   private:
-    /** Deformation gradients (from 1) and volumes. */
+    /** Deformation gradients and volumes. */
     void
     update_state(const std::vector<dealii::Tensor<2, dim>> &gradients)
     {
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
-          double *values = points.values(p) + offset("deformation_gradient");
-          dealii::Tensor<2, dim> F, increment = gradients[p];
+          dealii::Tensor<2, dim> increment = gradients[p];
           for (unsigned int i = 0; i < dim; ++i)
-            {
-              increment[i][i] += 1;
-              for (unsigned int j = 0; j < dim; ++j)
-                F[i][j] = values[i * dim + j];
-            }
-          if (F.norm() == 0)
-            for (unsigned int i = 0; i < dim; ++i)
-              F[i][i] = 1;
-          F = increment * F;
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              values[i * dim + j] = F[i][j];
+            increment[i][i] += 1;
+          F().store(increment * F()(points.values(p)), points.values(p));
           points.values(p)[offset("volume")] *= determinant(increment);
         }
     }

@@ -107,12 +107,8 @@ namespace
    */
   template <int dim>
   void
-  check_completeness(const DomainSceneOptions &options,
-                     const double              disturbance)
+  check_completeness(const DomainScene<dim> &scene)
   {
-    DomainScene<dim> scene(options);
-    if (disturbance > 0)
-      disturb(scene, disturbance);
     std::vector<unsigned int> seen(scene.points.n_local(), 0);
     StencilBlock<dim>         block;
     for (unsigned int g = 0; g < scene.basis->n_batches(); ++g)
@@ -168,8 +164,10 @@ namespace
             options.distorted = distorted;
             options.lower     = lower;
             // With lower = 0 corners reach over the edge of the mesh.
-            check_completeness<dim>(options, 0.);
-            check_completeness<dim>(options, 0.08);
+            DomainScene<dim> scene(options);
+            check_completeness(scene);
+            disturb(scene, 0.08);
+            check_completeness(scene);
           }
   }
 
@@ -911,13 +909,20 @@ namespace
   void
   lengthen(DomainScene<dim> &scene, const double factor)
   {
-    const bool         gimp = scene.options.method != Method::cpdi1;
+    const Method       method = scene.options.method;
     const unsigned int offset =
-      scene.offset(gimp ? "half_length" : "half_edge_1");
+      scene.offset(method == Method::cpdi1 ? "half_edge_1" :
+                   method == Method::cpdi2 ? "corner_1" :
+                                             "half_length");
     for (unsigned int p = 0; p < scene.points.n_local(); ++p)
       {
-        double *values = scene.points.values(p);
-        if (scene.points.id(p) % 2 == 1)
+        double      *values = scene.points.values(p);
+        const double x      = scene.points.position(p)[0];
+        if (scene.points.id(p) % 2 == 1 && method == Method::cpdi2)
+          for (unsigned int c = 0; c < (1u << dim); ++c)
+            values[offset + dim * c] =
+              x + factor * (values[offset + dim * c] - x);
+        else if (scene.points.id(p) % 2 == 1)
           values[offset] *= factor;
         // marks the halves of a point, and stands for its velocity
         values[scene.points.displacement_offset()] = scene.points.id(p);
@@ -926,12 +931,13 @@ namespace
 
 
 
-  /** Sums over all points of volume, volume * place, volume * displacement. */
+  /** Sums over all points of volume, volume * place, volume * displacement,
+   * and of the domains' volumes where they are not boxes. */
   template <int dim>
   std::vector<double>
   sums(const DomainScene<dim> &scene)
   {
-    std::vector<double> result(2 * dim + 2, 0.);
+    std::vector<double> result(2 * dim + 3, 0.);
     for (unsigned int p = 0; p < scene.points.n_local(); ++p)
       {
         const double  v = scene.points.volume(p);
@@ -944,6 +950,10 @@ namespace
             result[2 + d] += v * scene.points.position(p)[d];
             result[2 + dim + d] += v * u[d];
           }
+        if (scene.options.method == Method::cpdi1 ||
+            scene.options.method == Method::cpdi2)
+          result[2 + 2 * dim] +=
+            DomainTools::volume<dim>(scene.basis->domain_corners(p));
       }
     Utilities::MPI::sum(result, MPI_COMM_WORLD, result);
     return result;
@@ -983,6 +993,8 @@ namespace
         EXPECT_EQ(scene.points.n_global(), n_before + n_before / 2);
       }
     EXPECT_FALSE(scene.basis->split_domains(scene.points));
+    if (method == Method::cpdi1 || method == Method::cpdi2)
+      check_completeness(scene);
 
     // Ids: the k-th of the split points gave the upper half id next + k.
     std::map<unsigned int, unsigned int> whole_of;
@@ -1014,9 +1026,116 @@ namespace
     check_split<2>(Method::gimp_corners, false);
     check_split<2>(Method::cpdi1, false);
     check_split<2>(Method::cpdi1, true);
+    check_split<2>(Method::cpdi2, false);
+    check_split<2>(Method::cpdi2, true);
     check_split<3>(Method::gimp_corners, false);
     check_split<3>(Method::cpdi1, false);
     check_split<3>(Method::cpdi1, true);
+    check_split<3>(Method::cpdi2, false);
+    check_split<3>(Method::cpdi2, true);
+  }
+
+
+
+  /** Halves of domains that went along with x -> A x + b are where that has
+   * taken their material. */
+  template <int dim>
+  void
+  check_displacement_of_halves(const Method method)
+  {
+    DomainSceneOptions options;
+    options.method = method;
+    options.lower  = 1;
+    options.upper  = 3;
+    options.split  = true;
+    DomainScene<dim> scene(options);
+    Tensor<2, dim>   A = unit_symmetric_tensor<dim>();
+    A[0][0]            = 1.7;
+    A[1][0]            = 0.1;
+    A[0][1]            = 0.05;
+    Point<dim> middle;
+    for (unsigned int d = 0; d < dim; ++d)
+      middle[d] = 2;
+    const auto displacement = [&](const Point<dim> &X) {
+      return A * (X - middle) - (X - middle);
+    };
+    const auto &u = scene.points.displacement_field();
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      u.store(displacement(scene.points.position(p)), scene.points.values(p));
+    const unsigned int n_before = scene.points.n_global();
+    scene.accept(scene.nodal(displacement));
+    EXPECT_EQ(scene.points.n_global(), 2 * n_before);
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        const Tensor<1, dim> found = u(scene.points.values(p));
+        const Point<dim>     X     = scene.points.position(p) - found;
+        EXPECT_NEAR((found - displacement(X)).norm(), 0., 1e-13);
+      }
+  }
+
+
+
+  TEST(Domains, HalvesHaveTheDisplacementOfTheirPlace)
+  {
+    check_displacement_of_halves<2>(Method::gimp_corners);
+    check_displacement_of_halves<2>(Method::cpdi1);
+    check_displacement_of_halves<2>(Method::cpdi2);
+    check_displacement_of_halves<3>(Method::gimp_corners);
+    check_displacement_of_halves<3>(Method::cpdi1);
+    check_displacement_of_halves<3>(Method::cpdi2);
+  }
+
+
+
+  // One that is bent to an angle of almost 180 degrees is not what a stretch
+  // makes of it, and one that reaches out of the mesh has no place for a half.
+  TEST(Domains, WhatIsNotHalved)
+  {
+    DomainSceneOptions options;
+    options.method = Method::cpdi2;
+    options.split  = true;
+    options.lower  = 1;
+    options.upper  = 3;
+    DomainScene<2>     bent(options);
+    const unsigned int corner = bent.offset("corner_1");
+    const auto         bend   = [&](const double to_diagonal) {
+      for (unsigned int p = 0; p < bent.points.n_local(); ++p)
+        {
+          double      *x     = bent.points.values(p) + corner;
+          const double old_x = x[0], old_y = x[1];
+          x[6] = old_x + 0.8;
+          x[2] = old_x + 0.5 - 0.1 * to_diagonal;
+          x[3] = old_y + 0.25 * to_diagonal;
+        }
+    };
+    bend(1.);
+    EXPECT_FALSE(bent.basis->split_domains(bent.points));
+    bend(0.);
+    EXPECT_TRUE(bent.basis->split_domains(bent.points));
+
+    options.lower = 0;
+    options.upper = 4;
+    for (const Method method : {Method::cpdi1, Method::cpdi2})
+      {
+        options.method = method;
+        DomainScene<2> scene(options);
+        lengthen(scene, 3.);
+        const auto n_outside = [&] {
+          unsigned int n = 0;
+          for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+            for (const Point<2> &c : scene.basis->domain_corners(p))
+              if (c[0] < -0.1 || c[0] > 4.1)
+                {
+                  ++n;
+                  break;
+                }
+          return Utilities::MPI::sum(n, MPI_COMM_WORLD);
+        };
+        const unsigned int before = n_outside();
+        EXPECT_GT(before, 0u);
+        EXPECT_TRUE(scene.basis->split_domains(scene.points));
+        EXPECT_EQ(n_outside(), before);
+      }
   }
 
 

@@ -99,7 +99,7 @@ namespace
     }
 
     bool
-    split_domains(PointSet<2> &) const override
+    split_domains(PointSet<2> &) override
     {
       trap.visit(Place::splitting);
       return false;

@@ -142,13 +142,14 @@ namespace moraine
 
     /**
      * Split points whose domains became too large for the basis, if it was
-     * told to. Called after points were moved and before their cells are
-     * searched. Sums over points of volume, mass, momentum and the like stay.
+     * told to. Called after points and the mesh were moved and before the
+     * points' cells are searched. Sums over points of volume, mass, momentum
+     * and the like stay.
      * @return whether any rank split a point. Collective.
      * @throws ComputationError naming a point that cannot be split enough.
      */
     virtual bool
-    split_domains(PointSet<dim> &) const
+    split_domains(PointSet<dim> &)
     {
       return false;
     }

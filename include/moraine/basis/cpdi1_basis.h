@@ -28,11 +28,7 @@ namespace moraine
     static void
     request_fields(PointFields &fields);
 
-    /**
-     * See CpdiBasis. With @p split, domains longer than
-     * DomainTools::longest_edge, or beyond the cells that touch the point's,
-     * are halved along their longest edge.
-     */
+    /** See CpdiBasis. */
     Cpdi1Basis(const GridSpace<dim>         &space,
                const PointSet<dim>          &points,
                const CellSeeder<dim>        &seeder,
@@ -53,9 +49,6 @@ namespace moraine
       const std::vector<dealii::Tensor<1, dim>> &nodal_increments,
       const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
 
-    bool
-    split_domains(PointSet<dim> &points) const override;
-
     CellVertices<dim>
     domain_corners(const unsigned int p) const override;
 
@@ -65,15 +58,16 @@ namespace moraine
             double                 *w,
             dealii::Tensor<1, dim> *g) const override;
 
-    /** The edge that has to be halved, dim if none. */
-    unsigned int
-    too_long_edge(const unsigned int p, CellPatch<dim> &patch) const;
+    DomainTools::Halves<dim>
+    halve(PointSet<dim>     &points,
+          const unsigned int lower,
+          const unsigned int upper,
+          const unsigned int d) const override;
 
     /** @f$R@f$ */
     dealii::Tensor<2, dim>
     half_edges(const unsigned int p) const;
 
-    const bool                    split;
     std::array<unsigned int, dim> offsets;
   };
 } // namespace moraine

@@ -35,7 +35,8 @@ namespace moraine
     Cpdi2Basis(const GridSpace<dim>         &space,
                const PointSet<dim>          &points,
                const CellSeeder<dim>        &seeder,
-               const std::vector<Body<dim>> &bodies);
+               const std::vector<Body<dim>> &bodies,
+               const bool                    split = false);
 
     /**
      * DomainTools::initial_domains(). Volumes become those of the domains
@@ -64,6 +65,15 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const override;
+
+    /** At the middles of edges: neighbours that are both halved stay together;
+     * beside one that is not, corners hang on its edge and leave it by what the
+     * grid's increments differ from linear along it. */
+    DomainTools::Halves<dim>
+    halve(PointSet<dim>     &points,
+          const unsigned int lower,
+          const unsigned int upper,
+          const unsigned int d) const override;
 
     /** The corners at the end of a step. */
     CellVertices<dim>

@@ -55,6 +55,15 @@ namespace moraine
                    const StencilBlock<dim> &block,
                    CellParts<dim>          &parts) const override;
 
+    /**
+     * Domains with an edge longer than DomainTools::longest_edge, but not
+     * before they are longer than those of a full cell at the start, or with a
+     * corner beyond the cells that touch the point's are halved through their
+     * longest edge, unless they are distorted or reach out of the mesh.
+     */
+    bool
+    split_domains(PointSet<dim> &points) override;
+
     bool
     has_domains() const override
     {
@@ -69,14 +78,16 @@ namespace moraine
 
   protected:
     /**
-     * @p seeder made the points of those @p bodies that have a shape; the name
-     * of the method, its value of the key 'Method', is for messages.
+     * @p seeder made the points of those @p bodies that have a shape; @p split
+     * says whether split_domains() does anything; the name of the method, its
+     * value of the key 'Method', is for messages.
      * @throws InputError if the functions are not of degree 1.
      */
     CpdiBasis(const GridSpace<dim>         &space,
               const PointSet<dim>          &points,
               const CellSeeder<dim>        &seeder,
               const std::vector<Body<dim>> &bodies,
+              const bool                    split,
               const std::string            &name);
 
     /** @f$w_c@f$ and @f$g_c@f$ of a point. */
@@ -84,6 +95,13 @@ namespace moraine
     weights(const unsigned int      p,
             double                 *w,
             dealii::Tensor<1, dim> *g) const = 0;
+
+    /** What DomainTools::split_points() wants of a method. */
+    virtual DomainTools::Halves<dim>
+    halve(PointSet<dim>     &points,
+          const unsigned int lower,
+          const unsigned int upper,
+          const unsigned int d) const = 0;
 
     /** DomainTools::initial_domains() of the points. */
     std::vector<DomainTools::InitialDomain<dim>>
@@ -100,12 +118,6 @@ namespace moraine
     function_weight(const unsigned int p, const unsigned int c) const
     {
       return function_weights[p * n_corners + c];
-    }
-
-    const CellNeighbours<dim> &
-    mesh_neighbours() const
-    {
-      return neighbours;
     }
 
   private:
@@ -137,6 +149,22 @@ namespace moraine
       }
     };
 
+    /** Whether a domain with a point at @p x, in or near the @p cell, may be
+     * halved through its edges in direction @p d: not if it is distorted, which
+     * halves would inherit, or reaches out of the mesh. */
+    bool
+    can_be_halved(const CellVertices<dim>                     &corners,
+                  const unsigned int                           d,
+                  const dealii::Point<dim>                    &x,
+                  const typename CellPatch<dim>::CellIterator &cell) const;
+
+    /** The edge that has to be halved, dim if none.
+     * @p patch is that of a cell that may be given anew. */
+    unsigned int
+    too_long_edge(const unsigned int                     p,
+                  typename CellPatch<dim>::CellIterator &cell_of_patch,
+                  CellPatch<dim>                        &patch) const;
+
     CornerCells
     cells_of(const unsigned int p) const;
 
@@ -159,6 +187,7 @@ namespace moraine
              CellParts<dim>    &parts) const;
 
     const CellSeeder<dim>               seeder;
+    const bool                          split;
     const std::string                   name;
     std::vector<bool>                   is_seeded;
     std::vector<dealii::Tensor<2, dim>> half_edges_of_body;

@@ -129,18 +129,35 @@ namespace moraine
                     const std::vector<bool>                   &is_seeded,
                     const std::vector<dealii::Tensor<2, dim>> &half_edges);
 
+    /** The halves of a quadrilateral or hexahedron, cut through the middles of
+     * its edges in direction d; the lower one first. */
+    template <int dim>
+    std::array<CellVertices<dim>, 2>
+    halves_of(const CellVertices<dim> &corners, const unsigned int d);
+
+    /** Where the halves of a point are. */
+    template <int dim>
+    struct Halves
+    {
+      dealii::Tensor<1, dim> lower;             ///< from the whole's place
+      dealii::Tensor<1, dim> upper;             ///< from the whole's place
+      double                 upper_share = 0.5; ///< of the volume
+    };
+
     /**
-     * Split points in halves until none is too large. Halves have half of
-     * `volume` and `initial_volume` and the other values of the whole. The
-     * lower half keeps the id; ids of the others follow the highest, in the
-     * order of the ids of the wholes over all ranks, so they do not depend on
-     * the number of ranks.
+     * Split points in halves until none is too large. Halves share `volume` and
+     * `initial_volume`; at finite strain they have the displacement
+     * @f$u + (1 - F^{-1}) o@f$ of their place at the offset @f$o@f$ (off by
+     * what @f$F@f$ was when displacements were reset), and the other values of
+     * the whole. The lower half keeps the id; ids of the others follow the
+     * highest, in the order of the ids of the wholes over all ranks, so they do
+     * not depend on the number of ranks.
      *
      * @param points to split; their numbering is void until the next search
      * @param split_direction the edge of point p that has to be halved, dim if
      * none
-     * @param halve shortens edge d of point p and returns the vector from the
-     * old centre to that of the upper half
+     * @param halve gives the points lower and upper, which are alike, the
+     * domains of their halves, cut through edge d
      * @return whether any rank split a point. Collective.
      */
     template <int dim>
@@ -148,8 +165,9 @@ namespace moraine
     split_points(
       PointSet<dim>                                           &points,
       const std::function<unsigned int(const unsigned int p)> &split_direction,
-      const std::function<dealii::Tensor<1, dim>(const unsigned int p,
-                                                 const unsigned int d)> &halve);
+      const std::function<Halves<dim>(const unsigned int lower,
+                                      const unsigned int upper,
+                                      const unsigned int d)>  &halve);
   } // namespace DomainTools
 } // namespace moraine
 

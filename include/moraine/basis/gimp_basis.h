@@ -123,7 +123,7 @@ namespace moraine
      * edge that is longest in cell sizes.
      */
     bool
-    split_domains(PointSet<dim> &points) const override;
+    split_domains(PointSet<dim> &points) override;
 
     bool
     has_domains() const override

@@ -79,7 +79,8 @@ namespace moraine
     splits_domains() const
     {
       return split_domains == "true" ||
-             (split_domains == "auto" && chosen().must_split_domains);
+             (split_domains == "auto" && strain == "finite" &&
+              chosen().can_split_domains);
     }
 
     StrainMeasure
@@ -114,8 +115,6 @@ namespace moraine
     bool         can_fit_weights;
     bool         can_average_volume;
     bool         can_split_domains;
-    /** A domain beyond the limit ends the run. */
-    bool must_split_domains;
     /** How cells are filled with points. */
     std::function<CellSeeder<dim>(const MethodParameters<dim> &)> make_seeder;
     /** Add what the basis stores with each point. */
