@@ -103,7 +103,8 @@ namespace moraine
           spread += part * symmetrize(outer_product(away, away));
           product += part * (mean_stress(points, p) - stress) * away;
         }
-      if (eigenvalues(spread)[dim - 1] < least_spread)
+      // deal.II's eigenvalues() take round-off of equal ones for complex.
+      if (eigenvectors(spread)[dim - 1].first < least_spread)
         return {};
       fit.gradient = invert(spread) * product;
       fit.middle   = stress - fit.gradient * place;
