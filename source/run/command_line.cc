@@ -374,7 +374,9 @@ namespace moraine
           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
         return study.run();
       };
-      if (input.get("Study", "Kind", "") == "factor of safety")
+      StudyParameters parameters;
+      parameters.kind = input.get("Study", "Kind", parameters.kind);
+      if (parameters.finds_factor_of_safety())
         return run(
           SafetyStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
       return run(Study(input, folder, overwrite, MPI_COMM_WORLD, console));
