@@ -252,7 +252,8 @@ namespace moraine
           text << "; where points cross cells 'Method = GIMP' does";
         doubts.push_back(text.str());
       }
-    else if (signs.in_cuts > told_cut * signs.elsewhere)
+    // Where all cells are filled that little there is nothing to compare with.
+    else if (signs.elsewhere > 0 && signs.in_cuts > told_cut * signs.elsewhere)
       {
         text << "stress of points in cells that are filled by less than a half "
                 "is up to "
