@@ -223,8 +223,16 @@ namespace moraine
     const unsigned int          n = space.nodes_per_cell();
     std::vector<double>         N(n);
     std::vector<Tensor<1, dim>> grad_N(n);
+    std::vector<bool>           in_cut_cell(space.n_nodes(), false);
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (part(cell) == Part::cut && space.knows(cell->active_cell_index()))
+        for (unsigned int a = 0; a < n; ++a)
+          in_cut_cell[space.cell_nodes(cell->active_cell_index())[a]] = true;
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       {
+        if (!in_cut_cell[node])
+          continue;
         const auto cells = cells_of_node(space, node);
         if (std::any_of(cells.begin(), cells.end(), [this](const auto &cell) {
               return part(cell) == Part::filled;
