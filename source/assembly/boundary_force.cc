@@ -67,8 +67,8 @@ namespace moraine
 
 
 
-    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$, and c_3 by @p depth.
-     */
+    /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$, of which @p how may
+     * leave out @f$\lambda@f$, and c_3 by @p depth. */
     template <int dim>
     SymmetricTensor<2, dim>
     penalty(const Enforcement             &how,
@@ -79,7 +79,9 @@ namespace moraine
     {
       const Tensor<1, dim> Mn = M * n;
       return how.stiffness_factor / depth *
-             ((C.lambda + C.mu) * symmetrize(outer_product(Mn, Mn)) + C.mu * M);
+             ((how.lambda_share * C.lambda + C.mu) *
+                symmetrize(outer_product(Mn, Mn)) +
+              C.mu * M);
     }
   } // namespace
 

@@ -120,6 +120,26 @@ namespace moraine
 
 
 
+    /**
+     * With means of cells a flux has one change of volume in each, which works
+     * against the mean of what is missed along the normal. The skew form needs
+     * no more of @f$\lambda@f$; a penalty of it at every place would ask for
+     * more than cells can follow, and lock. In dynamics it bounds flutter.
+     */
+    template <int dim>
+    Enforcement
+    enforcement_of(const ImplicitBoundary<dim> &boundary,
+                   const StepContext<dim>      &context)
+    {
+      Enforcement how = boundary.enforcement();
+      if (context.state.averages_volume() && !context.motion &&
+          how.w_constrained > 0 && how.adjoint_sign < 0)
+        how.lambda_share = 0;
+      return how;
+    }
+
+
+
     /** Of the points of this rank, by active_cell_index(). */
     template <int dim>
     std::vector<double>
@@ -239,6 +259,7 @@ namespace moraine
                          const bool              tangent,
                          GlobalSystem<dim>      &system) const
   {
+    const Enforcement           how = enforcement_of(boundary, context);
     LocalSystem<dim>            local;
     PlaceFunctions<dim>         at;
     std::vector<Tensor<1, dim>> fluxes;
@@ -257,7 +278,7 @@ namespace moraine
                                boundary.constraint_state(points[end],
                                                          du.value,
                                                          in_the_middle),
-                               boundary.enforcement(),
+                               how,
                                context.cell_materials.elastic_stiffness(cell),
                                context.state.strain_measure(),
                                at.N.data(),
@@ -281,6 +302,7 @@ namespace moraine
                               std::vector<Tensor<1, dim>> &tractions,
                               std::vector<Tensor<1, dim>> &violations) const
   {
+    const Enforcement   how           = enforcement_of(boundary, context);
     const bool          in_the_middle = forces_in_the_middle(context);
     const auto         &points        = boundary.points();
     PlaceFunctions<dim> at;
@@ -299,7 +321,7 @@ namespace moraine
         tractions[q] =
           boundary_traction(points[q],
                             constraint,
-                            boundary.enforcement(),
+                            how,
                             context.cell_materials.elastic_stiffness(cell),
                             context.state.strain_measure(),
                             du.gradient,

@@ -40,8 +40,9 @@ namespace moraine
     double      adjoint_sign;       ///< @f$s@f$
     double      stiffness_factor;   ///< @f$c_3 h@f$
     bool        carries_multiplier; ///< between steps
-    bool        augments; ///< within a step, until the constraint holds
-    std::string name;     ///< as scenes call it
+    bool        augments;         ///< within a step, until the constraint holds
+    std::string name;             ///< as scenes call it
+    double      lambda_share = 1; ///< how much of @f$\lambda@f$ is in Q
   };
 
   /**

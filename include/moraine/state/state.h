@@ -73,6 +73,13 @@ namespace moraine
           const PointWeights     weights    = PointWeights::volumes,
           const VolumetricStrain volumetric = VolumetricStrain::pointwise);
 
+    /** Whether points have the mean change of volume of their cells. */
+    bool
+    averages_volume() const
+    {
+      return cell_means.has_value();
+    }
+
     /** Before the first step: tie nodes without a cell of which points fill at
      * least the part @p fill, 0 < @p fill <= 1, to the nearest one. */
     void
