@@ -46,8 +46,8 @@ namespace moraine
       }
     };
 
-    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1.
-     * @param group_cells whether roots_of_cells() will be asked for */
+    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1;
+     * roots_of_cells() may be asked for if @p group_cells. */
     explicit Aggregates(const double fill, const bool group_cells = false);
 
     /**
