@@ -45,6 +45,16 @@ show("footing, MPM, pointwise", "prm/hard-cases/bearing-gimp.prm",
 show("slope, pointwise", "prm/geotechnics/slope.prm",
      {"Mesh/Cell size": 1, "Time/End time": 1, "Time/Steps": 20})
 
+# Ground at rest that hardly changes its volume: mean stress grows with depth from
+# cell to cell, by more than the deviatoric stress, and is right.
+for volumetric in ("pointwise", "cell mean"):
+    show(f"ground at rest, {volumetric}", "prm/geotechnics/slope.prm",
+         {"Bodies/embankment/Vertices": "0 0; 40 0; 40 12; 0 12",
+          "Materials/clay/Poisson ratio": 0.495, "Mesh/Cell size": 1,
+          "Method/Volumetric strain": volumetric,
+          "Method/Strain": "small", "Method/Mesh after step": "keep",
+          "Time/End time": 1, "Time/Steps": 1})
+
 # Hardly filled cells: the block turned by 30 degrees, and its mesh moved.
 DOWN = "sin(30*pi/180); -cos(30*pi/180)"
 CUT = {"Bodies/block/Rotation angle": 30, "Loads/weight/Value": DOWN,

@@ -44,12 +44,14 @@ namespace
     const auto linear =
       signs_of<dim>([](const Point<dim> &x) { return 7 - 3 * x[0] + x[1]; });
     EXPECT_LT(linear.jump, 1e-13);
+    EXPECT_NEAR(linear.step, std::sqrt(10. / dim), 1e-13);
     EXPECT_NEAR(linear.deviatoric, 1, 1e-13);
 
     // Each face across x has a jump of 2, others have none.
     const auto saw =
       signs_of<dim>([](const Point<dim> &x) { return 2 * in_cell(x[0]); });
     EXPECT_NEAR(saw.jump, 2 / std::sqrt(1. * dim), 1e-13);
+    EXPECT_LT(saw.step, 1e-13);
 
     // Not of cells that are filled by less than 3/4.
     const auto at_rim = signs_of<dim>(

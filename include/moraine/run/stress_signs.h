@@ -24,6 +24,8 @@ namespace moraine
     /** Root of the mean square over faces, weighted by the volume of their
      * cells [stress]; 0 if there is no such face. */
     double jump = 0;
+    /** The same of what they differ by in the middle of their cells. */
+    double step = 0;
     /** @f$|s| = \sqrt{s : s}@f$ of the deviatoric stress, root of the mean
      * square over the volume of all points [stress]. */
     double deviatoric = 0;
