@@ -6,9 +6,9 @@
 # doc/figures/ from their results:
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
-# groups/ without its ending (all but 'studies' and 'locking' if left out). Needs
-# what ./moraine test installs. The other pictures of doc/studies/ show wall times,
-# too, and come from moraine study itself.
+# groups/ without its ending (all but 'studies', 'points', 'locking' and 'cut-study' if left
+# out). Needs what ./moraine test installs. The other pictures of doc/studies/ show
+# wall times, too, and come from moraine study itself.
 
 set -euo pipefail
 figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -19,11 +19,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 
-# moraine COMMAND NAME SCENE [SETTING...]: results in ./NAME
+# moraine COMMAND NAME SCENE [SETTING...]: results in ./NAME. Cases of a study that
+# end early, which it tells by a 1, are rows of its table.
 moraine() {
   local words=() setting
   for setting in "${@:4}"; do words+=(--set "$setting"); done
-  "$build/moraine" "$1" "$prm/$3.prm" --output "$2" "${words[@]}" >"$2.log" 2>&1 || {
+  "$build/moraine" "$1" "$prm/$3.prm" --output "$2" "${words[@]}" >"$2.log" 2>&1 ||
+    { [ $? = 1 ] && [ "$1" = study ]; } || {
     cat "$2.log"
     exit 1
   }
@@ -40,6 +42,25 @@ with open(sys.argv[1]) as file:
     rows = [[text.replace(",", "") for text in row] for row in csv.reader(file)]
 with open(sys.argv[1], "w") as file:
     csv.writer(file, lineterminator="\n").writerows(rows)
+PY
+}
+
+# least NAME [SETTING...]: runs prm/studies/NAME.prm three times; NAME.csv has the
+# least times.
+least() {
+  local i
+  for i in 1 2 3; do study "$1-$i" "studies/$1" "${@:2}"; done
+  /usr/bin/python3 - "$1" <<'PY'
+import csv, sys
+runs = []
+for i in (1, 2, 3):
+    with open(f"{sys.argv[1]}-{i}/study.csv") as file:
+        runs.append(list(csv.DictReader(file)))
+with open(sys.argv[1] + ".csv", "w") as file:
+    out = csv.DictWriter(file, runs[0][0], lineterminator="\n")
+    out.writeheader()
+    for rows in zip(*runs):
+        out.writerow(min(rows, key=lambda row: float(row["wall_seconds"] or 0)))
 PY
 }
 

@@ -5,24 +5,6 @@
 # least of three runs; the group takes a quarter of an hour and is not among those
 # that run if none is named.
 
-# least NAME: runs prm/studies/NAME.prm three times; NAME.csv has the least times.
-least() {
-  local i
-  for i in 1 2 3; do study "$1-$i" "studies/$1"; done
-  /usr/bin/python3 - "$1" <<'PY'
-import csv, sys
-runs = []
-for i in (1, 2, 3):
-    with open(f"{sys.argv[1]}-{i}/study.csv") as file:
-        runs.append(list(csv.DictReader(file)))
-with open(sys.argv[1] + ".csv", "w") as file:
-    out = csv.DictWriter(file, runs[0][0], lineterminator="\n")
-    out.writeheader()
-    for rows in zip(*runs):
-        out.writerow(min(rows, key=lambda row: float(row["wall_seconds"])))
-PY
-}
-
 for name in dynamics-column dynamics-flight double-mapping-static \
   double-mapping-dynamic double-mapping-flight; do
   least $name
