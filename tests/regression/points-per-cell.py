@@ -18,9 +18,9 @@ def errors(rows, method):
 
 
 # Points that stay: the methods are one, and their number hardly matters.
-for name in ("cut", "plastic"):
-    rows = study(f"prm/studies/points-per-cell-{name}.prm",
-                 {"Mesh/Cells": "36, 36"})
+for name, scene in (("cut", "prm/studies/points-per-cell-cut.prm"),
+                    ("plastic", "prm/studies/points-per-cell-plastic.prm")):
+    rows = study(scene, {"Mesh/Cells": "36, 36"})
     mpm = errors(rows, "MPM")
     for n, error in enumerate(mpm, 1):
         number(f"{name}, {n} per direction", error, 2)
