@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What helps where the mesh cuts little off a body: nothing, a stiffness of the empty
-parts of cells, or nodes that follow their neighbours. Called with the program; writes
-cut-study.csv: a row for each way, method and place with the displacement of the
-tip and the largest von Mises stress over those of the block on mesh lines,
-iterations of GMRES with multigrid (500 if they do not do), the seconds of the
-run, and, on cells of 1/8, the condition number over that on mesh lines."""
+parts of cells, or nodes that follow their neighbours, or are held to them by springs.
+Called with the program; writes cut-study.csv: a row for each way, method and place
+with the displacement of the tip and the largest von Mises stress over those of the
+block on mesh lines, iterations of GMRES with multigrid (500 if they do not do), the
+seconds of the run, and, on cells of 1/8, the condition number over that on mesh
+lines."""
 
 import csv
 import json
@@ -24,7 +25,9 @@ WAYS = {"free nodes": {"Aggregate below": 0},
         "stiffness 1e-4": {"Aggregate below": 0, "Fictitious stiffness": 1e-4},
         "stiffness 1e-2": {"Aggregate below": 0, "Fictitious stiffness": 1e-2},
         "aggregated below 0.1": {"Aggregate below": 0.1},
-        "aggregated below 0.5": {"Aggregate below": 0.5}}
+        "aggregated below 0.5": {"Aggregate below": 0.5},
+        **{f"ghost factor {factor}": {"Cut cells": "ghost", "Ghost factor": factor}
+           for factor in (0.01, 0.1, 1, 10)}}
 METHODS = ("GIMP", "finite element")
 H, COARSE = 1 / 32, 1 / 8
 

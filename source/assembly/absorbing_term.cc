@@ -7,12 +7,34 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace moraine
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** Translations, then rotations about @p c, at @p x. */
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    rigid_fields(const Point<dim> &x, const Point<dim> &c)
+    {
+      std::vector<Tensor<1, dim>> fields;
+      for (unsigned int i = 0; i < dim; ++i)
+        fields.push_back(Point<dim>::unit_vector(i));
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i + 1; j < dim; ++j)
+          fields.push_back((x[i] - c[i]) * fields[j] -
+                           (x[j] - c[j]) * fields[i]);
+      return fields;
+    }
+  } // namespace
+
+
 
   template <int dim>
   AbsorbingTerm<dim>::AbsorbingTerm(AbsorbingBoundary<dim> &boundary)
@@ -277,6 +299,61 @@ namespace moraine
 
 
   template <int dim>
+  void
+  AbsorbingTerm<dim>::add_rigid_field(const GridSpace<dim> &space,
+                                      const LA::Vector     &missing,
+                                      std::vector<Vector>  &tractions) const
+  {
+    Vector sum;
+    double area = 0;
+    for (const LocalPlace &local : local_places)
+      {
+        const auto &place = boundary.places()[local.number];
+        sum += place.weight * place.x;
+        area += place.weight;
+      }
+    sum  = Utilities::MPI::sum(sum, space.communicator());
+    area = Utilities::MPI::sum(area, space.communicator());
+    if (area == 0)
+      return;
+    const Point<dim> centre(sum / area);
+
+    constexpr unsigned int           n = dim * (dim + 1) / 2;
+    FullMatrix<double>               products(n, n);
+    std::vector<double>              sums(n, 0.), factors(n, 0.);
+    std::vector<std::vector<Vector>> fields_of_places;
+    for (const LocalPlace &local : local_places)
+      {
+        const auto &place = boundary.places()[local.number];
+        fields_of_places.push_back(rigid_fields(place.x, centre));
+        const auto &fields = fields_of_places.back();
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            products(i, j) += place.weight * (fields[i] * fields[j]);
+      }
+    std::vector<Vector> forces;
+    space.node_values(missing, forces);
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      if (space.locally_owned().is_element(space.node_dof(node)))
+        {
+          const auto fields = rigid_fields(space.node_position(node), centre);
+          for (unsigned int i = 0; i < n; ++i)
+            sums[i] += fields[i] * forces[node];
+        }
+    Utilities::MPI::sum(products, space.communicator(), products);
+    Utilities::MPI::sum(sums, space.communicator(), sums);
+    products.gauss_jordan();
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        factors[i] += products(i, j) * sums[j];
+    for (unsigned int q = 0; q < tractions.size(); ++q)
+      for (unsigned int i = 0; i < n; ++i)
+        tractions[q] += factors[i] * fields_of_places[q][i];
+  }
+
+
+
+  template <int dim>
   std::optional<double>
   AbsorbingTerm<dim>::hold(const StepContext<dim> &context,
                            const std::string      &name,
@@ -311,8 +388,9 @@ namespace moraine
         direction.sadd(Utilities::fixed_power<2>(now / before), gradient);
       }
 
-    const std::vector<Vector> of_this_rank = traction_of(lambda);
-    std::vector<double>       all(dim * boundary.places().size(), 0.);
+    std::vector<Vector> of_this_rank = traction_of(lambda);
+    add_rigid_field(space, rest, of_this_rank);
+    std::vector<double> all(dim * boundary.places().size(), 0.);
     for (unsigned int q = 0; q < local_places.size(); ++q)
       for (unsigned int d = 0; d < dim; ++d)
         all[dim * local_places[q].number + d] = of_this_rank[q][d];

@@ -5,27 +5,86 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Of what acts on tied nodes. Collective. */
+    template <int dim>
+    Effect
+    effect_on_cuts(const State<dim>  &state,
+                   const std::string &name,
+                   const std::string &what_tied_nodes_do)
+    {
+      const GridSpace<dim> &space      = state.grid();
+      const auto           &aggregates = *state.aggregates();
+      unsigned int          n[]        = {0, 0};
+      for (const auto &tie : aggregates.ties())
+        n[0] += space.locally_owned().is_element(space.node_dof(tie.node));
+      n[1] = aggregates.nodes_without_root().size();
+      Utilities::MPI::sum(n, space.communicator(), n);
+      std::string text = std::to_string(n[0]) + " nodes " + what_tied_nodes_do;
+      if (n[1] > 0)
+        text += ", " + std::to_string(n[1]) + " have none near";
+      return {name, n[0] + n[1] > 0 ? "cuts" : "", text};
+    }
+
+
+
+    /** The mean shear modulus of the tangent of a point that is loaded on. */
+    template <int dim>
+    double
+    tangent_shear_modulus(const State<dim> &state, const unsigned int p)
+    {
+      constexpr double loaded_on    = 1 + 1e-6; ///< so that it yields if it did
+      constexpr double least        = 0.01;     ///< of the elastic one
+      const PointSet<dim> &points   = state.material_points();
+      const unsigned int   body     = points.body(p);
+      const double        *values   = points.values(p);
+      const Material      &material = state.material(body);
+      const LameConstants  C        = material.elastic_stiffness();
+      if (material.is_linear() || !material.is_isotropic())
+        return C.mu;
+      PrincipalState at;
+      if (state.strain_measure() == StrainMeasure::small)
+        at.strain =
+          spectrum<dim>(C.strain_of(points.stress_field()(values))).values;
+      else
+        {
+          at.strain = spectrum<dim>(state.fields().b(values)).values;
+          for (unsigned int A = 0; A < 3; ++A)
+            at.strain[A] = 0.5 * std::log(at.strain[A]);
+        }
+      at.strain *= loaded_on;
+      std::vector<double> internal;
+      for (const auto &field : state.fields().internal[body])
+        internal.push_back(field(values));
+      at.internal = internal.data();
+      material.respond(state.step_time(), ArrayView<PrincipalState>(&at, 1));
+      // D : (I - 1 x 1 / 3) in the principal directions.
+      double modulus = trace(at.tangent);
+      for (unsigned int A = 0; A < 3; ++A)
+        for (unsigned int B = 0; B < 3; ++B)
+          modulus -= at.tangent[A][B] / 3;
+      modulus /= 4;
+      return modulus > least * C.mu ? modulus : least * C.mu;
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<Effect>
   Aggregation<dim>::effects(const StepContext<dim> &context) const
   {
-    const GridSpace<dim> &space      = context.state.grid();
-    const auto           &aggregates = *context.state.aggregates();
-    unsigned int          n[]        = {0, 0};
-    for (const auto &tie : aggregates.ties())
-      n[0] += space.locally_owned().is_element(space.node_dof(tie.node));
-    n[1] = aggregates.nodes_without_root().size();
-    Utilities::MPI::sum(n, space.communicator(), n);
-    std::string text = std::to_string(n[0]) + " nodes follow filled cells";
-    if (n[1] > 0)
-      text += ", " + std::to_string(n[1]) + " have none near";
-    return {{"aggregation", n[0] + n[1] > 0 ? "cuts" : "", text}};
+    return {
+      effect_on_cuts(context.state, "aggregation", "follow filled cells")};
   }
 
 
@@ -55,6 +114,206 @@ namespace moraine
 
 
 
+  template <int dim>
+  GhostTerm<dim>::GhostTerm(const double factor)
+    : factor(factor)
+  {
+    Assert(factor > 0, ExcInternalError());
+  }
+
+
+
+  template <int dim>
+  bool
+  GhostTerm<dim>::begin_step(const StepContext<dim> &context)
+  {
+    const GridSpace<dim>   &space = context.state.grid();
+    const std::vector<Tie> &ties  = context.state.aggregates()->ties();
+    held.clear();
+    for (unsigned int i = 0; i < ties.size(); ++i)
+      if (space.locally_owned().is_element(space.node_dof(ties[i].node)))
+        held.push_back({i, 0.});
+    if (!Utilities::MPI::logical_or(!held.empty(), space.communicator()))
+      return false;
+    const std::vector<double> scales = scales_of_roots(context);
+    for (Held &one : held)
+      one.scale = factor * scales[ties[one.tie].root];
+    // New ties are told of by the state.
+    return false;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  GhostTerm<dim>::scales_of_roots(const StepContext<dim> &context) const
+  {
+    const State<dim>         &state     = context.state;
+    const PointSet<dim>      &points    = state.material_points();
+    const MPI_Comm            all_ranks = state.grid().communicator();
+    const Triangulation<dim> &tria      = state.grid().mesh().triangulation();
+    // Points of a root may be on another rank than the node.
+    std::vector<double> is_root(tria.n_active_cells(), 0.);
+    for (const Held &one : held)
+      is_root[state.aggregates()->ties()[one.tie].root] = 1;
+    Utilities::MPI::max(is_root, all_ranks, is_root);
+    std::vector<double> scales(is_root.size(), 0.);
+    for (const auto &in_cell : points.cells())
+      {
+        const unsigned int c = in_cell.cell->active_cell_index();
+        if (is_root[c] == 0)
+          continue;
+        double sum = 0, volume = 0;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          {
+            sum += points.volume(p) * of_point(state, p);
+            volume += points.volume(p);
+          }
+        scales[c] = sum / volume * of_volume(in_cell.cell->measure());
+      }
+    Utilities::MPI::sum(scales, all_ranks, scales);
+    return scales;
+  }
+
+
+
+  template <int dim>
+  void
+  GhostTerm<dim>::couple(const StepContext<dim>           &context,
+                         const typename Term<dim>::Couple &couple_nodes) const
+  {
+    const GridSpace<dim>     &space = context.state.grid();
+    const unsigned int        n     = space.nodes_per_cell();
+    std::vector<unsigned int> nodes(n + 1);
+    for (const Held &one : held)
+      {
+        const Tie &tie = context.state.aggregates()->ties()[one.tie];
+        nodes[0]       = tie.node;
+        std::copy_n(space.cell_nodes(tie.root), n, nodes.begin() + 1);
+        couple_nodes(nodes.data(), n + 1);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  GhostTerm<dim>::add(const StepContext<dim> &context,
+                      const bool              tangent,
+                      GlobalSystem<dim>      &system) const
+  {
+    const GridSpace<dim>     &space = context.state.grid();
+    const unsigned int        n     = space.nodes_per_cell() + 1;
+    const double              rate  = value_by_increment(context);
+    std::vector<unsigned int> nodes(n);
+    std::vector<double>       b(n, 1.); // the distance is b_k q_k
+    LocalSystem<dim>          local;
+    for (const Held &one : held)
+      {
+        const Tie &tie = context.state.aggregates()->ties()[one.tie];
+        nodes[0]       = tie.node;
+        std::copy_n(space.cell_nodes(tie.root), n - 1, nodes.begin() + 1);
+        local.reinit(context.state, nodes.data(), n, tangent);
+        Tensor<1, dim> distance;
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            b[k] = k == 0 ? 1. : -tie.weights[k - 1];
+            distance +=
+              b[k] * value(context, nodes[k], local.nodal_increments[k]);
+          }
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            if (system.is_prescribed(local.dofs[c]))
+              continue;
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                local.force[dim * k + c] = -one.scale * b[k] * distance[c];
+                if (tangent)
+                  for (unsigned int l = 0; l < n; ++l)
+                    local.matrix(dim * k + c, dim * l + c) =
+                      one.scale * rate * b[k] * b[l];
+              }
+          }
+        system.add(local, tangent);
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<Effect>
+  GhostStiffness<dim>::effects(const StepContext<dim> &context) const
+  {
+    std::ostringstream does;
+    does << "are held to filled cells, ghost factor " << this->factor;
+    return {effect_on_cuts(context.state, "ghost term", does.str())};
+  }
+
+
+
+  template <int dim>
+  double
+  GhostStiffness<dim>::of_point(const State<dim>  &state,
+                                const unsigned int p) const
+  {
+    return tangent_shear_modulus(state, p);
+  }
+
+
+
+  template <int dim>
+  double
+  GhostStiffness<dim>::of_volume(const double volume) const
+  {
+    return dim == 2 ? 1. : std::cbrt(volume);
+  }
+
+
+
+  template <int dim>
+  double
+  GhostMass<dim>::of_point(const State<dim> &state, const unsigned int p) const
+  {
+    return state.material(state.material_points().body(p)).density();
+  }
+
+
+
+  template <int dim>
+  double
+  GhostMass<dim>::of_volume(const double volume) const
+  {
+    return volume;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  GhostMass<dim>::value(const StepContext<dim> &context,
+                        const unsigned int      node,
+                        const Tensor<1, dim>   &du) const
+  {
+    return context.motion->inertial_acceleration(node, du);
+  }
+
+
+
+  template <int dim>
+  double
+  GhostMass<dim>::value_by_increment(const StepContext<dim> &context) const
+  {
+    return context.motion->inertial_acceleration_by_increment();
+  }
+
+
+
   template class Aggregation<2>;
   template class Aggregation<3>;
+  template class GhostTerm<2>;
+  template class GhostTerm<3>;
+  template class GhostStiffness<2>;
+  template class GhostStiffness<3>;
+  template class GhostMass<2>;
+  template class GhostMass<3>;
 } // namespace moraine

@@ -3,6 +3,8 @@
 
 #include <moraine/assembly/boundary_force.h>
 
+#include <array>
+
 namespace moraine
 {
   using namespace dealii;
@@ -113,6 +115,8 @@ namespace moraine
       strain[d][d] += change / dim;
     traction += M * (C.lambda * trace(strain) * n + 2. * C.mu * (strain * n));
     traction -= penalty(how, point.depth, n, M, C) * constraint.violation;
+    traction -=
+      how.mean_factor * C.lambda * constraint.mean_violation * (M * n);
     return pushed(traction, constraint);
   }
 
@@ -198,6 +202,42 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  add_mean_penalty(const ImplicitBoundary<dim> &boundary,
+                   const BoundaryPiece<dim>    &piece,
+                   const Enforcement           &how,
+                   const LameConstants         &C,
+                   LocalSystem<dim>            &local)
+  {
+    constexpr unsigned int n_nodes = GeometryInfo<dim>::vertices_per_cell;
+    // Of the functions of nodes along the normal, and where it pushes.
+    std::array<Tensor<1, dim>, n_nodes> normals, pushes;
+    double                              area = 0;
+    for (unsigned int q = piece.begin(); q < piece.end(); ++q)
+      {
+        const ConstraintState<dim> &state = piece.constraint(q);
+        const Tensor<1, dim>        Mn    = state.M * state.normal;
+        const Tensor<1, dim>        push  = pushed(Mn, state);
+        const double                JxW   = boundary.points()[q].JxW;
+        area += JxW;
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            normals[a] += JxW * boundary.N(q)[a] * Mn;
+            pushes[a] += JxW * boundary.N(q)[a] * push;
+          }
+      }
+    const double factor = how.mean_factor * C.lambda / area;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            local.matrix(dim * a + i, dim * b + j) +=
+              factor * pushes[a][i] * normals[b][j];
+  }
+
+
+
 #define INSTANTIATE(dim)                                                    \
   template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,     \
                                             const ConstraintState<dim> &,   \
@@ -218,7 +258,12 @@ namespace moraine
                                              const Tensor<2, dim> &,        \
                                              const bool,                    \
                                              std::vector<Tensor<1, dim>> &, \
-                                             LocalSystem<dim> &);
+                                             LocalSystem<dim> &);           \
+  template void           add_mean_penalty(const ImplicitBoundary<dim> &,   \
+                                           const BoundaryPiece<dim> &,      \
+                                           const Enforcement &,             \
+                                           const LameConstants &,           \
+                                           LocalSystem<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -4,7 +4,7 @@
 #include <moraine/assembly/boundary_term.h>
 
 #include <moraine/assembly/boundary_force.h>
-#include <moraine/state/motion.h>
+#include <moraine/assembly/boundary_piece.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,127 +16,27 @@ namespace moraine
 
   namespace
   {
-    /** The trial increment at a place of a boundary. */
-    template <int dim>
-    struct Increment
-    {
-      Tensor<1, dim> value;
-      Tensor<2, dim> gradient;
-      /** By which the volume changes. */
-      Tensor<2, dim> mean_gradient;
-    };
-
-
-
-    /** The functions at a place of a boundary: those of the cell, and of the
-     * cells with which it has a mean. */
-    template <int dim>
-    class PlaceFunctions
-    {
-    public:
-      /** For places in a cell. */
-      void
-      reinit(const State<dim> &state, const unsigned int cell);
-
-      /** Take the functions of the cell at a place. */
-      void
-      set(const double *N_of_cell, const Tensor<1, dim> *grad_N_of_cell);
-
-      /** @p nodal has the increments of all nodes. */
-      Increment<dim>
-      increment(const std::vector<Tensor<1, dim>> &nodal) const;
-
-      std::vector<unsigned int>   nodes; ///< those of the cell first
-      std::vector<double>         N;
-      std::vector<Tensor<1, dim>> grad_N;
-      /** The mean, or @p grad_N if there is none. */
-      std::vector<Tensor<1, dim>> mean_grad_N;
-
-    private:
-      unsigned int                               n_of_cell = 0;
-      std::vector<typename CellMeans<dim>::Part> parts; ///< of the mean
-    };
-
-
-
-    template <int dim>
-    void
-    PlaceFunctions<dim>::reinit(const State<dim>  &state,
-                                const unsigned int cell)
-    {
-      const GridSpace<dim> &space = state.grid();
-      n_of_cell                   = space.nodes_per_cell();
-      const unsigned int *first   = space.cell_nodes(cell);
-      nodes.assign(first, first + n_of_cell);
-      mean_grad_N.assign(n_of_cell, Tensor<1, dim>());
-      state.mean_of_cell(cell, parts);
-      for (const auto &part : parts)
-        for (unsigned int a = 0; a < n_of_cell; ++a)
-          {
-            const unsigned int node = space.cell_nodes(part.cell)[a];
-            const auto found = std::find(nodes.begin(), nodes.end(), node);
-            const auto place = found - nodes.begin();
-            if (found == nodes.end())
-              {
-                nodes.push_back(node);
-                mean_grad_N.emplace_back();
-              }
-            mean_grad_N[place] += part.weight * part.gradients[a];
-          }
-      N.assign(nodes.size(), 0.);
-      grad_N.assign(nodes.size(), Tensor<1, dim>());
-    }
-
-
-
-    template <int dim>
-    void
-    PlaceFunctions<dim>::set(const double         *N_of_cell,
-                             const Tensor<1, dim> *grad_N_of_cell)
-    {
-      std::copy_n(N_of_cell, n_of_cell, N.begin());
-      std::copy_n(grad_N_of_cell, n_of_cell, grad_N.begin());
-      if (parts.empty())
-        std::copy_n(grad_N_of_cell, n_of_cell, mean_grad_N.begin());
-    }
-
-
-
-    template <int dim>
-    Increment<dim>
-    PlaceFunctions<dim>::increment(
-      const std::vector<Tensor<1, dim>> &nodal) const
-    {
-      Increment<dim> du;
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        {
-          const Tensor<1, dim> &u = nodal[nodes[a]];
-          du.value += N[a] * u;
-          du.gradient += outer_product(u, grad_N[a]);
-          du.mean_gradient += outer_product(u, mean_grad_N[a]);
-        }
-      return du;
-    }
-
-
-
     /**
-     * With means of cells a flux has one change of volume in each, which works
-     * against the mean of what is missed along the normal. The skew form needs
-     * no more of @f$\lambda@f$; a penalty of it at every place would ask for
-     * more than cells can follow, and lock. In dynamics it bounds flutter.
+     * With means of cells a flux has one change of volume in each,
+     * @f$\theta@f$, which works against the mean of what is missed along the
+     * normal; a penalty of @f$\lambda@f$ at every place would ask for more than
+     * cells can follow, and lock. In dynamics it bounds flutter. The symmetric
+     * form, @f$\lambda V (\theta - A \bar v / V)^2 - \lambda A^2 \bar v^2 /
+     * V@f$, needs one of the mean @f$\bar v@f$.
      */
     template <int dim>
-    Enforcement
-    enforcement_of(const ImplicitBoundary<dim> &boundary,
-                   const StepContext<dim>      &context)
+    bool
+    has_lambda_in_means(const Enforcement &how, const StepContext<dim> &context)
     {
-      Enforcement how = boundary.enforcement();
-      if (context.state.averages_volume() && !context.motion &&
-          how.w_constrained > 0 && how.adjoint_sign < 0)
-        how.lambda_share = 0;
-      return how;
+      return context.state.averages_volume() && !context.motion &&
+             how.carries_multiplier && !how.augments;
     }
+
+
+
+    /** What the symmetric form needs over the depth of the material to be
+     * definite at any cut: linear displacements need 1. */
+    constexpr double least_factor = 4;
 
 
 
@@ -152,16 +52,6 @@ namespace moraine
           volumes[in_cell.cell->active_cell_index()] +=
             state.integration_volume(p);
       return volumes;
-    }
-
-
-
-    template <int dim>
-    bool
-    forces_in_the_middle(const StepContext<dim> &context)
-    {
-      return context.motion &&
-             context.motion->integrator().forces_in_the_middle();
     }
   } // namespace
 
@@ -199,16 +89,62 @@ namespace moraine
                         context.search_tolerance,
                         context.state.mesh_after_step() != MeshAfterStep::keep,
                         context.state.strain_measure(),
-                        context.cells_moved);
+                        context.cells_moved,
+                        context.motion != nullptr);
     // A form that is not definite feeds what one step leaves to the next: in
     // vibrations, and as points move. Elsewhere the larger factor costs
-    // accuracy for nothing.
-    const Enforcement &how     = boundary.enforcement();
-    const bool         nitsche = how.carries_multiplier && !how.augments;
+    // accuracy for nothing; there it is what is needed.
+    const Enforcement &how       = boundary.enforcement();
+    const bool         nitsche   = how.carries_multiplier && !how.augments;
+    const bool         symmetric = nitsche && how.adjoint_sign > 0;
     const bool finite = context.state.strain_measure() == StrainMeasure::finite;
-    if (nitsche && (context.motion || (finite && how.adjoint_sign > 0)))
-      boundary.set_depths(volumes_in_cells(context.state));
+    depths_of_means.clear();
+    if (!symmetric && !(nitsche && context.motion))
+      return false;
+    const std::vector<double> volumes = volumes_in_cells(context.state);
+    boundary.set_depths(volumes,
+                        context.motion || finite ?
+                          1. :
+                          how.stiffness_factor / least_factor);
+    if (symmetric && has_lambda_in_means(how, context))
+      find_depths_of_means(context, volumes);
     return false;
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::find_depths_of_means(const StepContext<dim>    &context,
+                                          const std::vector<double> &volumes)
+  {
+    const auto lambda = [&context](const unsigned int cell) {
+      return context.cell_materials.elastic_stiffness(cell).lambda;
+    };
+    const unsigned int  n = volumes.size();
+    std::vector<double> sums(2 * n, 0.);
+    for (unsigned int cell = 0; cell < n; ++cell)
+      sums[cell] = lambda(cell) * volumes[cell];
+    for (const auto &point : boundary.points())
+      sums[n + point.cell] += lambda(point.cell) * point.JxW;
+    Utilities::MPI::sum(sums, context.state.grid().communicator(), sums);
+
+    std::vector<typename CellMeans<dim>::Part> parts;
+    depths_of_means.assign(n, 0.);
+    for (const auto &point : boundary.points())
+      if (depths_of_means[point.cell] == 0)
+        {
+          context.state.mean_of_cell(point.cell, parts);
+          double volume = 0, area = 0;
+          for (const auto &part : parts)
+            {
+              volume += sums[part.cell];
+              area += sums[n + part.cell];
+            }
+          depths_of_means[point.cell] =
+            std::max(area > 0 ? volume / area : point.h,
+                     ImplicitBoundary<dim>::smallest_depth * point.h);
+        }
   }
 
 
@@ -255,41 +191,62 @@ namespace moraine
 
   template <int dim>
   void
+  BoundaryTerm<dim>::adapt_to_cell(const StepContext<dim> &context,
+                                   const unsigned int      cell,
+                                   Enforcement            &how) const
+  {
+    if (!has_lambda_in_means(how, context))
+      return;
+    how.lambda_share = 0;
+    if (!depths_of_means.empty())
+      how.mean_factor =
+        context.cell_materials.elastic_stiffness(cell).lambda > 0 ?
+          std::max(how.stiffness_factor, least_factor) / depths_of_means[cell] :
+          0.;
+  }
+
+
+
+  template <int dim>
+  void
   BoundaryTerm<dim>::add(const StepContext<dim> &context,
                          const bool              tangent,
                          GlobalSystem<dim>      &system) const
   {
-    const Enforcement           how = enforcement_of(boundary, context);
     LocalSystem<dim>            local;
-    PlaceFunctions<dim>         at;
+    BoundaryPiece<dim>          piece;
     std::vector<Tensor<1, dim>> fluxes;
-    const bool                  in_the_middle = forces_in_the_middle(context);
-    const auto                 &points        = boundary.points();
-    for (unsigned int begin = 0, end = 0; begin < points.size(); begin = end)
+    const auto                 &points = boundary.points();
+    Enforcement                 how    = boundary.enforcement();
+    for (unsigned int q = 0; q < points.size();)
       {
-        const unsigned int cell = points[begin].cell;
-        at.reinit(context.state, cell);
-        local.reinit(context.state, at.nodes.data(), at.nodes.size(), tangent);
-        for (; end < points.size() && points[end].cell == cell; ++end)
+        piece.reinit(boundary, context, q);
+        const LameConstants &C =
+          context.cell_materials.elastic_stiffness(piece.cell());
+        adapt_to_cell(context, piece.cell(), how);
+        local.reinit(context.state,
+                     piece.nodes().data(),
+                     piece.nodes().size(),
+                     tangent);
+        for (; q < piece.end(); ++q)
           {
-            at.set(boundary.N(end), boundary.grad_N(end));
-            const auto du = at.increment(context.increments());
-            add_boundary_point(points[end],
-                               boundary.constraint_state(points[end],
-                                                         du.value,
-                                                         in_the_middle),
+            piece.set_place(boundary, q);
+            add_boundary_point(points[q],
+                               piece.constraint(q),
                                how,
-                               context.cell_materials.elastic_stiffness(cell),
+                               C,
                                context.state.strain_measure(),
-                               at.N.data(),
-                               at.grad_N.data(),
-                               at.mean_grad_N.data(),
-                               du.gradient,
-                               du.mean_gradient,
+                               piece.N.data(),
+                               piece.grad_N.data(),
+                               piece.mean_grad_N.data(),
+                               piece.increment(q).gradient,
+                               piece.increment(q).mean_gradient,
                                tangent,
                                fluxes,
                                local);
           }
+        if (tangent && how.mean_factor > 0)
+          add_mean_penalty(boundary, piece, how, C, local);
         system.add(local, tangent);
       }
   }
@@ -302,30 +259,28 @@ namespace moraine
                               std::vector<Tensor<1, dim>> &tractions,
                               std::vector<Tensor<1, dim>> &violations) const
   {
-    const Enforcement   how           = enforcement_of(boundary, context);
-    const bool          in_the_middle = forces_in_the_middle(context);
-    const auto         &points        = boundary.points();
-    PlaceFunctions<dim> at;
+    const auto        &points = boundary.points();
+    BoundaryPiece<dim> piece;
+    Enforcement        how = boundary.enforcement();
     tractions.resize(points.size());
     violations.resize(points.size());
-    for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int q = 0; q < points.size();)
       {
-        const unsigned int cell = points[q].cell;
-        if (q == 0 || cell != points[q - 1].cell)
-          at.reinit(context.state, cell);
-        at.set(boundary.N(q), boundary.grad_N(q));
-        const auto du = at.increment(context.increments());
-        const auto constraint =
-          boundary.constraint_state(points[q], du.value, in_the_middle);
-        violations[q] = constraint.violation;
-        tractions[q] =
-          boundary_traction(points[q],
-                            constraint,
-                            how,
-                            context.cell_materials.elastic_stiffness(cell),
-                            context.state.strain_measure(),
-                            du.gradient,
-                            du.mean_gradient);
+        piece.reinit(boundary, context, q);
+        adapt_to_cell(context, piece.cell(), how);
+        for (; q < piece.end(); ++q)
+          {
+            violations[q] = piece.constraint(q).violation;
+            tractions[q] =
+              boundary_traction(points[q],
+                                piece.constraint(q),
+                                how,
+                                context.cell_materials.elastic_stiffness(
+                                  piece.cell()),
+                                context.state.strain_measure(),
+                                piece.increment(q).gradient,
+                                piece.increment(q).mean_gradient);
+          }
       }
   }
 

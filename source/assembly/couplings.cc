@@ -3,6 +3,8 @@
 
 #include <moraine/assembly/couplings.h>
 
+#include <deal.II/lac/sparsity_tools.h>
+
 #include <algorithm>
 
 namespace moraine
@@ -30,19 +32,13 @@ namespace moraine
 
 
   template <int dim>
-  LA::SparsityPattern
-  Couplings<dim>::pattern(const AffineConstraints<double> &constraints) const
+  void
+  Couplings<dim>::make_matrix(const AffineConstraints<double> &constraints,
+                              LA::SparseMatrix                &matrix) const
   {
-    // deal.II 9.4 takes a rank without rows for one with too many of them,
-    // unless their length is zero (trilinos_sparsity_pattern.cc).
-    const unsigned int  row_length = space.locally_owned().n_elements() > 0 ?
-                                       dim * nodes.max_entries_per_row() :
-                                       0;
-    LA::SparsityPattern pattern(space.locally_owned(),
-                                space.locally_owned(),
-                                space.locally_relevant(),
-                                space.communicator(),
-                                row_length);
+    DynamicSparsityPattern               pattern(space.n_dofs(),
+                                   space.n_dofs(),
+                                   space.locally_relevant());
     std::vector<types::global_dof_index> rows(dim), columns;
     for (unsigned int node = 0; node < nodes.n_rows(); ++node)
       if (const unsigned int length = nodes.row_length(node))
@@ -63,8 +59,14 @@ namespace moraine
                                                   pattern,
                                                   false);
         }
-    pattern.compress();
-    return pattern;
+    SparsityTools::distribute_sparsity_pattern(pattern,
+                                               space.locally_owned(),
+                                               space.communicator(),
+                                               space.locally_relevant());
+    LA::make_matrix(matrix,
+                    space.locally_owned(),
+                    pattern,
+                    space.communicator());
   }
 
 

@@ -23,7 +23,7 @@ namespace moraine
     body_of_node = &body_of_node_;
     squares.assign(n_bodies, 0.);
     sum_of_matrices = std::make_shared<LA::SparseMatrix>();
-    sum_of_matrices->reinit(couplings.pattern(*constraints));
+    couplings.make_matrix(*constraints, *sum_of_matrices);
     rows = LA::LocalRows(*sum_of_matrices);
     nodes_in_matrix.resize(space->n_nodes());
     for (unsigned int node = 0; node < space->n_nodes(); ++node)
@@ -72,17 +72,15 @@ namespace moraine
   void
   GlobalSystem<dim>::find_ghost_rows(const Couplings<dim> &couplings)
   {
-    ghost_rows.clear();
-    const DynamicSparsityPattern &nodes = couplings.of_nodes();
+    const DynamicSparsityPattern        &nodes = couplings.of_nodes();
+    std::vector<GhostRows::Block>        blocks;
+    std::vector<types::global_dof_index> columns;
     for (unsigned int node = 0; node < space->n_nodes(); ++node)
       {
         NodeInMatrix &at = nodes_in_matrix[node];
         if (at.column == LA::LocalRows::none || at.row != LA::LocalRows::none ||
             nodes.row_length(node) == 0)
           continue;
-        at.ghost = ghost_rows.size();
-        GhostRows ghost;
-        ghost.first_row = space->node_dof(node);
         by_column.clear();
         for (unsigned int k = 0; k < nodes.row_length(node); ++k)
           {
@@ -91,15 +89,15 @@ namespace moraine
               by_column.emplace_back(nodes_in_matrix[other].column, other);
           }
         std::sort(by_column.begin(), by_column.end());
-        for (const auto &[column, other] : by_column)
+        columns.clear();
+        for (const auto &entry : by_column)
           for (unsigned int c = 0; c < dim; ++c)
-            {
-              ghost.columns.push_back(column + c);
-              ghost.global_columns.push_back(space->node_dof(other) + c);
-            }
-        ghost.values.assign(dim * ghost.columns.size(), 0.);
-        ghost_rows.push_back(std::move(ghost));
+            columns.push_back(space->node_dof(entry.second) + c);
+        at.ghost = blocks.size();
+        blocks.push_back({space->node_dof(node), columns});
       }
+    ghost_rows = GhostRows(
+      blocks, dim, rows, space->locally_owned(), space->communicator());
   }
 
 
@@ -112,7 +110,7 @@ namespace moraine
                                       const int              *columns,
                                       double                 *values) const
   {
-    const unsigned int n     = dim * by_column.size();
+    const unsigned int n     = dim * local.nodal_increments.size();
     const int         *end   = columns + length;
     const int         *found = columns;
     for (const auto &[column, b] : by_column)
@@ -131,21 +129,51 @@ namespace moraine
 
 
   template <int dim>
-  bool
-  GlobalSystem<dim>::add_to_rows(const LocalSystem<dim> &local)
+  void
+  GlobalSystem<dim>::add_to_matrix(const LocalSystem<dim> &local)
   {
     const unsigned int n_nodes = local.nodal_increments.size();
-    by_column.resize(n_nodes);
+    by_column.clear();
+    bool whole = false;
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
         const int column = nodes_in_matrix[local.nodes[a]].column;
-        if (column == LA::LocalRows::none)
-          return false;
-        by_column[a] = {column, a};
+        if (column != LA::LocalRows::none)
+          by_column.emplace_back(column, a);
+        else
+          for (unsigned int r = dim * a; r < dim * (a + 1); ++r)
+            whole = whole || local.matrix(r, r) == 0.;
+      }
+    // Of a diagonal with nothing on it deal.II takes the mean of all others.
+    if (whole)
+      {
+        constraints->distribute_local_to_global(local.matrix,
+                                                local.dofs,
+                                                *sum_of_matrices);
+        return;
       }
     std::sort(by_column.begin(), by_column.end());
-    for (unsigned int a = 0; a < n_nodes; ++a)
+    add_to_rows(local);
+    if (by_column.size() == n_nodes)
+      return;
+    rest = local.matrix;
+    for (const auto &[row, a] : by_column)
+      for (const auto &[column, b] : by_column)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            rest(dim * a + c, dim * b + d) = 0;
+    constraints->distribute_local_to_global(rest, local.dofs, *sum_of_matrices);
+  }
+
+
+
+  template <int dim>
+  void
+  GlobalSystem<dim>::add_to_rows(const LocalSystem<dim> &local)
+  {
+    for (const auto &entry : by_column)
       {
+        const unsigned int  a  = entry.second;
         const NodeInMatrix &at = nodes_in_matrix[local.nodes[a]];
         if (at.ghost == LA::LocalRows::none)
           // The rows of a node have the same columns and follow each other.
@@ -155,16 +183,12 @@ namespace moraine
                            rows.columns(at.row),
                            rows.values(at.row));
         else
-          {
-            GhostRows &ghost = ghost_rows[at.ghost];
-            add_rows_of_node(local,
-                             a,
-                             ghost.columns.size(),
-                             ghost.columns.data(),
-                             ghost.values.data());
-          }
+          add_rows_of_node(local,
+                           a,
+                           ghost_rows.row_length(at.ghost),
+                           ghost_rows.columns(at.ghost),
+                           ghost_rows.values(at.ghost));
       }
-    return true;
   }
 
 
@@ -183,8 +207,7 @@ namespace moraine
     if (!tangent)
       return;
     *sum_of_matrices = 0;
-    for (GhostRows &ghost : ghost_rows)
-      std::fill(ghost.values.begin(), ghost.values.end(), 0.);
+    ghost_rows.set_zero();
   }
 
 
@@ -196,7 +219,7 @@ namespace moraine
     if (first_failure.empty())
       first_failure = local.failure;
     const unsigned int n_nodes = local.nodal_increments.size();
-    if (counts_work)
+    if (is_counting)
       work_sum += local.work();
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int c = 0; c < dim; ++c)
@@ -210,10 +233,8 @@ namespace moraine
           squares[(*body_of_node)[local.nodes[a]]] += f * f;
           node_forces[local.nodes[a]][c] += f;
         }
-    if (tangent && !add_to_rows(local))
-      constraints->distribute_local_to_global(local.matrix,
-                                              local.dofs,
-                                              *sum_of_matrices);
+    if (tangent)
+      add_to_matrix(local);
   }
 
 
@@ -224,12 +245,7 @@ namespace moraine
   {
     if (with_tangent)
       {
-        for (const GhostRows &ghost : ghost_rows)
-          for (unsigned int c = 0; c < dim; ++c)
-            sum_of_matrices->add(ghost.first_row + c,
-                                 ghost.columns.size(),
-                                 ghost.global_columns.data(),
-                                 &ghost.values[c * ghost.columns.size()]);
+        ghost_rows.add_to_owners();
         sum_of_matrices->compress(VectorOperation::add);
         if (any_tied)
           scale_tied_rows();

@@ -55,18 +55,63 @@ namespace moraine
 
 
 
-    /** Add @f$\sum_k D_{kj}\, g_{b,k}@f$ to a row of the matrix. */
-    template <int dim>
+    /** Add @f$\sum_k D_{kj}\, g_{b,k}@f$ to a row of the matrix, and if there
+     * is @f$\hat g@f$ @f$e\, \hat g_{b,j}@f$. */
+    template <int dim, bool has_mean>
     inline void
     add_row(const double (&D)[dim][dim],
+            const double                           e,
             const Tensor<1, dim> *DEAL_II_RESTRICT g,
+            const Tensor<1, dim> *DEAL_II_RESTRICT mean_g,
             const unsigned int                     n_nodes,
             double *DEAL_II_RESTRICT               row)
     {
       for (unsigned int b = 0; b < n_nodes; ++b, row += dim)
-        for (unsigned int k = 0; k < dim; ++k)
-          for (unsigned int j = 0; j < dim; ++j)
-            row[j] += D[k][j] * g[b][k];
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            double sum = has_mean ? e * mean_g[b][j] : 0.;
+            for (unsigned int k = 0; k < dim; ++k)
+              sum += D[k][j] * g[b][k];
+            row[j] += sum;
+          }
+    }
+
+
+
+    /** Add @f$e\, \hat g_{b,j}@f$ to a row. */
+    template <int dim>
+    inline void
+    add_mean_row(const double                           e,
+                 const Tensor<1, dim> *DEAL_II_RESTRICT mean_g,
+                 const unsigned int                     n_nodes,
+                 double *DEAL_II_RESTRICT               row)
+    {
+      for (unsigned int b = 0; b < n_nodes; ++b, row += dim)
+        for (unsigned int j = 0; j < dim; ++j)
+          row[j] += e * mean_g[b][j];
+    }
+
+
+
+    /** @f$D_{ijk} = c_{iljk}\, w g_l@f$, as i, k, j. */
+    template <int dim>
+    inline void
+    set_material_part(const VoigtMatrix<dim> &c,
+                      const Tensor<1, dim>   &w_g,
+                      double (&D)[dim][dim][dim])
+    {
+      constexpr unsigned int n     = n_voigt<dim>;
+      constexpr auto         voigt = voigt_numbers<dim>();
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          std::array<double, n> c_g{};
+          for (unsigned int l = 0; l < dim; ++l)
+            for (unsigned int I = 0; I < n; ++I)
+              c_g[I] += c[voigt[i][l]][I] * w_g[l];
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int j = 0; j < dim; ++j)
+              D[i][k][j] = c_g[voigt[j][k]];
+        }
     }
 
 
@@ -75,67 +120,105 @@ namespace moraine
      * Add the tangent of one point to the upper triangle of node pairs,
      * @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
      * @f$D_{a,ijk} = w\, (c_{iljk}\, g_{a,l} + \delta_{ij}\, \tau_{kl}\,
-     * g_{a,l})@f$. If the pressure p of @p tau works on means of cells, c is
-     * deviatoric and the point still has
-     * @f$w\,(-\frac2n (\mathrm{dev}\,\tau g_a \otimes g_b + g_a \otimes
-     * \mathrm{dev}\,\tau g_b) - \frac{2p}{n} g_a \otimes g_b
-     * + p\, g_b \otimes g_a)@f$ (MeanDilatation).
+     * g_{a,l})@f$, and what @p coupling says (MeanDilatation), if there is any.
+     * Gradients of nodes from @p n_own on, added for groups of cells, are zero.
      */
-    template <int dim>
+    template <int dim, bool has_coupling>
     void
-    add_tangent(const VoigtMatrix<dim>      &c,
-                const double                 w,
-                const SymmetricTensor<2, 3> *tau,
-                const bool                   has_means,
-                const Tensor<1, dim>        *g,
-                const unsigned int           n_nodes,
-                FullMatrix<double>          &matrix)
+    add_tangent(const VoigtMatrix<dim>                       &c,
+                const double                                  w,
+                const SymmetricTensor<2, 3>                  *tau,
+                const typename MeanDilatation<dim>::Coupling *coupling,
+                const Tensor<1, dim>                         *g,
+                const unsigned int                            n_own,
+                const unsigned int                            n_nodes,
+                FullMatrix<double>                           &matrix)
     {
-      double p = 0;
-      for (unsigned int d = 0; tau && d < dim; ++d)
-        p += (*tau)[d][d] / dim;
-      constexpr unsigned int n     = n_voigt<dim>;
-      constexpr auto         voigt = voigt_numbers<dim>();
-      for (unsigned int a = 0; a < n_nodes; ++a)
+      const Tensor<1, dim> *mean_g =
+        has_coupling ? coupling->mean_gradients : nullptr;
+      for (unsigned int a = 0; a < (has_coupling ? n_nodes : n_own); ++a)
         {
           // A node of other points of the block only.
-          if (g[a].norm_square() == 0.)
+          if (g[a].norm_square() == 0. &&
+              (!has_coupling || mean_g[a].norm_square() == 0.))
             continue;
-          const Tensor<1, dim> w_g = w * g[a];
-          double               D[dim][dim][dim]; // i, k, j
-          for (unsigned int i = 0; i < dim; ++i)
+          const unsigned int first_mean = std::max(a, n_own);
+          Tensor<1, dim>     e;
+          if constexpr (has_coupling)
+            e = coupling->T * g[a] + coupling->modulus * mean_g[a];
+          if (a < n_own)
             {
-              std::array<double, n> c_g{};
-              for (unsigned int l = 0; l < dim; ++l)
-                for (unsigned int I = 0; I < n; ++I)
-                  c_g[I] += c[voigt[i][l]][I] * w_g[l];
-              for (unsigned int k = 0; k < dim; ++k)
-                for (unsigned int j = 0; j < dim; ++j)
-                  D[i][k][j] = c_g[voigt[j][k]];
-            }
-          if (tau)
-            for (unsigned int k = 0; k < dim; ++k)
-              {
-                double tau_g = 0;
-                for (unsigned int l = 0; l < dim; ++l)
-                  tau_g += (*tau)[k][l] * w_g[l];
+              const Tensor<1, dim> w_g = w * g[a];
+              double               D[dim][dim][dim]; // i, k, j
+              set_material_part<dim>(c, w_g, D);
+              for (unsigned int k = 0; tau && k < dim; ++k)
+                {
+                  double tau_g = 0;
+                  for (unsigned int l = 0; l < dim; ++l)
+                    tau_g += (*tau)[k][l] * w_g[l];
+                  for (unsigned int i = 0; i < dim; ++i)
+                    D[i][k][i] += tau_g;
+                }
+              if constexpr (has_coupling)
                 for (unsigned int i = 0; i < dim; ++i)
-                  D[i][k][i] += tau_g;
-                if (!has_means)
-                  continue;
-                for (unsigned int j = 0; j < dim; ++j)
-                  {
-                    D[k][j][j] += 2. / dim * (p * w_g[k] - tau_g);
-                    D[k][k][j] += p * w_g[j];
-                    for (unsigned int i = 0; i < dim; ++i)
-                      D[i][k][j] -= 2. / dim * w_g[i] * (*tau)[j][k];
-                  }
-              }
-          for (unsigned int i = 0; i < dim; ++i)
-            add_row<dim>(D[i],
-                         g + a,
-                         n_nodes - a,
-                         &matrix(dim * a + i, dim * a));
+                  for (unsigned int k = 0; k < dim; ++k)
+                    for (unsigned int j = 0; j < dim; ++j)
+                      D[i][k][j] += mean_g[a][i] * coupling->T[k][j];
+              for (unsigned int i = 0; i < dim; ++i)
+                add_row<dim, has_coupling>(D[i],
+                                           e[i],
+                                           g + a,
+                                           mean_g + (has_coupling ? a : 0),
+                                           n_own - a,
+                                           &matrix(dim * a + i, dim * a));
+            }
+          for (unsigned int i = 0; has_coupling && i < dim; ++i)
+            add_mean_row<dim>(e[i],
+                              mean_g + first_mean,
+                              n_nodes - first_mean,
+                              &matrix(dim * a, 0) + i * dim * n_nodes +
+                                dim * first_mean);
+        }
+    }
+
+
+
+    /** Add the tangents of a run of points; gradients of nodes from @p n_own on
+     * are zero. */
+    template <int dim>
+    void
+    add_tangents(const unsigned int n_own, LocalSystem<dim> &local)
+    {
+      const TrialPoints<dim> &trial     = local.trial_points;
+      const bool              has_means = trial.n_means() > 0;
+      const unsigned int      n_nodes   = local.nodal_increments.size();
+      SymmetricTensor<2, 3>   rest;
+      for (unsigned int p = 0; p < trial.n_points(); ++p)
+        {
+          VoigtMatrix<dim>             c   = trial.tangent(p);
+          const SymmetricTensor<2, 3> *tau = nullptr;
+          if (trial.is_finite())
+            tau = &trial.stress(p);
+          const typename MeanDilatation<dim>::Coupling *coupling = nullptr;
+          if (has_means)
+            {
+              c        = local.dilatation.take_volumetric(p, c);
+              coupling = local.dilatation.coupling();
+              rest     = trial.stress(p);
+              take_mean<dim>(rest);
+              if (tau)
+                tau = &rest;
+            }
+          const auto add =
+            coupling ? add_tangent<dim, true> : add_tangent<dim, false>;
+          add(c,
+              trial.weight(p),
+              tau,
+              coupling,
+              trial.grad_N(p),
+              n_own,
+              n_nodes,
+              local.matrix);
         }
     }
 
@@ -174,12 +257,16 @@ namespace moraine
         {
           const double v =
             block.share(p) * state.integration_volume(block.points[p]);
-          const double *DEAL_II_RESTRICT g = block.grad_N(p)->begin_raw();
-          for (unsigned int r = 0; r < n; ++r)
+          const double *DEAL_II_RESTRICT g   = block.grad_N(p)->begin_raw();
+          double *DEAL_II_RESTRICT       row = G;
+          for (unsigned int r = 0; r < n; ++r, row += n)
             {
+              // Of a node of other points only.
+              if (fixed_n_nodes == 0 && g[r] == 0.)
+                continue;
               const double v_g_r = v * g[r];
-              for (unsigned int s = 0; s < n; ++s)
-                G[r * n + s] += v_g_r * g[s];
+              for (std::size_t s = 0; s < n; ++s)
+                row[s] += v_g_r * g[s];
             }
         }
     }
@@ -203,7 +290,8 @@ namespace moraine
 
 
 
-    /** Add the stiffness that the moments give with an isotropic C. */
+    /** Add the stiffness that the moments give with an isotropic C, to the
+     * upper triangle of node pairs. */
     template <int dim>
     void
     add_stiffness(const std::vector<double> &moments,
@@ -213,7 +301,7 @@ namespace moraine
     {
       const unsigned int n = dim * n_nodes;
       for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int b = a; b < n_nodes; ++b)
           {
             const double *G     = &moments[dim * a * n + dim * b];
             double       *K     = &matrix(dim * a, dim * b);
@@ -310,31 +398,19 @@ namespace moraine
             LameConstants C = material.elastic_stiffness();
             if (has_means)
               {
-                local.dilatation.add_modulus(C.lambda + 2. * C.mu / dim);
+                local.dilatation.add_modulus(C.lambda + 2. * C.mu / dim,
+                                             local.matrix);
                 C.lambda = -2. * C.mu / dim;
               }
             sum_moments(state, block, begin, end, local.moments);
             add_stiffness<dim>(local.moments, block.n_nodes, C, local.matrix);
           }
         else if (with_tangent)
-          {
-            for (unsigned int p = 0; p < trial.n_points(); ++p)
-              {
-                const VoigtMatrix<dim> c = trial.tangent(p);
-                add_tangent<dim>(has_means ?
-                                   local.dilatation.take_volumetric(p, c) :
-                                   c,
-                                 trial.weight(p),
-                                 trial.is_finite() ? &trial.stress(p) : nullptr,
-                                 has_means,
-                                 trial.grad_N(p),
-                                 block.n_nodes,
-                                 local.matrix);
-              }
-            mirror<dim>(block.n_nodes, local.matrix);
-          }
+          add_tangents(block.n_own_nodes, local);
         if (has_means)
           local.dilatation.end(with_tangent, local.force, local.matrix);
+        if (with_tangent)
+          mirror<dim>(block.n_nodes, local.matrix);
       }
   }
 

@@ -9,6 +9,62 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Add @f$c\, x y^T@f$, and if there is z @f$y z^T@f$, of vectors of nodes
+     * to the upper triangle of node pairs. */
+    template <int dim, bool has_z>
+    void
+    add_upper(const double                       c,
+              const std::vector<Tensor<1, dim>> &x,
+              const std::vector<Tensor<1, dim>> &y,
+              const Tensor<1, dim>              *z,
+              FullMatrix<double>                &matrix)
+    {
+      const unsigned int n = x.size();
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          // A node of other points of the block only.
+          if (!has_z && x[a].norm_square() == 0.)
+            continue;
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              const double             x_ai = c * x[a][i], y_ai = y[a][i];
+              double *DEAL_II_RESTRICT row = &matrix(dim * a + i, dim * a);
+              for (std::size_t b = a; b < n; ++b, row += dim)
+                for (unsigned int j = 0; j < dim; ++j)
+                  row[j] += x_ai * y[b][j] + (has_z ? y_ai * z[b][j] : 0.);
+            }
+        }
+    }
+
+
+
+    /** Add @f$-\frac2n (s \otimes 1 + 1 \otimes s + p\, 1 \otimes 1)
+     * + 2 p\, I@f$ of a stress s + p 1. */
+    template <int dim>
+    void
+    add_stress_part(const SymmetricTensor<2, 3> &s,
+                    const double                 p,
+                    VoigtMatrix<dim>            &c)
+    {
+      constexpr unsigned int n_v   = n_voigt<dim>;
+      constexpr auto         pairs = voigt_pairs<dim>();
+      for (unsigned int I = 0; I < n_v; ++I)
+        {
+          c[I][I] += (I < dim ? 2. : 1.) * p;
+          const double s_I = s[pairs[I][0]][pairs[I][1]];
+          for (unsigned int J = 0; J < dim; ++J)
+            {
+              c[I][J] -= 2. / dim * (s_I + (I < dim ? p : 0.));
+              c[J][I] -= 2. / dim * s_I;
+            }
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   MeanDilatation<dim>::begin(const TrialPoints<dim> &trial_,
@@ -18,9 +74,11 @@ namespace moraine
     n_nodes              = n_nodes_;
     finite               = trial_.is_finite();
     const unsigned int m = trial_.n_means();
+    // A point of its own costs a product of nodes, a cell two.
+    by_points = m > 1 && trial_.n_points() <= 2 * m;
     P.assign(m, 0.);
-    k.assign(m * m, 0.);
-    Q.assign(m * n_nodes, Tensor<1, dim>());
+    Q.clear();
+    k.assign(by_points ? 0 : m * m, 0.);
   }
 
 
@@ -34,6 +92,39 @@ namespace moraine
     for (unsigned int c = 0; c < P.size(); ++c)
       P[c] += w_p * trial->mean_weight(i, c);
     return stress;
+  }
+
+
+
+  template <int dim>
+  void
+  MeanDilatation<dim>::find_mean_gradients(const unsigned int i)
+  {
+    constexpr unsigned int n_corners = CellMeanBlock<dim>::n_corners;
+    mean_gradients.assign(n_nodes, Tensor<1, dim>());
+    for (unsigned int c = 0; c < P.size(); ++c)
+      {
+        const double omega = trial->mean_weight(i, c);
+        if (omega == 0.)
+          continue;
+        const Tensor<1, dim> *g      = trial->mean_gradients(c);
+        const unsigned int   *places = trial->mean_places(c);
+        for (unsigned int a = 0; a < n_corners; ++a)
+          mean_gradients[places[a]] += omega * g[a];
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  MeanDilatation<dim>::sum_moduli(const unsigned int i, const double modulus)
+  {
+    const unsigned int m = P.size();
+    for (unsigned int c = 0; c < m; ++c)
+      for (unsigned int d = 0; d < m; ++d)
+        k[c * m + d] +=
+          modulus * trial->mean_weight(i, c) * trial->mean_weight(i, d);
   }
 
 
@@ -59,8 +150,8 @@ namespace moraine
     for (unsigned int I = 0; I < dim; ++I)
       t[I] -= k_1 / dim;
 
-    constexpr auto          pairs = voigt_pairs<dim>();
-    SymmetricTensor<2, dim> T;
+    constexpr auto           pairs = voigt_pairs<dim>();
+    SymmetricTensor<2, dim> &T     = of_point.T;
     for (unsigned int I = 0; I < n_v; ++I)
       T[pairs[I][0]][pairs[I][1]] = t[I];
     double modulus = k_1 / (dim * dim);
@@ -69,23 +160,31 @@ namespace moraine
         SymmetricTensor<2, 3> stress = trial->stress(i);
         const double          p      = take_mean<dim>(stress);
         modulus += (2. / dim - 1.) * p;
+        add_stress_part<dim>(stress, p, rest);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = d; e < dim; ++e)
             T[d][e] += 2. * stress[d][e];
       }
-    const double          w = trial->weight(i);
+    const double w = trial->weight(i);
+    T *= w / dim;
+    of_point.modulus = w * modulus;
+    if (by_points)
+      {
+        find_mean_gradients(i);
+        of_point.mean_gradients = mean_gradients.data();
+        return rest;
+      }
     const Tensor<1, dim> *g = trial->grad_N(i);
     const unsigned int    m = P.size();
+    if (Q.empty())
+      Q.assign(m * n_nodes, Tensor<1, dim>());
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        const Tensor<1, dim> T_g = w * (T * g[a]);
+        const Tensor<1, dim> T_g = T * g[a];
         for (unsigned int c_ = 0; c_ < m; ++c_)
           Q[c_ * n_nodes + a] += trial->mean_weight(i, c_) * T_g;
       }
-    for (unsigned int c_ = 0; c_ < m; ++c_)
-      for (unsigned int d = 0; d < m; ++d)
-        k[c_ * m + d] +=
-          w * modulus * trial->mean_weight(i, c_) * trial->mean_weight(i, d);
+    sum_moduli(i, of_point.modulus);
     return rest;
   }
 
@@ -93,14 +192,21 @@ namespace moraine
 
   template <int dim>
   void
-  MeanDilatation<dim>::add_modulus(const double modulus)
+  MeanDilatation<dim>::add_modulus(const double        modulus,
+                                   FullMatrix<double> &matrix)
   {
-    const unsigned int m = P.size();
     for (unsigned int i = 0; i < trial->n_points(); ++i)
-      for (unsigned int c = 0; c < m; ++c)
-        for (unsigned int d = 0; d < m; ++d)
-          k[c * m + d] += trial->weight(i) * modulus *
-                          trial->mean_weight(i, c) * trial->mean_weight(i, d);
+      {
+        const double w_k = trial->weight(i) * modulus;
+        if (!by_points)
+          {
+            sum_moduli(i, w_k);
+            continue;
+          }
+        find_mean_gradients(i);
+        add_upper<dim, false>(
+          w_k, mean_gradients, mean_gradients, nullptr, matrix);
+      }
   }
 
 
@@ -119,15 +225,40 @@ namespace moraine
         for (unsigned int a = 0; a < n_corners; ++a)
           for (unsigned int i = 0; i < dim; ++i)
             force[dim * places[a] + i] -= P[c] * g[a][i];
-        for (unsigned int a = 0; tangent && finite && a < n_corners; ++a)
-          for (unsigned int b = 0; b < n_corners; ++b)
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                matrix(dim * places[a] + i, dim * places[b] + j) +=
-                  P[c] * (g[a][i] * g[b][j] - g[a][j] * g[b][i]);
       }
-    if (tangent)
+    if (tangent && finite)
+      add_pressures(matrix);
+    if (tangent && !by_points)
       add_products(matrix);
+  }
+
+
+
+  template <int dim>
+  void
+  MeanDilatation<dim>::add_pressures(FullMatrix<double> &matrix) const
+  {
+    constexpr unsigned int n_corners = CellMeanBlock<dim>::n_corners;
+    const unsigned int     n         = dim * n_nodes;
+    for (unsigned int c = 0; c < P.size(); ++c)
+      {
+        const Tensor<1, dim> *g      = trial->mean_gradients(c);
+        const unsigned int   *places = trial->mean_places(c);
+        for (unsigned int a = 0; a < n_corners; ++a)
+          for (unsigned int b = 0; b < n_corners; ++b)
+            if (places[a] < places[b])
+              {
+                double *K = &matrix(dim * places[a], dim * places[b]);
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = i + 1; j < dim; ++j)
+                    {
+                      const double v =
+                        P[c] * (g[a][i] * g[b][j] - g[a][j] * g[b][i]);
+                      K[i * n + j] += v;
+                      K[j * n + i] -= v;
+                    }
+              }
+      }
   }
 
 
@@ -137,33 +268,29 @@ namespace moraine
   MeanDilatation<dim>::add_products(FullMatrix<double> &matrix)
   {
     constexpr unsigned int n_corners = CellMeanBlock<dim>::n_corners;
-    const unsigned int     m = P.size(), n = dim * n_nodes;
-    // Half of the matrix: Q_c / n and half of sum_c' k_cc' g_c', times g_c.
-    half.assign(n * n, 0.);
+    const unsigned int     m         = P.size();
     for (unsigned int c = 0; c < m; ++c)
       {
-        Tensor<1, dim> *R = &Q[c * n_nodes];
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          R[a] /= dim;
+        // Q_c + sum_c' k_cc' g_c'
+        if (Q.empty())
+          factors.assign(n_nodes, Tensor<1, dim>());
+        else
+          factors.assign(&Q[c * n_nodes], &Q[c * n_nodes] + n_nodes);
+        mean_gradients.assign(n_nodes, Tensor<1, dim>());
         for (unsigned int d = 0; d < m; ++d)
           for (unsigned int b = 0; b < n_corners; ++b)
-            R[trial->mean_places(d)[b]] +=
-              0.5 * k[c * m + d] * trial->mean_gradients(d)[b];
-        const Tensor<1, dim> *g      = trial->mean_gradients(c);
-        const unsigned int   *places = trial->mean_places(c);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
             {
-              const double r   = R[a][i];
-              double      *row = &half[(dim * a + i) * n];
-              for (unsigned int b = 0; b < n_corners; ++b)
-                for (unsigned int j = 0; j < dim; ++j)
-                  row[dim * places[b] + j] += r * g[b][j];
+              const Tensor<1, dim> &g = trial->mean_gradients(d)[b];
+              factors[trial->mean_places(d)[b]] += k[c * m + d] * g;
+              if (d == c)
+                mean_gradients[trial->mean_places(c)[b]] = g;
             }
+        if (Q.empty())
+          add_upper<dim, false>(1., factors, mean_gradients, nullptr, matrix);
+        else
+          add_upper<dim, true>(
+            1., factors, mean_gradients, &Q[c * n_nodes], matrix);
       }
-    for (unsigned int r = 0; r < n; ++r)
-      for (unsigned int s = 0; s < n; ++s)
-        matrix(r, s) += half[r * n + s] + half[s * n + r];
   }
 
 

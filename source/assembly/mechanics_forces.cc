@@ -119,10 +119,12 @@ namespace moraine
 
   template <int dim>
   void
-  MechanicsSystem<dim>::count_work(const Term<dim> &term, const double work)
+  MechanicsSystem<dim>::count_work(const unsigned int i, const double work)
   {
-    if (term.work_kind() != WorkKind::none)
-      forces.works[unsigned(term.work_kind())] += work;
+    const WorkKind kind = terms[i]->work_kind();
+    if (kind != WorkKind::none)
+      forces.works[unsigned(kind)] += work;
+    forces.works_of_terms[i] += work;
   }
 
 
@@ -207,6 +209,19 @@ namespace moraine
 
 
   template <int dim>
+  void
+  MechanicsSystem<dim>::weigh_forces_at_start()
+  {
+    const double share = context.motion->integrator().start_forces();
+    if (!(share > 0) || forces_in_the_middle())
+      return;
+    forces.at_start = sum_of_kinds();
+    forces.at_start *= share;
+  }
+
+
+
+  template <int dim>
   double
   MechanicsSystem<dim>::unbalanced_share()
   {
@@ -229,16 +244,17 @@ namespace moraine
   LA::Vector
   MechanicsSystem<dim>::forces_and_mass()
   {
-    if (forces_in_the_middle())
-      find_forces_at_start();
-    LA::Vector at_start = sum_of_kinds();
-    constraints.condense(at_start);
-    context.motion->set_target(0., {});
+    context.motion->set_target_at_start();
+    // Those of begin_step() do not know the velocities of this step.
+    find_forces_at_start();
+    weigh_forces_at_start();
     sums.begin(true);
     add_terms([](const auto &term) { return term.is_inertia(); }, true);
-    LA::Vector none = state.grid().vector();
-    sums.end(none);
-    return at_start;
+    LA::Vector result = state.grid().vector();
+    sums.end(result);
+    result += sum_of_kinds();
+    constraints.condense(result);
+    return result;
   }
 
 
@@ -330,9 +346,9 @@ namespace moraine
   template void
   MechanicsSystem<3>::set_target_of_motion();
   template void
-  MechanicsSystem<2>::count_work(const Term<2> &term, const double work);
+  MechanicsSystem<2>::count_work(const unsigned int, const double);
   template void
-  MechanicsSystem<3>::count_work(const Term<3> &term, const double work);
+  MechanicsSystem<3>::count_work(const unsigned int, const double);
   template void
   MechanicsSystem<2>::find_forces_at_start();
   template void
@@ -341,6 +357,10 @@ namespace moraine
   MechanicsSystem<3>::add_point_forces_by_kind();
   template void
   MechanicsSystem<3>::find_forces_at_start();
+  template void
+  MechanicsSystem<2>::weigh_forces_at_start();
+  template void
+  MechanicsSystem<3>::weigh_forces_at_start();
   template LA::Vector
   MechanicsSystem<2>::sum_of_kinds() const;
   template LA::Vector

@@ -154,12 +154,7 @@ namespace moraine
     if (!context.motion || forces_in_the_middle())
       return;
     find_forces_at_start();
-    const double share = context.motion->integrator().start_forces();
-    if (share > 0)
-      {
-        forces.at_start = sum_of_kinds();
-        forces.at_start *= share;
-      }
+    weigh_forces_at_start();
   }
 
 
@@ -314,11 +309,12 @@ namespace moraine
   void
   MechanicsSystem<dim>::add_point_terms(const Which &which, const bool tangent)
   {
-    std::vector<const PointTerm<dim> *> point_terms;
-    for (const auto &term : terms)
-      if (const auto *of_points = dynamic_cast<PointTerm<dim> *>(term.get()))
-        if (which(*term))
-          point_terms.push_back(of_points);
+    std::vector<std::pair<unsigned int, const PointTerm<dim> *>> point_terms;
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      if (const auto *of_points =
+            dynamic_cast<PointTerm<dim> *>(terms[i].get()))
+        if (which(*terms[i]))
+          point_terms.emplace_back(i, of_points);
     if (point_terms.empty())
       return;
     StencilBlock<dim> block;
@@ -329,13 +325,13 @@ namespace moraine
         state.evaluate(g, block);
         local.reinit(state, block.nodes, block.n_nodes, tangent);
         double before = 0;
-        for (const auto *term : point_terms)
+        for (const auto &[i, term] : point_terms)
           {
             term->add(context, block, tangent, local);
-            if (!context.motion)
+            if (!sums.counts_work())
               continue;
             const double work = local.work();
-            count_work(*term, work - before);
+            count_work(i, work - before);
             before = work;
           }
         sums.add(local, tangent && local.failure.empty());
@@ -348,17 +344,18 @@ namespace moraine
   void
   MechanicsSystem<dim>::add_terms(const Which &which, const bool tangent)
   {
-    scale.stabilising_squares = 0;
+    scale.stabilising_squares.assign(terms.size(), 0.);
+    forces.works_of_terms.assign(terms.size(), 0.);
     add_point_terms(which, tangent);
-    for (const auto &term : terms)
-      if (which(*term))
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      if (which(*terms[i]))
         {
           const double before      = sums.sum_of_squares();
           const double work_before = sums.work();
-          term->add(context, tangent, sums);
-          count_work(*term, sums.work() - work_before);
-          if (term->stabilises())
-            scale.stabilising_squares += sums.sum_of_squares() - before;
+          terms[i]->add(context, tangent, sums);
+          count_work(i, sums.work() - work_before);
+          if (terms[i]->stabilises())
+            scale.stabilising_squares[i] = sums.sum_of_squares() - before;
         }
   }
 
@@ -381,6 +378,11 @@ namespace moraine
         predicted = state.nodal_increments();
         state.reject();
       }
+    sums.count_work(
+      context.motion ||
+      std::any_of(terms.begin(), terms.end(), [](const auto &term) {
+        return term->stabilises();
+      }));
     sums.begin(tangent, predicted);
     forces.works.fill(0.);
     add_terms([](const auto &term) { return !term.is_dead(); }, tangent);
@@ -442,14 +444,31 @@ namespace moraine
 
 
   template <int dim>
-  double
-  MechanicsSystem<dim>::share_of_stabilisation() const
+  typename MechanicsSystem<dim>::Share
+  MechanicsSystem<dim>::share(const Which &which) const
   {
-    const double squares = Utilities::MPI::sum(scale.stabilising_squares,
-                                               state.grid().communicator());
+    const MPI_Comm      communicator = state.grid().communicator();
+    std::vector<double> squares(scale.stabilising_squares);
+    std::vector<double> works(forces.works_of_terms);
+    Utilities::MPI::sum(squares, communicator, squares);
+    Utilities::MPI::sum(works, communicator, works);
+    double of_which = 0, work = 0, largest = 0;
+    // A body that flies has hardly any work to compare with.
+    if (context.motion)
+      largest = std::max(context.motion->works().kinetic_at_start,
+                         context.motion->works().kinetic);
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      if (which(*terms[i]))
+        {
+          of_which += squares[i];
+          work += works[i];
+        }
+      else
+        largest = std::max(largest, std::abs(works[i]));
     // A step may end without any force.
-    const double forces = std::max(scale.now, scale.at_start);
-    return forces > 0 ? std::sqrt(squares) / forces : 0.;
+    const double all_forces = std::max(scale.now, scale.at_start);
+    return {all_forces > 0 ? std::sqrt(of_which) / all_forces : 0.,
+            largest > 0 ? std::abs(work) / largest : 0.};
   }
 
 

@@ -35,7 +35,8 @@ namespace moraine
       nitsche_factor,
       "Of Nitsche's method: gamma in gamma/h, > 0. In dynamics, "
       "and of the symmetric one with finite strain, the depth "
-      "of the material in the cell takes the place of h.",
+      "of the material in the cell takes the place of h; "
+      "elsewhere the symmetric one has at least 4 over this depth.",
       Patterns::Double(1e-12));
     prm.add_parameter("Penalty factor",
                       penalty_factor,

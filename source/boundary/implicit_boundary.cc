@@ -27,12 +27,6 @@ namespace moraine
 
 
 
-    /** Of the cell size: cells filled less follow their neighbours by default,
-     * and what lies in a cell without a point would be nothing. */
-    constexpr double smallest_depth = 0.1;
-
-
-
     template <int dim>
     unsigned int
     n_gauss_points_in(const CellVertices<dim> &cell)
@@ -155,16 +149,21 @@ namespace moraine
                                     const double          search_tolerance,
                                     const bool            moves_points,
                                     const StrainMeasure   measure,
-                                    const bool            cells_changed)
+                                    const bool            cells_changed,
+                                    const bool            in_motion)
   {
-    t_start           = t;
-    moves_with_points = moves_points;
-    turns_multiplier  = moves_points && measure == StrainMeasure::finite &&
-                       constraint.kind == Constraint<dim>::fixed;
-    projects = moves_points && at_start.curved() &&
-               constraint.kind == Constraint<dim>::roller;
-    const bool moves = moves_points && motion.moves();
-    if (has_pieces && !cells_changed && !moves)
+    t_start = t;
+    const bool curved_roller =
+      at_start.curved() && constraint.kind == Constraint<dim>::roller;
+    const Kind before  = kind;
+    kind               = {moves_points,
+                          moves_points && curved_roller,
+                          moves_points && measure == StrainMeasure::finite &&
+                            constraint.kind == Constraint<dim>::fixed,
+                          how.augments && curved_roller && !in_motion};
+    const bool changes = kind.has_single_points != before.has_single_points;
+    const bool moves   = moves_points && motion.moves();
+    if (has_pieces && !cells_changed && !moves && !changes)
       {
         for (auto &point : boundary_points)
           point.depth = point.h;
@@ -181,8 +180,7 @@ namespace moraine
     boundary_points.clear();
     find_pieces(space, search_tolerance);
     evaluate_shapes(space);
-    if (how.carries_multiplier)
-      take_over_nearest(space.communicator());
+    take_over_nearest(space.communicator());
     kept_at_points = false;
     placed = has_pieces = true;
   }
@@ -247,7 +245,9 @@ namespace moraine
     std::vector<SurfacePoint<dim>> pieces;
     // The mesh as it was built decides, so that the points stay the same ones.
     at_start.pieces(vertices,
-                    n_gauss_points_in<dim>(vertices_of<dim>(cell)),
+                    kind.has_single_points ?
+                      1 :
+                      n_gauss_points_in<dim>(vertices_of<dim>(cell)),
                     pieces);
     for (const SurfacePoint<dim> &piece : pieces)
       {
@@ -338,7 +338,8 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::set_depths(const std::vector<double> &volumes)
+  ImplicitBoundary<dim>::set_depths(const std::vector<double> &volumes,
+                                    const double               share)
   {
     for (unsigned int begin = 0, end = 0; begin < boundary_points.size();
          begin = end)
@@ -352,7 +353,7 @@ namespace moraine
         const double h     = boundary_points[begin].h;
         const double depth = std::max(volumes[cell] / area, smallest_depth * h);
         for (unsigned int q = begin; q < end; ++q)
-          boundary_points[q].depth = std::min(depth, h);
+          boundary_points[q].depth = std::min(share * depth, h);
       }
   }
 
@@ -363,14 +364,14 @@ namespace moraine
   ImplicitBoundary<dim>::set_target(const double t_end)
   {
     move_target(t_end);
-    const Tensor<2, dim> turn = turns_multiplier ?
-                                  motion.pose(t_end).rotation() *
+    const Tensor<2, dim> turn  = kind.turns_multiplier ?
+                                   motion.pose(t_end).rotation() *
                                     transpose(motion.pose(t_start).rotation()) :
-                                  Tensor<2, dim>(unit_symmetric_tensor<dim>());
+                                   Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    const bool           takes = how.carries_multiplier || t_end == t_start;
     for (auto &point : boundary_points)
-      point.multiplier = how.carries_multiplier ?
-                           turn * point.multiplier_at_start :
-                           Tensor<1, dim>();
+      point.multiplier =
+        takes ? turn * point.multiplier_at_start : Tensor<1, dim>();
   }
 
 
@@ -380,7 +381,7 @@ namespace moraine
   ImplicitBoundary<dim>::move_target(const double t_end)
   {
     const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);
-    at_end.set_pose(moves_with_points ? end : at_start.pose());
+    at_end.set_pose(kind.moves_with_points ? end : at_start.pose());
     for (auto &point : boundary_points)
       {
         const Point<dim> X = at_start.pose().inverse(point.x);
@@ -399,7 +400,7 @@ namespace moraine
                                           const bool in_the_middle) const
   {
     ConstraintState<dim> state;
-    if (projects)
+    if (kind.projects)
       {
         const Point<dim> x_end = point.x + du;
         state.normal           = at_end.normal(x_end);
@@ -417,7 +418,7 @@ namespace moraine
         state.violation = state.M * (du - point.prescribed);
       }
     state.push = state.normal;
-    if (projects && in_the_middle)
+    if (kind.projects && in_the_middle)
       {
         state.push += point.normal;
         state.push /= state.push.norm();
@@ -444,8 +445,6 @@ namespace moraine
   ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
                                  const std::vector<Tensor<1, dim>> &violations)
   {
-    if (!how.carries_multiplier)
-      return;
     const Placement<dim> &pose = at_start.pose();
     const Tensor<2, dim>  into_frame =
       constraint.kind == Constraint<dim>::roller ?
@@ -457,14 +456,16 @@ namespace moraine
         const auto    &point      = boundary_points[q];
         Tensor<1, dim> multiplier = tractions[q];
         // In the next step a roller pushes other material at the same place.
-        if (projects)
+        if (kind.projects)
           multiplier =
             std::copysign(multiplier.norm(), multiplier * point.normal) *
             point.normal;
+        const Tensor<1, dim> violation =
+          how.carries_multiplier ? point.accumulated_violation + violations[q] :
+                                   Tensor<1, dim>();
         prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
                        into_frame * multiplier,
-                       into_frame *
-                         (point.accumulated_violation + violations[q]),
+                       into_frame * violation,
                        {{point.cell, point.number}}};
       }
   }
@@ -475,8 +476,6 @@ namespace moraine
   void
   ImplicitBoundary<dim>::keep() noexcept
   {
-    if (!how.carries_multiplier)
-      return;
     std::swap(carried, prepared);
     kept_at_points = true;
   }

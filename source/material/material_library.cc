@@ -201,11 +201,12 @@ namespace moraine
       patterns::selection({"linear elastic", "neo-Hookean", "von Mises"}));
     prm.add_parameter("Young modulus",
                       young_modulus,
-                      "Young's modulus E > 0 (stress).",
+                      "Young's modulus E > 0 (stress), required.",
                       patterns::number());
     prm.add_parameter("Poisson ratio",
                       poisson_ratio,
-                      "Poisson's ratio, larger than -1 and smaller than 0.5.",
+                      "Poisson's ratio, larger than -1 and smaller than 0.5, "
+                      "required.",
                       patterns::number());
     prm.add_parameter("Density",
                       density,

@@ -83,6 +83,13 @@ namespace moraine
   void
   BackgroundMesh<dim>::order_cells()
   {
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(tria.get_communicator());
+    if (tria.n_active_cells() < n_ranks)
+      throw InputError("section 'Mesh': found a mesh of " +
+                       std::to_string(tria.n_active_cells()) + " cell(s) on " +
+                       std::to_string(n_ranks) +
+                       " ranks, allowed: at least one for each of them");
     // As many parts as cells give every cell its place on the Z-curve.
     curve.resize(tria.n_active_cells());
     GridTools::partition_triangulation_zorder(curve.size(), tria, false);
@@ -109,9 +116,15 @@ namespace moraine
     Assert(total > 0, ExcInternalError());
     const unsigned int n_parts =
       Utilities::MPI::n_mpi_processes(tria.get_communicator());
-    for (unsigned int i = 0; i < curve.size(); ++i)
-      curve[i]->set_subdomain_id(
-        static_cast<types::subdomain_id>(n_parts * until_middle[i] / total));
+    // No part is without cells: its rank would wait for others for ever.
+    int part = -1;
+    for (int i = 0, n = curve.size(); i < n; ++i)
+      {
+        const int of_work = n_parts * until_middle[i] / total;
+        const int least   = std::max(part, int(n_parts) - (n - i));
+        part              = std::min(std::max(of_work, least), part + 1);
+        curve[i]->set_subdomain_id(part);
+      }
   }
 
 

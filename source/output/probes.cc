@@ -144,6 +144,34 @@ namespace moraine
 
 
   template <int dim>
+  unsigned int
+  Probes<dim>::body_of(const unsigned int id, const PointSet<dim> &points) const
+  {
+    unsigned int body = numbers::invalid_unsigned_int;
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      if (points.id(p) == id)
+        body = points.body(p);
+    return Utilities::MPI::min(
+      body, points.mesh().triangulation().get_communicator());
+  }
+
+
+
+  template <int dim>
+  bool
+  Probes<dim>::is_there(const unsigned int   body,
+                        const PointSet<dim> &points) const
+  {
+    unsigned int found = 0;
+    for (unsigned int p = 0; p < points.n_local() && found == 0; ++p)
+      found = points.body(p) == body;
+    return Utilities::MPI::max(
+             found, points.mesh().triangulation().get_communicator()) > 0;
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   Probes<dim>::displacement_of(const unsigned int   id,
                                const PointSet<dim> &points) const
@@ -211,9 +239,15 @@ namespace moraine
         {
           const Point<dim> where =
             moves_through_mesh ? probe.start + probe.displacement : probe.start;
-          probe.leaves_cells = !step_increment(where, probe.increment);
+          probe.leaves_cells   = !step_increment(where, probe.increment);
+          const bool with_body = is_there(probe.body, points);
           if (!probe.leaves_cells)
             {
+              if (!with_body)
+                {
+                  choose_point(where, points, probe);
+                  probe.body = body_of(probe.point_id, points);
+                }
               probe.v = probe.a = Tensor<1, dim>();
               if (velocity)
                 velocity(where, probe.v);
@@ -221,7 +255,7 @@ namespace moraine
                 acceleration(where, probe.a);
               continue;
             }
-          if (points.exchanged()) // it waits for a body
+          if (!with_body) // it waits for one
             {
               probe.leaves_cells = false;
               probe.increment = probe.v = probe.a = Tensor<1, dim>();
@@ -379,17 +413,19 @@ namespace moraine
   void
   Probes<dim>::write(Archive &archive) const
   {
-    std::vector<unsigned int> ids, left;
+    std::vector<unsigned int> ids, bodies, left;
     std::vector<double>       displacements;
     for (const Probe &probe : probes)
       {
         ids.push_back(probe.point_id);
+        bodies.push_back(probe.body);
         left.push_back(probe.has_left ? 1 : 0);
         for (const Tensor<1, dim> &u :
              {probe.displacement, probe.ahead, probe.before_reset})
           displacements.insert(displacements.end(), u.begin_raw(), u.end_raw());
       }
     archive.write("probes/point", std::move(ids));
+    archive.write("probes/body", std::move(bodies));
     archive.write("probes/has_left", std::move(left));
     archive.write("probes/displacement",
                   std::move(displacements),
@@ -404,6 +440,7 @@ namespace moraine
   Probes<dim>::read(const Archive &archive)
   {
     const auto &ids           = archive.integers("probes/point");
+    const auto &bodies        = archive.integers("probes/body");
     const auto &left          = archive.integers("probes/has_left");
     const auto &displacements = archive.numbers("probes/displacement", 3 * dim);
     AssertThrow(ids.size() == probes.size(),
@@ -412,6 +449,7 @@ namespace moraine
       {
         Probe &probe   = probes[i];
         probe.point_id = ids[i];
+        probe.body     = bodies[i];
         probe.has_left = left[i] != 0;
         auto from      = displacements.begin() + 3 * dim * i;
         for (Tensor<1, dim> *u :

@@ -42,15 +42,19 @@ namespace moraine
       json["rejected_steps"]         = summary.rejected_steps;
       json["pseudo_transient_steps"] = summary.n_pseudo_transient;
       json["newton_iterations"]      = summary.newton_iterations;
-      json["linear_iterations"]      = summary.linear_iterations;
+      json["linear_iterations"]      = summary.linear.iterations;
       if (summary.condition_number)
         json["condition_number"] = *summary.condition_number;
+      if (summary.ghost_term)
+        json["ghost_term"] = object_of(Summary::List<double>{
+          {"share_of_forces", summary.ghost_term->of_forces},
+          {"share_of_work", summary.ghost_term->of_work}});
       json["bytes_per_point"] = summary.sizes.bytes_per_point;
       json["peak_memory_mib"] = summary.sizes.peak_memory_mib;
       json["wall_seconds"]    = summary.wall_seconds;
       json["timings"]         = object_of(summary.timings);
       json["effects"]         = summary.effects;
-      json["linear_solvers"]  = summary.linear_solvers;
+      json["linear_solvers"]  = summary.linear.solvers;
       if (!summary.warnings.empty())
         json["warnings"] = summary.warnings;
       if (!summary.errors.empty())

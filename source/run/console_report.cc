@@ -161,7 +161,11 @@ namespace moraine
   {
     console << "  method      " << scene.method.method << ", Q"
             << scene.method.degree << ", mesh "
-            << words_for(model.state->mesh_after_step()) << '\n'
+            << words_for(model.state->mesh_after_step())
+            << (scene.method.volumetric() == VolumetricStrain::cell_mean ?
+                  ", volumetric strain: cell means" :
+                  "")
+            << '\n'
             << "  mesh        "
             << model.mesh->triangulation().n_global_active_cells() << " cells, "
             << model.space->n_active_cells() << " active, "
@@ -394,6 +398,11 @@ namespace moraine
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
             << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
+    if (summary.ghost_term)
+      console << "  ghost term: at most " << std::setprecision(2)
+              << 100 * summary.ghost_term->of_forces << " % of the forces and "
+              << 100 * summary.ghost_term->of_work
+              << " % of the work of a step\n";
     if (summary.status != "ok")
       console << "  ended early: " << summary.message << '\n';
     console << "" << std::flush;

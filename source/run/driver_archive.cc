@@ -50,6 +50,10 @@ namespace moraine
       archive.write_text("run/linear_solver", counts.linear_solver);
       archive.write("run/tried_stiffness_of_empty_parts",
                     counts.n_fictitious_stiffness);
+      if (counts.ghost_term)
+        archive.write("run/largest_shares_of_ghost_term",
+                      std::vector<double>{counts.ghost_term->of_forces,
+                                          counts.ghost_term->of_work});
       archive.write_text("run/warnings", as_lines(counts.warnings));
     }
 
@@ -68,6 +72,12 @@ namespace moraine
       counts.linear_solver = archive.text("run/linear_solver");
       counts.n_fictitious_stiffness =
         archive.integer("run/tried_stiffness_of_empty_parts");
+      const std::string ghost_shares = "run/largest_shares_of_ghost_term";
+      if (archive.contains(ghost_shares))
+        {
+          const auto &shares = archive.numbers(ghost_shares);
+          counts.ghost_term  = {shares[0], shares[1]};
+        }
       counts.warnings = lines_of(archive.text("run/warnings"));
       return counts;
     }

@@ -21,8 +21,9 @@ namespace moraine
 
 
 
-  EnergyWatch::EnergyWatch(const double round_off)
+  EnergyWatch::EnergyWatch(const double round_off, const std::string &remedies)
     : round_off(round_off)
+    , of_method(remedies.empty() ? "" : ", or in section 'Method' " + remedies)
   {}
 
 
@@ -70,17 +71,17 @@ namespace moraine
     const double transferred = -works.lost_in_transfer;
     if (held >= std::max(made, transferred))
       text << "It comes from boundaries that hold: another 'Enforcement' "
-              "('augmented Lagrangian', 'penalty'), a larger 'Nitsche factor', "
-              "or 'Aggregate below = 0.1' in section 'Method' where they cut "
-              "cells";
+              "('augmented Lagrangian', 'penalty') or a larger 'Nitsche "
+              "factor'"
+           << of_method;
     else if (made >= transferred)
       text << "It comes from the integrator: shorter steps, or 'Integrator = "
               "energy-momentum' or 'generalised-alpha' in section 'Time'";
     else
       text << "It comes from carrying velocities between nodes and points: "
               "another 'Velocity transfer' or 'Integrator = "
-              "generalised-alpha' in section 'Time', or 'Aggregate below = "
-              "0.1' in section 'Method'";
+              "generalised-alpha' in section 'Time'"
+           << of_method;
     return text.str();
   }
 

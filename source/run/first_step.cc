@@ -5,6 +5,7 @@
 
 #include <moraine/boundary/condition_agreement.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/expression.h>
 #include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
@@ -77,6 +78,77 @@ namespace moraine
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
+    }
+
+
+
+    /** The change of a displacement acts: what it is at the start would be lost
+     * without a word. @param largest component where the part acts. */
+    template <int dim>
+    void
+    refuse_displacement_at_start(const std::string &section,
+                                 const std::string &found,
+                                 const double       largest,
+                                 const Model<dim>  &model)
+    {
+      const double round_off =
+        1e-9 * model.mesh->triangulation().begin_active()->diameter();
+      if (Utilities::MPI::max(largest, model.space->communicator()) > round_off)
+        reject(section,
+               "Displacement",
+               found,
+               "one that is 0 at the start, as only its change over time acts; "
+               "-0.01*t reaches -0.01 at t = 1");
+    }
+
+
+
+    template <int dim>
+    void
+    check_displacements_at_start(const Scene<dim> &scene,
+                                 const Model<dim> &model)
+    {
+      const double           t     = scene.start_time();
+      const StageParameters &stage = scene.stages.front().second;
+      for (const auto &condition : model.grid_conditions)
+        if (contains(stage.grid_conditions, condition.name) &&
+            !contains(stage.absorbing, condition.name))
+          {
+            double largest = 0;
+            for (const auto &entry :
+                 find_prescribed_nodes<dim>({condition}, *model.space, t)
+                   .entries)
+              {
+                const Point<dim> x = model.space->node_position(entry.node);
+                largest =
+                  std::max(largest,
+                           std::abs(
+                             condition.displacement(x, t)[entry.component]));
+              }
+            for (const auto &[name, parameters] : scene.grid_conditions)
+              if (name == condition.name)
+                refuse_displacement_at_start("Grid conditions/" + name,
+                                             parameters.displacement,
+                                             largest,
+                                             model);
+          }
+      for (const auto &boundary : model.boundaries)
+        for (const auto &[name, parameters] : scene.boundaries)
+          if (name == boundary.name() && contains(stage.boundaries, name) &&
+              !parameters.displacement.empty())
+            {
+              const std::string     section = "Boundaries/" + name;
+              const Expression<dim> u(parameters.displacement,
+                                      place(section, "Displacement"),
+                                      dim);
+              double                largest = 0;
+              for (const auto &point : boundary.points())
+                largest = std::max(largest, u.vector_value(point.x, t).norm());
+              refuse_displacement_at_start(section,
+                                           parameters.displacement,
+                                           largest,
+                                           model);
+            }
     }
 
 
@@ -174,17 +246,25 @@ namespace moraine
 
     template <int dim>
     void
-    check_flux_of_boundaries(const Model<dim>         &model,
+    check_flux_of_boundaries(const Scene<dim>         &scene,
+                             const Model<dim>         &model,
                              std::vector<std::string> &notes)
     {
-      if (model.state->strain_measure() == StrainMeasure::finite)
-        for (const auto &boundary : model.boundaries)
-          if (boundary.enforcement().w_constrained > 0)
-            notes.push_back(
-              boundary.name() +
-              ": its flux is elastic and of the increment of a step; "
-              "'Enforcement = augmented Lagrangian' holds at any "
-              "strain");
+      const bool finite =
+        model.state->strain_measure() == StrainMeasure::finite;
+      const bool any_yields =
+        std::any_of(scene.materials.begin(),
+                    scene.materials.end(),
+                    [](const auto &named) { return named.second.yields(); });
+      for (const auto &boundary : model.boundaries)
+        if (boundary.enforcement().w_constrained > 0 && (finite || any_yields))
+          notes.push_back(
+            boundary.name() + ": its flux is elastic" +
+            (finite ? " and of the increment of a step; 'Enforcement = "
+                      "augmented Lagrangian' holds at any strain" :
+                      ", and beside material that yields its reaction is off "
+                      "by some per cent; 'Enforcement = augmented Lagrangian' "
+                      "has no flux"));
     }
   } // namespace
 
@@ -192,6 +272,19 @@ namespace moraine
 
   namespace
   {
+    /** Aim at the end of the first step of a stage: nodes that are held get
+     * the velocity and the acceleration that conditions prescribe. */
+    template <int dim>
+    void
+    set_first_target(const TimeParameters &time, Model<dim> &model)
+    {
+      model.system->set_target(
+        time.start_time +
+        time.largest_step * (time.end_time - time.start_time) / time.n_steps);
+    }
+
+
+
     /** Nodes that begin to move otherwise than conditions want are a mistake;
      * means of points around a node that is held need not be held as well.
      * Nodes that follow a root begin with what it has. */
@@ -202,12 +295,10 @@ namespace moraine
       const double allowed =
         model.state->mesh_after_step() == MeshAfterStep::reset ? 0.25 : 1e-6;
       const std::vector<Tensor<1, dim>> given = model.motion->velocities();
-      model.system->set_target(
-        time.start_time +
-        time.largest_step * (time.end_time - time.start_time) / time.n_steps);
+      set_first_target(time, model);
       const auto       &held = model.motion->velocities();
       std::vector<bool> follows(given.size(), false);
-      if (const auto *aggregates = model.state->aggregates())
+      if (const auto *aggregates = model.state->strict_aggregates())
         for (const auto &tie : aggregates->ties())
           follows[tie.node] = true;
       double       largest = 0, contradiction = 0;
@@ -239,20 +330,21 @@ namespace moraine
 
 
 
-    /** Accelerations from the balance of momentum, in a step that has begun.
-     */
+    /** Accelerations from the balance of momentum, in a step that has begun
+     * and has a target. */
     template <int dim>
     void
     find_accelerations(Model<dim> &model)
     {
-      const LA::Vector forces = model.system->forces_and_mass();
-      LA::Vector       a      = model.space->vector();
+      const LA::Vector missing = model.system->forces_and_mass();
+      LA::Vector       change  = model.space->vector();
       model.linear_solver->set_up(model.system->tangent(), true, {});
-      const LinearReport report = model.linear_solver->solve(a, forces);
+      const LinearReport report = model.linear_solver->solve(change, missing);
       if (!report.converged)
         throw ComputationError("accelerations at the start: " + report.message);
-      model.system->apply_constraints(a);
-      model.motion->set_accelerations(a);
+      model.system->apply_constraints(change);
+      change += model.space->vector_of(model.motion->accelerations());
+      model.motion->set_accelerations(change);
       model.linear_solver->clear();
     }
 
@@ -275,6 +367,19 @@ namespace moraine
       model.motion->begin_step();
       check_initial_velocity(stage.time, model);
       find_accelerations(model);
+    }
+
+
+
+    /** Whether what acts on the bodies may be another at the start of @p stage.
+     */
+    bool
+    forces_jump(const StageParameters &before, const StageParameters &stage)
+    {
+      return stage.bodies != before.bodies || stage.loads != before.loads ||
+             stage.boundaries != before.boundaries ||
+             stage.grid_conditions != before.grid_conditions ||
+             stage.absorbing != before.absorbing;
     }
 
 
@@ -350,9 +455,10 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
     check_prescribed_motion(stage, model, notes);
+    check_displacements_at_start(scene, model);
     check_loads(stage, model);
     check_sides_of_boundaries(model, notes);
-    check_flux_of_boundaries(model, notes);
+    check_flux_of_boundaries(scene, model, notes);
     model.probes->check_places(
       grid_evaluation<dim>(*model.space, model.state->nodal_increments()),
       model.points->exchanged());
@@ -419,8 +525,11 @@ namespace moraine
           model.motion->rest();
         check_that_it_is_held(t, model);
       }
-    else if (stage.bodies != before.bodies)
-      find_accelerations(model);
+    else if (forces_jump(before, stage))
+      {
+        set_first_target(stage.time, model);
+        find_accelerations(model);
+      }
     return notes;
   }
 

@@ -380,8 +380,11 @@ namespace moraine
       "lock, far too stiff, where the material hardly changes its volume (a "
       "Poisson ratio near 0.5, plastic flow). cell mean: the mean over the "
       "cell, by volume (B-bar, with finite strain F-bar), of which a box has "
-      "its share in each cell.",
-      patterns::selection({"pointwise", "cell mean"}));
+      "its share in each cell. auto: cell mean if a material yields or has a "
+      "Poisson ratio above 0.4, but not with 'Degree = 2', methods of double "
+      "mapping, the integrator 'energy-momentum' and stiffness damping, which "
+      "cannot have it; pointwise otherwise.",
+      patterns::selection({"auto", "pointwise", "cell mean"}));
     prm.add_parameter(
       "Domain update",
       domain_update,
@@ -422,6 +425,21 @@ namespace moraine
       "0.5, bodies that bend far need fewer iterations; coarse meshes get "
       "less exact.",
       Patterns::Double(0., 1.));
+    prm.add_parameter(
+      "Cut cells",
+      cut_cells,
+      "How nodes only of such cells follow. aggregation: exactly. ghost: they "
+      "are held to it by springs that resist the increment of a step and then "
+      "are forgotten.",
+      patterns::selection({"aggregation", "ghost"}));
+    prm.add_parameter(
+      "Ghost factor",
+      ghost_factor,
+      "Stiffness of these springs over shear modulus times cell size (in 2D "
+      "times the thickness 1), and in dynamics their mass over that of a full "
+      "cell. Less holds nodes less; more is as aggregation, but multigrid "
+      "takes more iterations.",
+      patterns::positive());
     prm.add_parameter(
       "Fictitious stiffness",
       fictitious_stiffness,
@@ -508,8 +526,13 @@ namespace moraine
                names_where<dim>([](const auto &m) { return m.can_fit_weights; },
                                 "") +
                " with 'reset' fits");
-    if (volumetric() == VolumetricStrain::cell_mean &&
-        !(kind.can_average_volume && degree == 1))
+    if (has_ghost_term() && aggregate_below == 0)
+      reject("Method",
+             "Cut cells",
+             cut_cells,
+             "aggregation with 'Aggregate below = 0', by which no node is "
+             "held");
+    if (volumetric() == VolumetricStrain::cell_mean && !can_average_volume())
       reject("Method",
              "Volumetric strain",
              volumetric_strain,

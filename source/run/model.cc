@@ -126,7 +126,7 @@ namespace moraine
                                          scene.method.weights(),
                                          scene.method.volumetric());
     if (const double fill = scene.method.aggregate_below; fill > 0)
-      state->aggregate_below(fill);
+      state->aggregate_below(fill, scene.method.has_ghost_term());
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);
     loads                = make_loads(scene, *mesh, body_names);
@@ -201,8 +201,15 @@ namespace moraine
             }))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
-    if (state->aggregates())
+    if (state->strict_aggregates())
       terms.push_back(std::make_unique<Aggregation<dim>>());
+    else if (state->aggregates())
+      {
+        const double factor = scene.method.ghost_factor;
+        terms.push_back(std::make_unique<GhostStiffness<dim>>(factor));
+        if (integrator.dynamic())
+          terms.push_back(std::make_unique<GhostMass<dim>>(factor));
+      }
     const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
     if (integrator.dynamic() &&
         std::any_of(damping.begin(), damping.end(), [](const auto &factors) {

@@ -171,7 +171,7 @@ def main():
     if folder and not args.output:
         folder.mkdir(exist_ok=True)
     if args.history is None:
-        render.under_display()
+        render.start_display()
     both = args.history is None and args.field is None and not args.output
     if args.history is not None or both:
         path = args.output or folder / "history.png"

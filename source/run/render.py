@@ -5,40 +5,53 @@
 Points are drawn as discs (balls in 3D) of the size of their volume, meshes and
 the domains of points as cells with their edges; walls can be added as lines.
 Several files become panels of one picture, with the same axes and colours.
-Needs python3-vtk9, and a display for which under_display() sees.
+Needs python3-vtk9, and the display of start_display().
 """
 
+import atexit
 import math
 import os
 import shutil
+import subprocess
 import sys
 
 TENSOR = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"]
 VECTOR = ["x", "y", "z"]
 
 
-HAS_DISPLAY = "MORAINE_PLOT_HAS_DISPLAY"
-
-
 def fail(message):
     sys.exit(f"moraine plot: {message}")
 
 
-def under_display():
+def start_display():
     """Debian's VTK draws with X only, and ends the program where no X server
-    answers. So this program starts itself anew below one of its own."""
-    if os.environ.get(HAS_DISPLAY):
-        return
-    for tool in ("xvfb-run", "xauth"):
-        if not shutil.which(tool):
-            fail(f"fields are drawn below {tool}, which is not here "
-                 "(Debian packages xvfb and xauth)")
-    os.environ[HAS_DISPLAY] = "1"
+    answers. So it draws on a server of this program, which shows nothing."""
+    if not shutil.which("Xvfb"):
+        fail("fields are drawn on Xvfb, which is not here (Debian package "
+             "xvfb)")
     # A server that is going down takes the socket of its number with it, also
-    # from the next one: each run looks for a free number from another one on.
-    first = str(100 + os.getpid() % 50000)
-    os.execvp("xvfb-run",
-              ["xvfb-run", "-n", first, "-a", sys.executable] + sys.argv)
+    # from the next one: each run takes numbers of its own.
+    for number in (100 + (os.getpid() + 997 * i) % 50000 for i in range(10)):
+        ready, of_server = os.pipe()
+        # By default it starts anew, deaf for a moment, when a client leaves.
+        server = subprocess.Popen(
+            ["Xvfb", f":{number}", "-displayfd", str(of_server), "-noreset",
+             "-nolisten", "tcp", "-screen", "0", "1280x1024x24"],
+            pass_fds=[of_server], stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
+        os.close(of_server)
+        with open(ready) as answer:
+            if answer.readline():
+                atexit.register(stop, server)
+                os.environ["DISPLAY"] = f":{number}"
+                return
+        stop(server)
+    fail("Xvfb, on which fields are drawn, does not start")
+
+
+def stop(server):
+    server.terminate()
+    server.wait()
 
 
 def load_vtk():
@@ -475,7 +488,7 @@ def write_table(panels, path):
 
 def draw(args, path):
     """Draw args.files as the PNG file `path`, or write a CSV table of them.
-    First of all call under_display()."""
+    First of all call start_display()."""
     load_vtk()
     panels = [Panel(args, i) for i in range(len(args.files))]
     if path.endswith(".csv"):

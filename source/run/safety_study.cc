@@ -34,6 +34,7 @@ namespace moraine
     {
       std::string                 title;
       StrengthReductionParameters parameters;
+      bool                        points_move;
     };
 
 
@@ -42,7 +43,9 @@ namespace moraine
     read_scene(const InputFile &input)
     {
       const auto of = [](const auto &scene) {
-        return SceneOfSafety{scene.title, scene.strength_reduction};
+        return SceneOfSafety{scene.title,
+                             scene.strength_reduction,
+                             scene.method.after_step() != MeshAfterStep::keep};
       };
       return dimension_of(input) == 2 ? of(Scene<2>(input)) :
                                         of(Scene<3>(input));
@@ -233,7 +236,7 @@ namespace moraine
   void
   SafetyStudy::print_head(const StudyCase &study_case)
   {
-    const auto [title, parameters] = read_scene(study_case.input);
+    const auto [title, parameters, points_move] = read_scene(study_case.input);
     console << (title.empty() ? "" : title + "\n")
             << (study_case.label.empty() ? "" : "  " + study_case.label + "\n")
             << "  shear strength of "
@@ -241,7 +244,13 @@ namespace moraine
                                                list_of(parameters.materials))
             << " over F; F from " << parameters.lower_factor << " to "
             << parameters.upper_factor << ", to within " << parameters.tolerance
-            << "\n\n"
+            << '\n'
+            << (points_move ?
+                  "  note: points move with the soil, and soil that failed may "
+                  "come to rest in another\n        shape and count as "
+                  "standing; 'Mesh after step = keep' finds where it begins\n" :
+                  "")
+            << '\n'
             << "       F  result                steps  rejected  Newton  "
                "seconds\n";
     console.stream() << std::flush;

@@ -10,6 +10,7 @@
 #include <moraine/run/renamed_keys.h>
 #include <moraine/run/scene_bodies.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace moraine
@@ -34,8 +35,8 @@ namespace moraine
     prm.add_parameter("Initial velocity",
                       initial_velocity,
                       "In dynamics: of its points at the start, an expression "
-                      "of x for each component, separated by semicolons. If "
-                      "left out, the body is at rest.");
+                      "of x for each component, separated by semicolons (t is "
+                      "'Start time' in it). If left out, the body is at rest.");
     initial_stress.add_parameters(prm, dim);
     damping.add_parameters(prm);
     shape.add_parameters(prm);
@@ -141,7 +142,8 @@ namespace moraine
       "Displacement",
       displacement,
       "Prescribed displacement of the material relative to the moving surface "
-      "(length), dim expressions in x, y, z, t separated by ';'.");
+      "(length), dim expressions in x, y, z, t separated by ';'. Its change "
+      "over time acts; it is 0 at the start.");
     motion.add_parameters(prm, "the surface");
     prm.add_parameter(
       "Penetration limit",
@@ -186,7 +188,8 @@ namespace moraine
     prm.add_parameter("Displacement",
                       displacement,
                       "Prescribed displacement (length), dim expressions in x, "
-                      "y, z, t separated by ';'; zero if left out.");
+                      "y, z, t separated by ';'; zero if left out. Its change "
+                      "over time acts; it is 0 at the start.");
     motion.add_parameters(prm, "the nodes");
     prm.add_parameter("Constraint",
                       constraint,
@@ -208,7 +211,8 @@ namespace moraine
       type,
       "body force (force/volume), gravity (acceleration, times density), side "
       "traction (force/area on a side of the mesh), surface traction "
-      "(force/area on a surface carried by the material), point force (force "
+      "(force on a surface carried by the material, a dead load per area of "
+      "the undeformed body), point force (force "
       "at a place that the mesh carries along), force on points (force on the "
       "material points nearest to a place at the start).",
       patterns::selection({"body force",
@@ -370,6 +374,8 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
+    if (method.volumetric_strain == "auto")
+      choose_volumetric_strain(given);
     check(input, given);
   }
 
@@ -449,6 +455,34 @@ namespace moraine
           prm.set("Band width", 0.01);
         prm.leave_subsection();
       }
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_volumetric_strain(
+    const std::vector<InputFile::Entry> &given)
+  {
+    const bool hardly_changes =
+      std::any_of(materials.begin(), materials.end(), [](const auto &named) {
+        return named.second.hardly_changes_volume();
+      });
+    const bool conserves =
+      std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+        return named.second.time.integrator.integrator == "energy-momentum";
+      });
+    const bool is_damped =
+      std::any_of(given.begin(), given.end(), [](const auto &entry) {
+        return contains({"Stiffness damping", "Damping ratio"}, entry.key);
+      });
+    prm.enter_subsection("Method");
+    prm.set("Volumetric strain",
+            hardly_changes && method.can_average_volume() && !conserves &&
+                !is_damped ?
+              std::string("cell mean") :
+              std::string("pointwise"));
     prm.leave_subsection();
   }
 

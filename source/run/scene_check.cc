@@ -245,6 +245,12 @@ namespace moraine
                entry.key,
                entry.value,
                "nothing; a mesh of type '" + mesh.type + "' has no such key");
+      else if (entry.section == "Method" && entry.key == "Ghost factor" &&
+               !method.has_ghost_term())
+        reject("Method",
+               entry.key,
+               entry.value,
+               "nothing with 'Cut cells = " + method.cut_cells + "'");
     if (mesh.is_box())
       for (const char *key : {"Lower corner", "Upper corner"})
         input.require("Mesh", key);

@@ -135,11 +135,12 @@ namespace moraine
       summary.rejected_steps        = driver.time().n_rejected();
       summary.n_pseudo_transient    = counts.n_pseudo_transient;
       summary.newton_iterations     = counts.newton_iterations;
-      summary.linear_iterations     = counts.linear_iterations;
+      summary.linear.iterations     = counts.linear_iterations;
       summary.condition_number      = counts.condition_number;
+      summary.ghost_term            = counts.ghost_term;
       summary.sizes.bytes_per_point = model.points->bytes_per_point();
       summary.sizes.peak_memory_mib = memory_in_use(communicator).peak_mib;
-      summary.linear_solvers        = model.linear_solver->choices();
+      summary.linear.solvers        = model.linear_solver->choices();
       for (const Effect &effect : model.system->effects())
         summary.effects.push_back(effect.name);
       summary.warnings = counts.warnings;

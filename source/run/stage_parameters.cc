@@ -192,6 +192,15 @@ namespace moraine
                    boundary,
                    "names of boundaries and grid conditions that are active" +
                      suggest(boundary, active));
+          else if (!stage.time.integrator.dynamic())
+            reject(section,
+                   "Absorbing",
+                   boundary,
+                   "nothing; key 'Integrator' of section '" +
+                     time_section(name) +
+                     "' is 'quasi-static', and only waves are absorbed; it "
+                     "may stand in a stage with another 'Integrator', such as "
+                     "'Newmark'");
         if (before)
           stage.absorbing.insert(stage.absorbing.begin(),
                                  before->absorbing.begin(),

@@ -3,6 +3,7 @@
 
 #include <moraine/run/step_driver.h>
 
+#include <moraine/assembly/aggregation.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
 #include <moraine/core/words.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -33,6 +35,9 @@ namespace moraine
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
+
+    /** A ghost term that takes more of the work is told of. */
+    constexpr double told_ghost_share = 0.01;
 
     std::vector<TimeParameters>
     times_of(const NamedStages &stages)
@@ -327,8 +332,9 @@ namespace moraine
                            *model.points,
                            dynamic ? at(motion.v) : PlaceFunction<dim>(),
                            dynamic ? at(motion.a) : PlaceFunction<dim>());
-    const double t_start = time_control.time();
-    const double growth  = allowed_growth(x);
+    const std::string held    = share_of_ghost_term();
+    const double      t_start = time_control.time();
+    const double      growth  = allowed_growth(x);
     lasting.keep([&]() {
       last_reports = model.system->accept(x);
       model.probes->keep_step();
@@ -347,6 +353,8 @@ namespace moraine
     for (const std::string &warning :
          checks.of_step(time_control.time(), last_reports, largest))
       warn(warning);
+    if (!held.empty())
+      warn(held);
     std::optional<double> distance;
     if (was_pseudo_transient)
       {
@@ -360,6 +368,35 @@ namespace moraine
     const std::string failure = checks.failure();
     if (!failure.empty())
       throw ComputationError(failure);
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepDriver<dim>::share_of_ghost_term()
+  {
+    if (!method.has_ghost_term())
+      return "";
+    const auto   share = model.system->share([](const Term<dim> &term) {
+      return dynamic_cast<const GhostTerm<dim> *>(&term) != nullptr;
+    });
+    GhostShares &largest =
+      sums.ghost_term ? *sums.ghost_term : sums.ghost_term.emplace();
+    const double before = largest.of_work;
+    largest.of_forces   = std::max(largest.of_forces, share.of_forces);
+    largest.of_work     = std::max(largest.of_work, share.of_work);
+    if (before > told_ghost_share || !(largest.of_work > told_ghost_share))
+      return "";
+    std::ostringstream text;
+    text << "the ghost term took " << std::setprecision(2)
+         << 100 * largest.of_work
+         << " % of the work of the step to t = " << std::setprecision(6)
+         << time_control.trial_time()
+         << ": nodes of cut cells move otherwise than the cells beside them; a "
+            "larger 'Ghost factor' or 'Cut cells = aggregation' in section "
+            "'Method' ties them more";
+    return text.str();
   }
 
 
@@ -428,7 +465,10 @@ namespace moraine
              << " of a cell, more than Error tolerance = " << tolerance;
         return text.str();
       }
-    if (support && model.system->share_of_stabilisation() > largest_empty_share)
+    if (support &&
+        model.system
+            ->share([this](const Term<dim> &term) { return &term == support; })
+            .of_forces > largest_empty_share)
       return "what points leave empty would carry the load: too few points in "
              "the cells, or a body that is not held";
     return model.system->reason_to_reject(x);

@@ -257,7 +257,7 @@ namespace moraine
              << " times the deviatoric stress: do not trust it, nor forces and "
                 "displacements if material flows or hardly changes its volume";
         if (method.volumetric() == VolumetricStrain::pointwise &&
-            method.chosen().can_average_volume && method.degree == 1)
+            method.can_average_volume())
           text << "; there 'Volumetric strain = cell mean' in section 'Method' "
                   "helps";
         if (method.method == "material point")

@@ -91,7 +91,7 @@ namespace moraine
       number("steps", summary.steps);
       number("rejected_steps", summary.rejected_steps);
       number("newton_iterations", summary.newton_iterations);
-      number("linear_iterations", summary.linear_iterations);
+      number("linear_iterations", summary.linear.iterations);
       if (summary.condition_number)
         number("condition_number", *summary.condition_number);
       number("bytes_per_point", summary.sizes.bytes_per_point);
@@ -277,7 +277,7 @@ namespace moraine
         table.add_value("Newton",
                         or_dash(ok, std::to_string(summary.newton_iterations)));
         table.add_value("linear",
-                        or_dash(ok, std::to_string(summary.linear_iterations)));
+                        or_dash(ok, std::to_string(summary.linear.iterations)));
         if (conditioned)
           table.add_value("condition",
                           or_dash(summary.condition_number.has_value(),

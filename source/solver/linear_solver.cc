@@ -388,7 +388,10 @@ namespace moraine
         s.extra_iterations > SolverChoice::hierarchy_cost)
       s.make_multigrid();
     else
-      s.hierarchy_is_new = false;
+      {
+        renew_smoother(*s.multigrid);
+        s.hierarchy_is_new = false;
+      }
   }
 
 

@@ -7,6 +7,8 @@
 
 #include <deal.II/lac/trilinos_precondition.h>
 
+#include <ml_MultiLevelPreconditioner.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -88,11 +90,21 @@ namespace moraine
     const unsigned int             dim)
   {
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic              = symmetric;
+    data.elliptic              = true;
     data.aggregation_threshold = 1e-4;
-    data.smoother_sweeps       = 2;
+    data.smoother_sweeps       = symmetric ? 2 : 3;
     data.smoother_type = symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
     data.set_parameters(list, modes, matrix);
+    if (!symmetric)
+      {
+        // Rollers at an angle couple the components of a node firmly. Its
+        // block knows them in any axes; one component at a time, Gauss-Seidel
+        // is good where they follow the mesh. Coarse levels have other blocks,
+        // and ML ends the program if theirs do not come out even.
+        list.set("smoother: type (level 0)", "symmetric block Gauss-Seidel");
+        list.set("smoother: pre or post", "post");
+        list.set("eigen-analysis: type", "power-method");
+      }
     list.set("ML output", 0);
     // ML adds this number to the diagonal on the coarsest level: 1e-12,
     // whatever the unit of stiffness, unless told. It does not find the key
@@ -120,5 +132,30 @@ namespace moraine
     list.set("null space: vectors", modes->Values());
     if (unknowns_come_by_node(near_null_space, dim))
       list.set("PDE equations", static_cast<int>(dim));
+  }
+
+
+
+  void
+  renew_smoother(TrilinosWrappers::PreconditionAMG &multigrid)
+  {
+    const auto *ml = dynamic_cast<ML_Epetra::MultiLevelPreconditioner &>(
+                       multigrid.trilinos_operator())
+                       .GetML();
+    ML_Smoother &smoother = ml->post_smoother[ml->ML_finest_level];
+    if (smoother.data_destroy != ML_Smoother_Clean_BGS_Data)
+      return;
+    const int    sweeps  = smoother.ntimes;
+    const double damping = smoother.omega;
+    const int    size =
+      static_cast<ML_Sm_BGS_Data *>(smoother.smoother->data)->blocksize;
+    ML_Smoother_Clean(&smoother);
+    ML_Smoother_Init(&smoother, &ml->SingleLevel[ml->ML_finest_level]);
+    ML_Gen_Smoother_SymBlockGaussSeidel(const_cast<ML *>(ml),
+                                        ml->ML_finest_level,
+                                        ML_POSTSMOOTHER,
+                                        sweeps,
+                                        damping,
+                                        size);
   }
 } // namespace moraine

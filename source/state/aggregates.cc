@@ -164,14 +164,23 @@ namespace moraine
     find_parts(space, points, volume);
     const std::vector<Tie>          ties_before  = std::move(tied);
     const std::vector<unsigned int> roots_before = std::move(roots);
-    find_ties(space);
     group_cells(space);
-    for (const Tie &tie : tied)
-      active[tie.root] = 1;
     ask_for_groups(space, active);
-    const bool new_nodes = space.set_active_cells(std::move(active));
-    if (new_nodes)
-      find_ties(space);
+    const auto ask_for_cells = [&] {
+      for (const Tie &tie : tied)
+        active[tie.root] = 1;
+      return space.set_active_cells(active);
+    };
+    find_ties(space);
+    bool new_nodes = false;
+    // Nodes of cells that were asked for may follow further roots.
+    while (any_cut() && ask_for_cells())
+      {
+        new_nodes = true;
+        find_ties(space);
+      }
+    for (const Tie &tie : tied)
+      AssertThrow(space.knows(tie.root), ExcInternalError());
     return new_nodes || !(tied == ties_before) || !(roots == roots_before);
   }
 

@@ -119,7 +119,7 @@ namespace moraine
           sums.v[k] /= masses[k][0];
           sums.a[k] /= masses[k][0];
         }
-    if (const Aggregates<dim> *aggregates = state.aggregates())
+    if (const Aggregates<dim> *aggregates = state.strict_aggregates())
       for (NodeValues *values : {&sums.v, &sums.a})
         aggregates->hand_over(space, masses, *values);
     return sums;
@@ -155,27 +155,40 @@ namespace moraine
     rest();
     if (!points_carry())
       {
-        // A node of several bodies or ranks has the mean of theirs.
+        // A node that points of several bodies see has the mean of theirs,
+        // weighted with the mass that they give it, so that the momentum is
+        // that of the bodies. Quadratic functions are below 0 in places.
         const GridSpace<dim> &space = state.grid();
         const Basis<dim>     &basis = state.point_basis();
-        NodeValues            n_known(space.n_nodes());
+        NodeValues            masses(space.n_nodes());
+        NodeValues            of_body; ///< velocities of the nodes of a block
         StencilBlock<dim>     block;
         for (unsigned int g = 0; g < basis.n_batches(); ++g)
           {
             basis.evaluate(g, block);
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
+            of_body.resize(block.n_nodes);
+            for (unsigned int p = 0; p < block.n_points; ++p)
               {
-                const unsigned int node = block.nodes[k];
-                v[node] += velocity(points.body(block.points[0]),
-                                    space.node_position(node));
-                n_known[node][0] += 1;
+                const unsigned int body = points.body(block.points[p]);
+                if (p == 0 || body != points.body(block.points[p - 1]))
+                  for (unsigned int k = 0; k < block.n_nodes; ++k)
+                    of_body[k] =
+                      velocity(body, space.node_position(block.nodes[k]));
+                const double m = state.mass(block.points[p]);
+                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                  {
+                    const unsigned int node  = block.nodes[k];
+                    const double       share = m * std::abs(block.N(p)[k]);
+                    masses[node][0] += share;
+                    v[node] += share * of_body[k];
+                  }
               }
           }
-        for (NodeValues *values : {&v, &n_known})
+        for (NodeValues *values : {&v, &masses})
           space.sum_over_ranks(*values);
         for (unsigned int k = 0; k < v.size(); ++k)
-          if (n_known[k][0] > 0)
-            v[k] /= n_known[k][0];
+          if (masses[k][0] > 0)
+            v[k] /= masses[k][0];
         interpolate(v, v_field);
         return;
       }
@@ -284,6 +297,17 @@ namespace moraine
         v[k] += (4. * half[k] - prescribed[k]) / size;
         a[k] += 4. * (prescribed[k] - 2. * half[k]) / (size * size);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::set_target_at_start()
+  {
+    set_step_size(0);
+    by_start = 1;
+    prescribed.clear();
   }
 
 

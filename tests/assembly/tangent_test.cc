@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/assembly/aggregation.h>
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/assembly/rayleigh_damping.h>
 #include <moraine/basis/cpdi1_basis.h>
@@ -147,6 +148,16 @@ namespace
     aggregate(const double fill)
     {
       state->aggregate_below(fill);
+      state->points_changed();
+      begin_step(0);
+    }
+
+    /** Hold them by a ghost term. */
+    void
+    hold(const double fill, const double factor)
+    {
+      state->aggregate_below(fill, /* give_way = */ true);
+      system->add(std::make_unique<GhostStiffness<dim>>(factor));
       state->points_changed();
       begin_step(0);
     }
@@ -363,6 +374,116 @@ namespace
                 check_cell_means<3>(method, plastic, measure, grouped);
               }
           }
+  }
+
+
+
+  /** What the ghost term adds to the forces at @p x. */
+  template <int dim>
+  LA::Vector
+  ghost_forces(Box<dim> &without, Box<dim> &with, const LA::Vector &x)
+  {
+    without.system->assemble(x, false); // the next one is not linearised
+    with.system->assemble(x, false);
+    LA::Vector f = with.residual(x);
+    f -= without.residual(x);
+    return f;
+  }
+
+
+
+  template <int dim>
+  void
+  check_ghost_stiffness(const Method        method,
+                        const bool          plastic,
+                        const StrainMeasure measure)
+  {
+    Box<dim> held(method, plastic, Forces::at_the_end, measure);
+    held.hold(0.6, 0.7);
+    const auto n_ties = held.state->aggregates()->ties().size();
+    ASSERT_GT(Utilities::MPI::sum(n_ties, MPI_COMM_WORLD), 0u);
+    check_tangent(held);
+    held.deform();
+    check_tangent(held);
+    EXPECT_LT(asymmetry(held), 1e-14);
+    LA::Vector x = held.displacements(0.03, 1.7);
+    EXPECT_LT(imbalance(held, held.residual(x), x), 1e-13);
+
+    // A rotation, however large, costs nothing.
+    Box<dim> free(method, plastic, Forces::at_the_end, measure);
+    Box<dim> other(method, plastic, Forces::at_the_end, measure);
+    other.hold(0.6, 0.7);
+    const LA::Vector f = ghost_forces(free, other, x);
+    ASSERT_GT(f.l2_norm(), 1e-2);
+    x = free.space.vector();
+    for (unsigned int node = 0; node < free.space.n_nodes(); ++node)
+      {
+        const auto       dof = free.space.node_dof(node);
+        const Point<dim> X   = free.space.node_position(node);
+        if (!free.space.locally_owned().is_element(dof))
+          continue;
+        x(dof)     = -0.4 * X[0] - 0.8 * X[1];
+        x(dof + 1) = 0.8 * X[0] - 0.4 * X[1];
+      }
+    x.compress(VectorOperation::insert);
+    EXPECT_LT(ghost_forces(free, other, x).l2_norm(), 1e-10 * f.l2_norm());
+  }
+
+  TEST(GhostStiffness, TangentIsTheSymmetricDerivativeOfForcesInBalance)
+  {
+    for (const auto method :
+         {Method::material_point, Method::gimp, Method::cpdi1, Method::cpdi2})
+      for (const bool plastic : {false, true})
+        for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+          {
+            SCOPED_TRACE(std::to_string(static_cast<int>(method)) +
+                         (plastic ? " plastic" : " elastic") +
+                         (measure == StrainMeasure::finite ? " finite" : ""));
+            check_ghost_stiffness<2>(method, plastic, measure);
+            check_ghost_stiffness<3>(method, plastic, measure);
+          }
+  }
+
+
+
+  TEST(GhostStiffness, FollowsTheTangentOfWhatYields)
+  {
+    for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+      {
+        double size[2];
+        for (const bool plastic : {false, true})
+          {
+            Box<3> free(Method::gimp, plastic, Forces::at_the_end, measure);
+            Box<3> held(Method::gimp, plastic, Forces::at_the_end, measure);
+            held.hold(0.6, 0.7);
+            for (Box<3> *box : {&free, &held})
+              box->deform();
+            const LA::Vector x = free.displacements(0.01, 1.7);
+            size[plastic]      = ghost_forces(free, held, x).l2_norm();
+          }
+        // With hardening, one of two directions keeps a bit of its stiffness.
+        EXPECT_GT(size[1], 0.5 * size[0]);
+        EXPECT_LT(size[1], 0.7 * size[0]);
+      }
+  }
+
+
+
+  TEST(GhostMass, TangentIsTheDerivativeOfTheForces)
+  {
+    for (const auto &integrator : {TimeIntegrator::newmark(0.25, 0.5),
+                                   TimeIntegrator::energy_momentum()})
+      {
+        Box<2>    box(Method::gimp, false);
+        Motion<2> motion(
+          *box.state, box.points, integrator, VelocityTransfer(), false);
+        box.system->set_motion(&motion);
+        box.system->add(std::make_unique<GhostMass<2>>(0.7));
+        box.hold(0.6, 0.7);
+        motion.begin_step();
+        box.system->set_target(0.03);
+        check_tangent(box);
+      }
   }
 
 

@@ -46,6 +46,14 @@ for name, settings in (
     refused(f"cell means, {name}", settings={**MEAN, **settings})
 refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
 refused("part of a cell in words", settings={"Method/Aggregate below": "half"})
+GHOST = {"Method/Cut cells": "ghost"}
+for name, settings in (
+        ("unknown cure", {"Method/Cut cells": "ghosts"}),
+        ("factor 0", {**GHOST, "Method/Ghost factor": 0}),
+        ("negative factor", {**GHOST, "Method/Ghost factor": -1}),
+        ("factor without ghost", {"Method/Ghost factor": 0.5}),
+        ("ghost of no cells", {**GHOST, "Method/Aggregate below": 0})):
+    refused(f"cut cells, {name}", settings=settings)
 STRENGTH = {"Materials/soil/Model": "von Mises",
             "Materials/soil/Shear yield stress": "1"}
 SOFTENING = {"Materials/soil/Model": "von Mises",
@@ -204,6 +212,9 @@ refused("absorbing what is not there", staged,
         {"Stages/later/Absorbing": "base"})
 refused("absorbing in quasi-static stages", staged,
         {"Stages/later/Absorbing": "left"})
+refused("absorbing in a quasi-static stage after one with inertia", staged,
+        {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
+         "Stages/later/Absorbing": "left"})
 refused("dynamic key in a quasi-static stage", staged,
         {"Stages/later/Time/Spectral radius": 0.5})
 refused("error tolerance in a quasi-static scene",

@@ -62,6 +62,12 @@ refused("exact solution that is no number", {
 refused("body with too many details", {
     block + "Shape": "expression", block + "Lower corner": "",
     block + "Upper corner": "", block + "Expression": "sin(50*x)*sin(50*y)"})
+refused("displacement that is not zero at the start", {
+    "Boundaries/left/Displacement": "0; -0.01"})
+refused("the same of nodes", {
+    "Grid conditions/foot/Lower corner": "2, 0",
+    "Grid conditions/foot/Upper corner": "4, 0.5",
+    "Grid conditions/foot/Displacement": "0.1*t; -0.01-t"})
 refused("free to move", {"Boundaries/left/Constraint": "roller"})
 refused("free to move, both ways", {
     "Boundaries/left/Constraint": "components",

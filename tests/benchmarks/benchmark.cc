@@ -48,7 +48,7 @@ namespace
   struct Options
   {
     std::string  benchmark;
-    std::string  method     = "mpm";     ///< mpm, gimp, cpdi1 or cpdi2
+    std::string  method     = "mpm";     ///< fe, mpm, gimp, cpdi1 or cpdi2
     std::string  strain     = "small";   ///< small or finite
     std::string  material   = "elastic"; ///< elastic or plastic
     unsigned int dimension  = 2;
@@ -59,6 +59,7 @@ namespace
     unsigned int repeats    = 3;
     unsigned int wall       = 0;     ///< wall seconds also of one process
     bool         room       = false; ///< a cell of mesh more than the body
+    bool         cell_means = false; ///< of the volumetric strain
 
     Options(const int argc, char **argv)
       : benchmark(argc > 1 ? argv[1] : "")
@@ -209,7 +210,10 @@ namespace
         corner[d] = d == dim - 1 ? options.height : options.cells;
       const auto                   block  = make_box<dim>(Point<dim>(), corner);
       const std::vector<Body<dim>> bodies = {{"block", block}};
-      const CellSeeder<dim>        seeder(options.points, PointLayout::equal);
+      const bool                   is_fe  = options.method == "fe";
+      const CellSeeder<dim>        seeder(options.points,
+                                   is_fe ? PointLayout::gauss :
+                                                  PointLayout::equal);
       seed_bodies(bodies, seeder, points);
       make_basis(options, seeder, bodies);
       state = std::make_unique<State<dim>>(
@@ -217,8 +221,11 @@ namespace
         points,
         *basis,
         std::vector<std::shared_ptr<const Material>>{material(options)},
-        MeshAfterStep::reset,
-        measure(options));
+        is_fe ? MeshAfterStep::keep : MeshAfterStep::reset,
+        measure(options),
+        PointWeights::volumes,
+        options.cell_means ? VolumetricStrain::cell_mean :
+                             VolumetricStrain::pointwise);
       for (unsigned int side = 0; side < 2 * dim - 1; ++side)
         {
           GridCondition<dim> roller;
@@ -256,6 +263,15 @@ namespace
     void
     time_assembly(Clock &clock, const unsigned int repeats)
     {
+      const LA::Vector x = strained_state();
+      for (unsigned int i = 0; i < repeats; ++i)
+        clock.time("assembly", [&] { system->assemble(x, true); });
+    }
+
+    /** Move the block, and assemble once. @return the state to assemble in. */
+    LA::Vector
+    strained_state()
+    {
       system->begin_step(t);
       system->set_target(t);
       LA::Vector x = space.vector();
@@ -266,8 +282,7 @@ namespace
       x = space.vector();
       set_increment(x, 1e-2, 0.);
       system->assemble(x, true);
-      for (unsigned int i = 0; i < repeats; ++i)
-        clock.time("assembly", [&] { system->assemble(x, true); });
+      return x;
     }
 
     /** One step; @p clock may be nothing for one that is not counted. */
@@ -650,6 +665,41 @@ namespace
 
 
   /**
+   * Assembly and residual with the volumetric strain of points and with means
+   * of cells, in turn.
+   */
+  template <int dim>
+  void
+  compare_cell_means(const Options &options)
+  {
+    Options with_room(options);
+    with_room.room = true;
+    PointStep<dim> pointwise(with_room);
+    with_room.cell_means = true;
+    PointStep<dim>   means(with_room);
+    const LA::Vector x = pointwise.strained_state();
+    means.strained_state();
+    Clock clock;
+    for (unsigned int i = 0; i < options.repeats; ++i)
+      for (const bool tangent : {true, false})
+        {
+          const std::string name = tangent ? " assembly" : " residual";
+          clock.time("pointwise" + name,
+                     [&] { pointwise.system->assemble(x, tangent); });
+          clock.time("means" + name,
+                     [&] { means.system->assemble(x, tangent); });
+        }
+    clock.print("");
+    std::cout << "n_points " << means.points.n_global() << "\nn_batches "
+              << means.basis->n_batches() << "\npointwise nonzeros "
+              << pointwise.system->tangent()->n_nonzero_elements()
+              << "\nmeans nonzeros "
+              << means.system->tangent()->n_nonzero_elements() << '\n';
+  }
+
+
+
+  /**
    * Seconds in which all points of full cells are found again after they have
    * moved by 0.3 cells times a sine, there and back, and the share of points
    * that come to another cell, on which the time depends.
@@ -764,15 +814,19 @@ main(int argc, char **argv)
         time_assembly<2>(options);
       else if (options.benchmark == "assembly" && options.dimension == 3)
         time_assembly<3>(options);
+      else if (options.benchmark == "means" && options.dimension == 2)
+        compare_cell_means<2>(options);
+      else if (options.benchmark == "means" && options.dimension == 3)
+        compare_cell_means<3>(options);
       else if (options.benchmark == "search" && options.dimension == 2)
         compare_searches<2>(options);
       else if (options.benchmark == "search" && options.dimension == 3)
         compare_searches<3>(options);
       else
         throw std::runtime_error(
-          "usage: benchmark compare|points|assembly|search [--dimension 2|3] "
+          "usage: benchmark compare|points|assembly|means|search [--dimension 2|3] "
           "[--cells N] [--height N] [--mesh-cells N] [--points N] [--repeats N] "
-          "[--method mpm|gimp|cpdi1|cpdi2] [--strain small|finite] "
+          "[--method fe|mpm|gimp|cpdi1|cpdi2] [--strain small|finite] "
           "[--material elastic|plastic]");
     }
   catch (const std::exception &error)

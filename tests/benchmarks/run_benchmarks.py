@@ -194,6 +194,52 @@ class Bench:
             self.record("methods", f"{method} over standard MPM",
                         per_point[method, "finite"] / finite, "-", 2)
 
+    # What means of cells cost in an assembly, both ways in turn, and in a scene
+    # whose rim leaves cells filled to less than a tenth.
+    def case_means(self):
+        for dimension, n in ((2, 10), (3, 4)) if self.smoke else ((2, 80), (3, 14)):
+            for method in ("fe", "gimp"):
+                for strain, material, allowed in (
+                        ("small", "elastic", 1.3), ("small", "plastic", 1.3),
+                        ("finite", "plastic", 1.6)):
+                    r = self.run("means", dimension=dimension, cells=n,
+                                 method=method, strain=strain,
+                                 material=material, repeats=5 * self.repeats)
+                    title = f"{dimension}D {method}, {strain} strain, {material}, "
+                    self.record("means", title + "pointwise assembly",
+                                1e6 * r["pointwise assembly"] / r["n_points"],
+                                "us/point")
+                    self.record("means", title + "means over pointwise",
+                                r["means assembly"] / r["pointwise assembly"],
+                                "-", allowed)
+                    self.record("means", title + "residual",
+                                r["means residual"] / r["pointwise residual"],
+                                "-")
+                    self.record("means", title + "entries of the matrix",
+                                r["means nonzeros"] / r["pointwise nonzeros"],
+                                "-")
+        for strain, allowed in (("small", 1.3), ("finite", 1.6)):
+            assembly, iterations = {}, {}
+            for _ in range(min(3, self.repeats)):
+                for volumetric in ("pointwise", "cell mean"):
+                    _, summary = self.run_scene(
+                        "prm/large-deformation/slump-3d.prm",
+                        {"Method/Method": "GIMP", "Method/Strain": strain,
+                         "Method/Volumetric strain": volumetric,
+                         "Mesh/Cells": "6, 6, 4" if self.smoke else "24, 24, 16",
+                         "Solver/Direct limit 3D": 1000})
+                    iterations[volumetric] = summary["newton_iterations"]
+                    assembly.setdefault(volumetric, []).append(
+                        summary["timings"]["assembly"]
+                        / summary["newton_iterations"])
+            title = f"cube, GIMP, {strain} strain, "
+            for volumetric, of in assembly.items():
+                self.record("means", f"{title}{volumetric}, iterations",
+                            iterations[volumetric], "-")
+            self.record("means", title + "means over pointwise",
+                        min(assembly["cell mean"]) / min(assembly["pointwise"]),
+                        "-", allowed)
+
     # A million points in 3D at finite strain: mean Newton iteration of a run.
     def case_plastic3d(self):
         n, margin = (8, 0.125) if self.smoke else (50, 0.02)
@@ -342,7 +388,7 @@ class Bench:
 
 
 CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
-         "plastic3d", "dynamics", "dynamics3d", "peers"]
+         "means", "plastic3d", "dynamics", "dynamics3d", "peers"]
 
 
 def main():

@@ -213,8 +213,10 @@ TEST(ImplicitBoundary, DepthsAreThoseOfTheMaterialWithinTheCellAndATenthOfIt)
         std::array<double, 3>{{0.75, 0.75, 1}},
         std::array<double, 3>{{0.04, 0.1, 0.1}}})
     {
-      line.set_depths(std::vector<double>(n_cells, volume));
+      line.set_depths(std::vector<double>(n_cells, volume), 1);
       expect(lower, upper);
+      line.set_depths(std::vector<double>(n_cells, volume), 2.5);
+      expect(std::min(2.5 * lower, 1.), std::min(2.5 * upper, 1.));
     }
   begin_step();
   expect(1, 1);

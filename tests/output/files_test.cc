@@ -255,7 +255,7 @@ namespace moraine
     summary.sizes.points    = 5000000000;
     summary.timings         = {{"solve", 0.5}, {"assembly", 0.25}};
     summary.effects         = {"internal force"};
-    summary.linear_solvers  = {"direct"};
+    summary.linear.solvers  = {"direct"};
     summary.errors          = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
     summary.probes          = {{"u_x at A", 0.125}};
     summary.reactions       = {{"left", {1., -2.}}};

@@ -41,6 +41,14 @@ SCENES = {
         {"Method/Strain": "finite", "Mesh/Lower corner": "-1.03, -1.57",
          "Mesh/Upper corner": "2.97, 2.43", "Time/Integrator": "Newmark",
          "Time/End time": 0.1, "Time/Steps": 10}),
+    "ghost term, dynamics": (
+        "prm/hard-cases/cut-block.prm",
+        {"Method/Strain": "finite", "Method/Cut cells": "ghost",
+         "Mesh/Lower corner": "-1.03, -1.57", "Mesh/Upper corner": "2.97, 2.43",
+         "Time/Integrator": "Newmark", "Time/End time": 0.1, "Time/Steps": 10}),
+    "ghost term, 3D": ("prm/cortis-2017/block-3d.prm",
+                       {"Method/Aggregate below": 0.5,
+                        "Method/Cut cells": "ghost"}),
     "aggregation, 3D": ("prm/cortis-2017/block-3d.prm",
                         {"Method/Aggregate below": 0.5}),
     "hollow sphere": ("prm/boundaries/hollow-sphere.prm",
@@ -91,3 +99,15 @@ for n in (2, 3):
     largest = int(many.output.split(" on a process")[0].split()[-1])
     bound(f"cube, {n} ranks, most points over mean - 1",
           largest * n / many.summary["points"] - 1, 0.1)
+
+# A small body in a mesh that is empty elsewhere: no rank is without cells.
+text("a body in one of four cells, 3 ranks",
+     run("tests/bad-input/base.prm",
+         {"Mesh/Cell size": 4, "Bodies/block/Upper corner": "3.5, 3.5",
+          "Boundaries/left/Points": "0.5 3.5; 0.5 0.5", "Time/Steps": 1,
+          "Probes/tip/Location": "3, 3"}, on_ranks=3).summary["status"])
+refused = run("tests/bad-input/base.prm", {"Mesh/Cell size": 8}, expect=2,
+              on_ranks=3)
+text("more ranks than cells", [line.strip() for line in
+                               plain(refused.output).splitlines()
+                               if line.startswith("moraine: ")][0])

@@ -43,7 +43,7 @@ show("footing, MPM, pointwise", "prm/hard-cases/bearing-gimp.prm",
      {**BEARING, **POINT, "Mesh/Upper corner": "5, 0.25",
       "Method/Method": "material point"})
 show("slope, pointwise", "prm/geotechnics/slope.prm",
-     {"Mesh/Cell size": 1, "Time/End time": 1, "Time/Steps": 20})
+     {**POINT, "Mesh/Cell size": 1, "Time/End time": 1, "Time/Steps": 20})
 
 # Ground at rest that hardly changes its volume: mean stress grows with depth from
 # cell to cell, by more than the deviatoric stress, and is right.

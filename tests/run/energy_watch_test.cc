@@ -106,6 +106,22 @@ namespace moraine
 
 
 
+  TEST(EnergyWatch, names_what_the_scene_can_still_change)
+  {
+    EnergyWatch holds(0, "'Method = GIMP'"), transfer(0, "'Method = GIMP'"),
+      nothing(0);
+    Works works            = works_of(500);
+    works.lost_in_transfer = -496;
+    transfer.count(works, 0, 1);
+    for (EnergyWatch *watch : {&holds, &nothing})
+      watch->count(works_of(500, 500), 0, 1);
+    for (const EnergyWatch *watch : {&holds, &transfer})
+      EXPECT_TRUE(says(*watch, ", or in section 'Method' 'Method = GIMP'"));
+    EXPECT_FALSE(says(nothing, "'Method'"));
+  }
+
+
+
   TEST(EnergyWatch, round_off_is_not_looked_at)
   {
     EnergyWatch watch(1000);

@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 using namespace moraine;
 using moraine::testing_solver::Elasticity;
@@ -401,6 +403,72 @@ TEST(LinearSolver, KeepsTheHierarchyWhileItServes)
     last = iterations(keeps, problem);
   EXPECT_EQ(last, best);
   EXPECT_LT(n, 10u);
+}
+
+namespace
+{
+  /** Add springs across lines at an angle to all nodes at y = 0. */
+  template <int dim>
+  void
+  add_rollers(const Elasticity<dim> &problem,
+              const double           degrees,
+              const double           stiffness)
+  {
+    dealii::Tensor<1, dim> normal;
+    normal[0] = std::sin(degrees * dealii::numbers::PI / 180);
+    normal[1] = std::cos(degrees * dealii::numbers::PI / 180);
+    std::set<dealii::types::global_dof_index> done;
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          const auto i = cell->vertex_dof_index(v, 0);
+          if (cell->vertex(v)[1] == 0. && problem.rhs.in_local_range(i) &&
+              !problem.constraints.is_constrained(i) && done.insert(i).second)
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < dim; ++d)
+                problem.matrix->add(i + c,
+                                    i + d,
+                                    stiffness * normal[c] * normal[d]);
+        }
+    problem.matrix->compress(dealii::VectorOperation::add);
+  }
+
+
+
+  /** Iterations of gmres for a cell's moduli of one and rollers with a hundred.
+   * The second number: after rollers along the mesh, with what they left. */
+  template <int dim>
+  std::pair<unsigned int, unsigned int>
+  iterations_of_rollers(const unsigned int n, const double degrees)
+  {
+    const double    stiffness = 100. * std::pow(1. / n, dim - 2);
+    Elasticity<dim> problem(n), other(n);
+    LA::Vector      x(problem.rhs);
+    LinearSolver    fresh(use("gmres"), dim), kept(use("gmres"), dim);
+    const auto      solve = [&x](LinearSolver &solver, auto &held) {
+      solver.set_up(held.matrix, false, held.modes);
+      const LinearReport report = solver.solve(x, held.rhs);
+      EXPECT_TRUE(report.converged) << report.message;
+      return report.iterations;
+    };
+    add_rollers(problem, degrees, stiffness);
+    add_rollers(other, 0., stiffness);
+    const unsigned int first = solve(fresh, problem);
+    solve(kept, other);
+    add_rollers(other, 0., -stiffness);
+    add_rollers(other, degrees, stiffness);
+    return {first, solve(kept, other)};
+  }
+} // namespace
+
+TEST(LinearSolver, RollersAtAnAngle)
+{
+  const auto compare = [](const auto &along, const auto &across) {
+    EXPECT_LE(across.first, 1.25 * along.first);
+    EXPECT_LE(across.second, 2.5 * across.first);
+  };
+  compare(iterations_of_rollers<2>(48, 0.), iterations_of_rollers<2>(48, 45.));
+  compare(iterations_of_rollers<3>(10, 0.), iterations_of_rollers<3>(10, 45.));
 }
 
 TEST(LinearSolver, StopsAtWhatIsEnough)

@@ -262,4 +262,65 @@ namespace
     momentum_stays_and_linear_velocities_do<2>();
     momentum_stays_and_linear_velocities_do<3>();
   }
+
+
+
+  /** Where a few cells of a mesh are filled, in groups that reach far. */
+  template <int dim>
+  void
+  roots_of_all_ties_are_known(const unsigned int every)
+  {
+    BackgroundMesh<dim> mesh(unit_cells<dim>(dim == 2 ? 16 : 8),
+                             MPI_COMM_WORLD);
+    GridSpace<dim>      space(mesh, 1);
+    PointSet<dim>       points(mesh, PointFields());
+    Point<dim>          upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      upper[d] = dim == 2 ? 16 : 8;
+    seed_bodies<dim>({{"all", make_box<dim>(Point<dim>(), upper)}},
+                     CellSeeder<dim>(1, PointLayout::equal),
+                     points);
+    const auto active = cells_of_points(points, mesh);
+    space.set_active_cells(active);
+    Aggregates<dim> aggregates(0.5, true);
+    const auto      tie = [&] {
+      return aggregates.tie_nodes(
+        space,
+        points,
+        [&](const unsigned int p) {
+          const double at = points.position(p)[0] + 7 * points.position(p)[1] +
+                            13 * points.position(p)[dim - 1];
+          return std::lround(at * at) % every == 0 ? 1. : 0.01;
+        },
+        active);
+    };
+    tie();
+    unsigned int n_ties = aggregates.ties().size();
+    for (const auto &tie : aggregates.ties())
+      {
+        EXPECT_TRUE(space.knows(tie.root));
+        if (!space.knows(tie.root))
+          continue;
+        const unsigned int *nodes = space.cell_nodes(tie.root);
+        Tensor<1, dim>      x;
+        for (unsigned int a = 0; a < tie.weights.size(); ++a)
+          x += tie.weights[a] * space.node_position(nodes[a]);
+        EXPECT_LT((x - space.node_position(tie.node)).norm(), 1e-12);
+      }
+    EXPECT_GT(Utilities::MPI::sum(n_ties, MPI_COMM_WORLD), 0u);
+    // Nor are more cells asked for from step to step.
+    const unsigned int n_nodes = space.n_nodes();
+    EXPECT_FALSE(space.set_active_cells(active));
+    EXPECT_FALSE(tie());
+    EXPECT_EQ(space.n_nodes(), n_nodes);
+  }
+
+  TEST(Aggregates, RootsOfAllTiesAreKnown)
+  {
+    for (unsigned int every = 5; every < 30; every += 5)
+      {
+        roots_of_all_ties_are_known<2>(every);
+        roots_of_all_ties_are_known<3>(every);
+      }
+  }
 } // namespace

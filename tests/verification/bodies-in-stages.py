@@ -74,6 +74,22 @@ bound("two dynamic stages: energy out of balance",
 bound("two dynamic stages: mass at the end",
       result.history()[-1]["mass"] - 20, 1e-10)
 
+# A probe on the ground, which rises by 4 t^2 / M * (20 z - z^2 / 2) under the fill
+# and by 4 t^2 / M * 50 without it, where the place is above the cells.
+result = run(SCENE, {"Method/Method": "material point",
+                     "Method/Mesh after step": "reset",
+                     "Loads/weight/Value": "0; 2*t^2",
+                     "Stages/alone/Bodies": "ground, fill",
+                     "Stages/filled/Bodies": "ground",
+                     "Stages/filled/Reset displacements": "false",
+                     "Stages/dug/Reset displacements": "false"})
+for row, height in zip(result.history(), (150, 50, 50)):
+    bound(f"a fill is taken away: rise of the ground at t = {row['t']:g} over the "
+          "exact one - 1",
+          row["u_y at ground"] / (4 * row["t"] ** 2 * height / M) - 1, 0.02)
+bound("a fill is taken away: notes of the probe that leaves the cells - 1",
+      result.output.count("probe 'ground' has left the cells") - 1, 0)
+
 # An embankment on ground at rest: the ground carries what is there.
 result = run("prm/geotechnics/staged-embankment.prm")
 rows = result.history()

@@ -1,8 +1,9 @@
 # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A block that hangs over, anywhere in its mesh: with aggregation, displacements and
-stresses are those of a block on mesh lines, whatever is cut off its cells."""
+"""A block that hangs over, anywhere in its mesh: with aggregation or a ghost term,
+displacements and stresses are those of a block on mesh lines, whatever is cut off its
+cells."""
 
 import os
 import random
@@ -52,12 +53,12 @@ def positions(n):
         yield angle, *offsets
 
 
-def sweep(settings, h=H):
+def sweep(settings, h=H, n=PLACES):
     """The largest relative change of the tip, and of the largest stress, from
     the aligned block, and how many steps were rejected."""
     aligned = run(BLOCK, {**at(0, 0, 0, h), **settings})
     worst_u = worst_s = rejected = 0
-    for angle, dx, dy in positions(PLACES):
+    for angle, dx, dy in positions(n):
         result = run(BLOCK, {**at(angle, dx * h / H, dy * h / H, h), **settings})
         worst_u = max(worst_u, abs(tip(result) / tip(aligned) - 1))
         worst_s = max(worst_s, largest_stress(result) / largest_stress(aligned))
@@ -84,25 +85,58 @@ for method in ("GIMP", "finite element"):
 u, s, rejected = sweep({"Method/Aggregate below": 0})
 at_least("GIMP without aggregation: largest stress over aligned", s, 100)
 
+# Nodes that springs hold to the cells beside them.
+GHOST = {"Method/Cut cells": "ghost"}
+for method, settings, allowed, stress in (
+        ("GIMP", {}, 1e-2, 1.5), ("material point", {}, 1e-2, 1.5),
+        ("CPDI1", {}, 1e-2, 1.5), ("CPDI2", {}, 1e-2, 1.5), ("finite element", {}, 1e-2, 1.5),
+        ("finite element", {"Method/Degree": 2}, 1e-2, 3),
+        ("DM-GC", {}, 3e-2, 1.5)):
+    name = ", ".join([method, *(f"{key.split('/')[1]} {value}"
+                                for key, value in settings.items())])
+    u, s, rejected = sweep({**GHOST, **settings, "Method/Method": method},
+                           n=PLACES // 3)
+    bound(f"ghost, {name}: tip over aligned - 1", u, allowed)
+    bound(f"ghost, {name}: largest stress over aligned", s, stress)
+    text(f"ghost, {name}: rejected steps", rejected)
+for factor, allowed in (0.1, 1e-3), (1e4, 1e-7):
+    tied, held = (
+        run(BLOCK, {**at(17, 0.037, 0.029), "Method/Strain": "finite",
+                    "Method/Method": "CPDI1", **settings}, on_ranks=2)
+        for settings in ({}, {**GHOST, "Method/Ghost factor": factor}))
+    bound(f"ghost, factor {factor}: tip over that of tied nodes - 1",
+          abs(tip(held) / tip(tied) - 1), allowed)
+    bound(f"ghost, factor {factor}: share of the work",
+          held.summary["ghost_term"]["share_of_work"], allowed)
+    text(f"ghost, factor {factor}: warnings", "warnings" in held.summary)
+
 # The condition number, which takes many solves, at some of the places.
 conditions = {"Solver/Estimate condition number": "true"}
 aligned = run(BLOCK, {**at(0, 0, 0), **conditions}).summary["condition_number"]
-for method in ("GIMP", "finite element"):
-    bound(f"{method}: condition number over aligned",
-          max(run(BLOCK, {**at(*place), **conditions, "Method/Method": method})
-              .summary["condition_number"] for place in positions(6)) / aligned,
-          2)
+for cure, name in (({}, ""), (GHOST, "ghost, ")):
+    for method in ("GIMP", "finite element"):
+        bound(f"{name}{method}: condition number over aligned",
+              max(run(BLOCK, {**at(*place), **conditions, **cure,
+                              "Method/Method": method})
+                  .summary["condition_number"] for place in positions(6))
+              / aligned, 2)
 
 # A body that flies through its mesh has cut cells in nearly every step.
 flight = {"Time/End time": 7.85398, "Time/Steps": 100}
-result = run("prm/dynamics/free-flight.prm", flight, on_ranks=1)
-rows = result.history()
-text("flight: rejected steps", result.summary["rejected_steps"])
-text("flight: automatic stiffness", "stiffness of empty parts" in
-     result.summary["effects"])
-for momentum in ("momentum_x", "momentum_y"):
-    bound(f"flight: drift of {momentum}",
-          max(abs(row[momentum] - rows[0][momentum]) for row in rows), 1e-11)
+for cure, name in (({}, ""), (GHOST, "ghost, ")):
+    result = run("prm/dynamics/free-flight.prm", {**flight, **cure}, on_ranks=1)
+    rows = result.history()
+    text(f"{name}flight: rejected steps", result.summary["rejected_steps"])
+    text(f"{name}flight: automatic stiffness", "stiffness of empty parts" in
+         result.summary["effects"])
+    for momentum in ("momentum_x", "momentum_y"):
+        bound(f"{name}flight: drift of {momentum}",
+              max(abs(row[momentum] - rows[0][momentum]) for row in rows), 1e-11)
+energy = result.summary["energy"]
+bound("ghost, flight: its work over the kinetic energy",
+      abs(energy["damping"]) / energy["kinetic_at_start"], 1e-4)
+bound("ghost, flight: balance of energy", energy["balance_error"], 1e-11)
+text("ghost, flight: warnings", "warnings" in result.summary)
 
 # Nodes that follow others begin with their velocities, whatever is prescribed.
 result = run("prm/dynamics/oblique-inclined.prm",

@@ -47,3 +47,13 @@ TURNS = 1
 fly("material point, APIC", {"Method/Method": "material point", **turn})
 for transfer in ("APIC", "FLIP", "PIC", "blend", "FMPM"):
     fly(f"GIMP, {transfer}", {"Time/Velocity transfer": transfer, **turn})
+
+# Bodies of two velocities share a column of cells: nodes have the momentum of
+# the points.
+rows = run("prm/dynamics/free-flight.prm", {
+    "Method/Method": "finite element", "Bodies/block/Upper corner": "3.2, 5",
+    "Bodies/block/Initial velocity": "1; 0", "Bodies/rest/Lower corner": "3.2, 3",
+    "Bodies/rest/Upper corner": "4, 5", "Time/End time": 1e-3,
+    "Time/Steps": 1}).history()
+bound("finite element, two bodies in a cell: momentum over that of the points - 1",
+      abs(rows[0]["momentum_x"] / (1.2 * 2) - 1), 1e-12)

@@ -3,12 +3,13 @@
 # Copyright (C) 2026 by the Moraine authors
 """Scenes of soil with default keys: a slope goes far beyond first yield; a pile
 that cannot be pushed on ends in order, with the place and what to change; a
-lining fits into its tunnel."""
+lining fits into its tunnel; clay slides along a pile that is moved sideways."""
 
 from math import pi
 
 SLOPE, PILE = "prm/geotechnics/slope.prm", "prm/geotechnics/pile.prm"
 TUNNEL = "prm/geotechnics/tunnel.prm"
+SIDEWAYS = "prm/geotechnics/pile-sideways.prm"
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 
 
@@ -53,3 +54,9 @@ for key in ("u_y at crown", "u_y at surface"):
     number(f"tunnel: {key}", tunnel.probes[key], 3)
     bound(f"tunnel: {key} over that of finite elements - 1",
           tunnel.probes[key] / fitted.probes[key] - 1, 0.01)
+
+# The limit force of Randolph and Houlsby (1984), Geotechnique 34, 613.
+for method in ("GIMP", "finite element"):
+    pushed = run(SIDEWAYS, {**QUIET, "Method/Method": method})
+    bound(f"pile moved sideways, {method}: force over 9.14 k D / 2 - 1",
+          pushed.reactions["pile"][0] / 91.4 - 1, 0.025)

@@ -10,21 +10,44 @@ RING = "prm/hard-cases/ring-incompressible.prm"
 LAYERS = "prm/hard-cases/contrast.prm"
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 
+
+def ring(title, method, nu, largest_stress, **boundaries):
+    """20 and 40 cells: errors, and the order of the displacement's."""
+    errors = [
+        run(RING, {**QUIET, "Method/Method": method,
+                   "Materials/rubber/Poisson ratio": nu,
+                   "Mesh/Cells": f"{n}, {n}",
+                   "Exact solution/Constants":
+                       f"m: {1000 / (1 + nu) * 2.5e-4!r}",
+                   **{f"Boundaries/{name}/Enforcement": how
+                      for name, how in boundaries.items()}})
+        for n in (20, 40)]
+    name = f"{title}, {method}, nu = {nu}"
+    bound(f"{name}: displacement", errors[1].errors["l2_u"], 2e-3)
+    at_least(f"{name}: order of the displacement",
+             log2(errors[0].errors["l2_u"] / errors[1].errors["l2_u"]), 1.8)
+    bound(f"{name}: stress", errors[1].errors["l2_sigma"], largest_stress)
+    text(f"{name}: warnings", len(errors[1].summary.get("warnings", [])))
+
+
 for method in ("GIMP", "CPDI1", "finite element"):
     for nu in (0.3, 0.49, 0.49999):
-        errors = [
-            run(RING, {**QUIET, "Method/Method": method,
-                       "Materials/rubber/Poisson ratio": nu,
-                       "Mesh/Cells": f"{n}, {n}",
-                       "Exact solution/Constants":
-                           f"m: {1000 / (1 + nu) * 2.5e-4!r}"})
-            for n in (20, 40)]
-        name = f"ring, {method}, nu = {nu}"
-        bound(f"{name}: displacement", errors[1].errors["l2_u"], 2e-3)
-        at_least(f"{name}: order of the displacement",
-                 log2(errors[0].errors["l2_u"] / errors[1].errors["l2_u"]), 1.8)
-        bound(f"{name}: stress", errors[1].errors["l2_sigma"], 7e-2)
-        text(f"{name}: warnings", len(errors[1].summary.get("warnings", [])))
+        ring("ring", method, nu, 7e-2)
+for method in ("GIMP", "finite element"):
+    for nu in (0.3, 0.49999):
+        ring("ring, symmetric", method, nu, 8e-2, inner="symmetric Nitsche",
+             outer="symmetric Nitsche")
+# Of all cuts, this one shows most what holds the mean of u - g: stress is 18 to 21
+# times the exact one without it.
+for method in ("GIMP", "finite element"):
+    shifted = run(RING, {**QUIET, "Method/Method": method,
+                         "Mesh/Cells": "20, 20",
+                         "Mesh/Lower corner": "-1.098, -1.13266666666666666",
+                         "Mesh/Upper corner": "1.202, 1.16733333333333333",
+                         "Boundaries/inner/Enforcement": "symmetric Nitsche",
+                         "Boundaries/outer/Enforcement": "symmetric Nitsche"})
+    bound(f"ring, symmetric, {method}, shifted: stress",
+          shifted.errors["l2_sigma"], 1.5)
 locked = run(RING, {**QUIET, "Method/Volumetric strain": "pointwise"})
 at_least("ring, pointwise: displacement", locked.errors["l2_u"], 2e-2)
 

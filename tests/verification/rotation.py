@@ -27,8 +27,10 @@ spin("GIMP", {})
 result = run(DISC, {"Time/End time": "2*pi", "Time/Steps": 80,
                     "Method/Method": "finite element",
                     "Time/Integrator": "generalised-alpha"})
-number("disc, finite element, generalised-alpha: angular momentum after a turn",
-       result.history()[-1]["angular_momentum_z"] / (pi / 2), 3)
+# What it loses in a turn changes by 2e-4 with the tenth digit of the modulus.
+bound("disc, finite element, generalised-alpha: angular momentum after a turn "
+      "over that at the start - 0.9875",
+      result.history()[-1]["angular_momentum_z"] / (pi / 2) - 0.9875, 5e-4)
 
 
 def quarter_period():

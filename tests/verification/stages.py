@@ -53,12 +53,36 @@ subsection Boundaries
 end
 """).replace("set Lower corner = 0, 0\n    set Upper corner = 1, 20",
              "set Lower corner = 0, 0.4\n    set Upper corner = 1, 20"))
-# The weighted enforcement puts forces on nodes that are no traction.
+# Nitsche's method puts forces on nodes that are no traction.
 compare("cut cells, finite element", {}, cut, 19.6, rest=3e-3)
 lagrangian = {"Boundaries/base/Enforcement": "augmented Lagrangian"}
 compare("cut cells, augmented Lagrangian", lagrangian, cut, 19.6)
 compare("cut cells, GIMP, augmented Lagrangian",
         {"Method/Method": "GIMP", **lagrangian}, cut, 19.6)
+
+# Without a pulse the layer stays where it is, whatever held it.
+quiet = {"Stages/pulse/Loads": "weight", "Stages/pulse/Time/Steps": 100}
+for how, settings in (("weighted", {}), ("penalty", {}), ("skew Nitsche", {}),
+                      ("symmetric Nitsche", {}),
+                      ("skew Nitsche", {"Method/Method": "GIMP"}),
+                      ("symmetric Nitsche", {"Method/Method": "CPDI1"})):
+    settings = {**quiet, "Boundaries/base/Enforcement": how, **settings}
+    name = f"no pulse, {how}, {settings.get('Method/Method', 'finite element')}"
+    rows = run(cut, settings).history()
+    bound(f"{name}: move of the last quarter over the settlement",
+          (rows[-1]["u_y at middle"] - rows[-26]["u_y at middle"])
+          / rows[0]["u_y at middle"], 1e-5)
+    bound(f"{name}: largest displacement over the settlement",
+          max(abs(row["u_y at middle"]) for row in rows[1:])
+          / rows[0]["u_y at middle"], 2e-3)
+    if how in ("weighted", "penalty"):
+        for integrator in ("Newmark", "generalised-alpha", "energy-momentum"):
+            rows = run(cut, {**settings, "Stages/pulse/Absorbing": "",
+                             "Stages/pulse/Time/Integrator":
+                                 integrator}).history()
+            bound(f"{name}, held on, {integrator}: reaction over the weight - 1",
+                  max(abs(row["reaction_y of base"] / (15 * 19.6) - 1)
+                      for row in rows), 1e-4)
 
 # Without the reset displacements go on.
 kept = run(SCENE, {"Stages/pulse/Reset displacements": "false"}).history()

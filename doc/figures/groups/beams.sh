@@ -81,10 +81,10 @@ GP
 for angle in 0 45 90; do
   run "cantilever-$angle" "cortis-2017/cantilever-$angle" "Output/Mesh = false" \
     "Output/Points = false"
+  sed "1s/ at tip \[length\]/ at $angle/g" "cantilever-$angle/history.csv" >"load-$angle.csv"
 done
-paste -d, cantilever-{0,45,90}/history.csv >cantilever-load.csv
+paste -d, load-{0,45,90}.csv >cantilever-load.csv
 plot cantilever-load 900,700 <<'GP'
-# each history: t, four of the support, u_x and u_y at tip
 set multiplot title 'Slender cantilever: h = 2 mm, 100 points per cell, skew Nitsche, γ = 10'
 set lmargin 11
 set xrange [0:0.21]
@@ -94,7 +94,7 @@ set key top left maxrows 3 inside notitle
 set ylabel 'deflection near the free end  [mm]'
 set yrange [0:60]
 set format x ''
-w(angle) = angle == 0 ? -column(7) : angle == 90 ? column(20) : (column(13) - column(14)) / sqrt(2)
+w(angle) = angle == 0 ? -column('u_y at 0') : angle == 90 ? column('u_x at 90') : (column('u_x at 45') - column('u_y at 45')) / sqrt(2)
 force = 'column(1) * 0.2'
 plot 'cantilever-load.csv' using (@force):(w(0)) w lp lt 1 pt 6 ps 2 title '0°', \
      '' using (@force):(w(90)) w lp lt 4 pt 2 title '90°', \

@@ -11,12 +11,13 @@ done
 
 render bearing-stress "$(last bearing-pointwise/points)" "$(last bearing-cell/points)" \
   --columns 2 --label "pointwise" "cell mean" --field mean_stress --range -6 2 \
-  --heading "Mean stress (kPa) at a settlement of 0.01, GIMP, h = 1/8, Poisson's ratio 0.49"
+  --title "mean stress" --unit kPa --length-unit m \
+  --heading "Mean stress at a settlement of 0.01 m, GIMP, h = 1/8, Poisson's ratio 0.49"
 
 plot bearing-load <<'GP'
-set title 'Strip footing, half width 1, h = 1/8, ν = 0.49'
-set xlabel 'settlement'
-set ylabel 'reaction per half width over k'
+set title 'Strip footing, half width 1 m, h = 1/8 m, ν = 0.49'
+set xlabel 'settlement  [m]'
+set ylabel 'reaction over half width and k  [-]'
 plot 'bearing-pointwise/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 1 title 'GIMP, pointwise', \
      'fe-pointwise/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 8 title 'FE, pointwise', \
      'bearing-cell/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 3 title 'GIMP, cell mean', \
@@ -25,7 +26,7 @@ plot 'bearing-pointwise/history.csv' using (0.01 * column('t')):(-column('reacti
 GP
 
 undrained=("Materials/clay/Poisson ratio = 0.49" "Time/End time = 1" "Time/Steps = 20")
-run slope-pointwise geotechnics/slope "${undrained[@]}"
+run slope-pointwise geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = pointwise"
 run slope-cell geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = cell mean"
 run slope-fe geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = cell mean" \
   "Method/Method = finite element"
@@ -40,8 +41,8 @@ render undrained-stress "$(last slope-pointwise/points)" "$(last slope-cell/poin
 
 plot undrained-settlement <<'GP'
 set title 'Embankment of undrained clay, finite strain, h = 0.5 m, ν = 0.49'
-set xlabel 'part of the weight'
-set ylabel 'settlement of the crest [m]'
+set xlabel 'part of the weight  [-]'
+set ylabel 'settlement of the crest  [m]'
 plot 'slope-pointwise/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 1 title 'GIMP, pointwise', \
      'slope-cell/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 3 title 'GIMP, cell mean', \
      'slope-fe/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 4 title 'FE, cell mean', \

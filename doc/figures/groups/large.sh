@@ -77,7 +77,7 @@ beam b2
 render beam-domains b2/domains/000{10,50}.vtu --mesh b2/mesh/000{10,50}.vtu --columns 2 \
   --label "20 kN" "100 kN" --field stress --component xx --diverging --range -2000000 2000000 --size 400 460 \
   --heading "Cantilever, GIMP, h = 0.5 m, 2² points per cell: their domains" \
-  --title "stress σ_xx" --unit Pa --length-unit m
+  --title "stress xx" --unit Pa --length-unit m
 beam b6 "Method/Points per direction = 6" "Mesh/Cell size = 0.25"
 plot large-beam 900,640 <<'GP'
 set title 'Cantilever bent by a force at its end: how far the end moves'

@@ -42,8 +42,9 @@ GP
 for method in fe mpm cpdi1 cpdi2; do
   run "twist-80-$method" "wang-2018/twist-80-$method" "${quiet[@]}"
   for n in 1 2; do
+    # By standard MPM the ring comes apart on the finer mesh.
     run "twist-80-$method-$n" "wang-2018/twist-80-$method" "Mesh/Refinements = $n" \
-      "Method/Return tolerance = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
+      "Method/Separation = note" "Method/Return tolerance = 0.3" "Solver/Limit points = pseudo-transient" "${quiet[@]}"
   done
   run "ellipse-$method" "wang-2018/ellipse-$method"
 done

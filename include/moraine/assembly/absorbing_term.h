@@ -70,7 +70,9 @@ namespace moraine
      * Hold from now on, as tractions, the forces that the surface put on nodes
      * so far, as a constraint did that ends now: @f$t_0 = \sum_a N_a
      * \lambda_a@f$ with @f$\sum_b \int N_a N_b\,d\Gamma\, \lambda_b = f_a@f$ at
-     * the nodes around it. To be called in a step that has begun.
+     * the nodes around it in the least squares, and a rigid field that makes
+     * resultant and moment those of the forces, so that a body that was in
+     * equilibrium does not drift. To be called in a step that has begun.
      * @return what of @p forces no traction on the surface can give, as a
      * fraction; nothing if the surface is not @p name. Collective.
      */
@@ -109,6 +111,13 @@ namespace moraine
     LA::Vector
     integrate(const GridSpace<dim>      &space,
               const std::vector<Vector> &tractions) const;
+
+    /** Add the rigid field whose resultant and moment are those of the forces
+     * @p missing. Collective. */
+    void
+    add_rigid_field(const GridSpace<dim> &space,
+                    const LA::Vector     &missing,
+                    std::vector<Vector>  &tractions) const;
 
     AbsorbingBoundary<dim> &boundary;
     std::vector<LocalPlace> local_places; ///< by cell

@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_boundary_force_h
 #define moraine_assembly_boundary_force_h
 
+#include <moraine/assembly/boundary_piece.h>
 #include <moraine/assembly/local_system.h>
 #include <moraine/boundary/implicit_boundary.h>
 
@@ -53,6 +54,16 @@ namespace moraine
                      const bool                           tangent,
                      std::vector<dealii::Tensor<1, dim>> &fluxes,
                      LocalSystem<dim>                    &local);
+
+  /** Adds what the mean violation of a piece of a boundary adds to the
+   * derivative; its force is in boundary_traction(). */
+  template <int dim>
+  void
+  add_mean_penalty(const ImplicitBoundary<dim> &boundary,
+                   const BoundaryPiece<dim>    &piece,
+                   const Enforcement           &enforcement,
+                   const LameConstants         &stiffness,
+                   LocalSystem<dim>            &local);
 } // namespace moraine
 
 #endif

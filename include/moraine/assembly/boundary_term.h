@@ -91,6 +91,18 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
+    /** Let @p how, that of the boundary, be that in a cell. */
+    void
+    adapt_to_cell(const StepContext<dim> &context,
+                  const unsigned int      cell,
+                  Enforcement            &how) const;
+
+    /** See depths_of_means; @p volumes are those of the points of this rank.
+     * Collective. */
+    void
+    find_depths_of_means(const StepContext<dim>    &context,
+                         const std::vector<double> &volumes);
+
     /** Tension and violation of each point in the trial state. */
     void
     evaluate(const StepContext<dim>              &context,
@@ -107,6 +119,10 @@ namespace moraine
 
     ImplicitBoundary<dim> &boundary;
     BoundaryReport<dim>    prepared;
+    /** By active_cell_index(), of the cells g with one mean:
+     * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points
+     * and the area A of the boundary. Empty where means are not penalised. */
+    std::vector<double> depths_of_means;
   };
 } // namespace moraine
 

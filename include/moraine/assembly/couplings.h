@@ -15,9 +15,8 @@
 namespace moraine
 {
   /**
-   * Which nodes are coupled, and the pattern of a matrix that follows. Nodes
-   * are a ninth of the entries in 3D, and tell the length of rows, so that
-   * nothing grows while the pattern is filled.
+   * Which nodes are coupled, and the matrix that follows. Nodes are a ninth of
+   * the entries in 3D.
    */
   template <int dim>
   class Couplings
@@ -30,11 +29,12 @@ namespace moraine
     add(const unsigned int *nodes, const unsigned int n);
 
     /**
-     * Pattern with what @p constraints put in place of their rows and columns;
-     * of these it has the diagonal. Collective.
+     * Make a matrix of zeros with what @p constraints put in place of their
+     * rows and columns; of these it has the diagonal. Collective.
      */
-    LA::SparsityPattern
-    pattern(const dealii::AffineConstraints<double> &constraints) const;
+    void
+    make_matrix(const dealii::AffineConstraints<double> &constraints,
+                LA::SparseMatrix                        &matrix) const;
 
     /** By the numbers of nodes on this rank. */
     const dealii::DynamicSparsityPattern &

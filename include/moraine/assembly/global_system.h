@@ -5,6 +5,7 @@
 #define moraine_assembly_global_system_h
 
 #include <moraine/assembly/couplings.h>
+#include <moraine/assembly/ghost_rows.h>
 #include <moraine/assembly/local_system.h>
 #include <moraine/core/linear_algebra.h>
 #include <moraine/core/local_rows.h>
@@ -23,10 +24,10 @@ namespace moraine
    * Where the terms put their forces and minus their derivatives: the matrix
    * with the constraints condensed, and the forces of all nodes as they are.
    *
-   * Matrices of nodes that no constraint touches are summed where the rows lie
+   * Pairs of nodes that no constraint touches are summed where the rows lie
    * in memory: the columns of a node follow each other, so one search finds a
    * pair of nodes. Rows of other ranks are summed here before they are sent.
-   * Others take deal.II's way.
+   * Pairs with other nodes take deal.II's way.
    */
   template <int dim>
   class GlobalSystem
@@ -37,7 +38,7 @@ namespace moraine
     clear()
     {
       sum_of_matrices.reset();
-      ghost_rows.clear();
+      ghost_rows = GhostRows();
     }
 
     /** Make a matrix with the pattern of @p couplings. Forces are measured for
@@ -69,6 +70,13 @@ namespace moraine
       node_forces[node] += force;
     }
 
+    /** Whether a strong condition says what this unknown is. */
+    bool
+    is_prescribed(const dealii::types::global_dof_index dof) const
+    {
+      return constraints->is_constrained(dof);
+    }
+
     /** Sum over ranks: close the matrix, if it was asked for, and put the
      * forces into @p forces. Collective. */
     void
@@ -93,7 +101,13 @@ namespace moraine
     void
     count_work(const bool counts)
     {
-      counts_work = counts;
+      is_counting = counts;
+    }
+
+    bool
+    counts_work() const
+    {
+      return is_counting;
     }
 
     /** @f$\sum f \cdot \Delta u@f$ of what this rank added, if it counts. */
@@ -133,24 +147,15 @@ namespace moraine
       int ghost  = LA::LocalRows::none; ///< in ghost_rows
     };
 
-    /** The dim rows of a node of another rank, what this rank adds to them. */
-    struct GhostRows
-    {
-      dealii::types::global_dof_index              first_row;
-      std::vector<int>                             columns; ///< on this rank
-      std::vector<dealii::types::global_dof_index> global_columns;
-      std::vector<double>                          values; ///< row major
-    };
-
     NodeInMatrix
     find_node(const unsigned int node) const;
 
-    /** Find the rows of other ranks, after all nodes are found. */
+    /** Find the rows of other ranks, after all nodes are found. Collective. */
     void
     find_ghost_rows(const Couplings<dim> &couplings);
 
-    /** Add the rows of the a-th node of @p local, whose nodes are in
-     * by_column, to rows of @p length entries with these @p columns. */
+    /** Add the rows of the a-th node of @p local, of the nodes in by_column, to
+     * rows of @p length entries with these @p columns. */
     void
     add_rows_of_node(const LocalSystem<dim> &local,
                      const unsigned int      a,
@@ -158,8 +163,12 @@ namespace moraine
                      const int              *columns,
                      double                 *values) const;
 
-    /** Add to rows in memory. @return whether all nodes are there. */
-    bool
+    /** Add the matrix of @p local. */
+    void
+    add_to_matrix(const LocalSystem<dim> &local);
+
+    /** Add the pairs of the nodes in by_column to rows in memory. */
+    void
     add_to_rows(const LocalSystem<dim> &local);
 
     /** Rows of what follows others have nothing but a diagonal, the mean of
@@ -173,18 +182,19 @@ namespace moraine
     std::shared_ptr<LA::SparseMatrix>            sum_of_matrices;
     LA::LocalRows                                rows;
     std::vector<NodeInMatrix>                    nodes_in_matrix;
-    std::vector<GhostRows>                       ghost_rows;
+    GhostRows                                    ghost_rows;
     std::vector<dealii::types::global_dof_index> tied_rows; ///< owned
     bool any_tied = false;                                  ///< on any rank
     std::vector<std::pair<int, unsigned int>>
-      by_column; ///< scratch: columns of nodes
+                               by_column; ///< scratch: columns of nodes
+    dealii::FullMatrix<double> rest;      ///< scratch: what has no such columns
     std::vector<dealii::Tensor<1, dim>> node_forces;
     std::vector<dealii::Tensor<1, dim>> predicted;
     const std::vector<unsigned int>    *body_of_node = nullptr;
     std::vector<double>                 squares;
     double                              work_sum = 0;
     std::string                         first_failure;
-    bool                                counts_work  = false;
+    bool                                is_counting  = false;
     bool                                with_tangent = false;
   };
 } // namespace moraine

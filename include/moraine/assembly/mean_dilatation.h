@@ -21,9 +21,12 @@ namespace moraine
    * @f[ f_a = -\sum_p w\, \mathrm{dev}\,\tau\, g_a
    *           - \sum_c P_c\, \bar g_{ca}, \qquad
    *     P_c = \sum_p w\, p\, \omega_{pc} . @f]
-   * The exact derivative, with @f$c_d@f$ the deviatoric part of the tangent c
-   * (InternalForce adds @f$g_a c_d\, g_b@f$ and what has no @f$\bar g@f$ in
-   * it), @f$t = c : 1@f$ and @f$k = 1 : c : 1@f$, has in addition
+   * The exact derivative has what InternalForce adds for the stress
+   * @f$\mathrm{dev}\,\tau@f$ and, with @f$c_d@f$ the deviatoric part of the
+   * tangent c and I the identity of symmetric tensors,
+   * @f[ c_d - \tfrac2n (\mathrm{dev}\,\tau \otimes 1
+   *     + 1 \otimes \mathrm{dev}\,\tau + p\, 1 \otimes 1) + 2 p\, I @f]
+   * for the tangent, and, with @f$t = c : 1@f$ and @f$k = 1 : c : 1@f$,
    * @f[ \sum_c \tfrac1n (Q_{ca} \otimes \bar g_{cb} + \bar g_{ca} \otimes
    *       Q_{cb})
    *     + \sum_{cc'} k_{cc'}\, \bar g_{ca} \otimes \bar g_{c'b}
@@ -34,11 +37,30 @@ namespace moraine
    *     k_{cc'} = \sum_p w\, \omega_{pc} \omega_{pc'}
    *       \left(\tfrac{k}{n^2} + (\tfrac2n - 1)\, p\right), @f]
    * terms of @f$\tau@f$ and p at finite strain only. It is symmetric.
+   *
+   * Sums over cells are for many points in few cells. Where that is less work,
+   * a point takes @f$\hat g_a = \sum_c \omega_{pc}\, \bar g_{ca}@f$ itself
+   * (Coupling), by which the terms of Q and k are
+   * @f[ T g_a \otimes \hat g_b + \hat g_a \otimes T g_b
+   *     + \kappa\, \hat g_a \otimes \hat g_b, \qquad
+   *     T = \tfrac{w}{n} (\mathrm{dev}\,t + 2\, \mathrm{dev}\,\tau), \quad
+   *     \kappa = w \left(\tfrac{k}{n^2} + (\tfrac2n - 1)\, p\right). @f]
+   *
+   * All that is added to the matrix is added to the upper triangle of node
+   * pairs.
    */
   template <int dim>
   class MeanDilatation
   {
   public:
+    /** What a point adds to the tangent by its own mean gradients. */
+    struct Coupling
+    {
+      dealii::SymmetricTensor<2, dim> T;
+      double                          modulus;        ///< @f$\kappa@f$
+      const dealii::Tensor<1, dim>   *mean_gradients; ///< @f$\hat g@f$
+    };
+
     /** For a run of points that @p trial has evaluated, until it evaluates
      * others; their block has @p n_nodes. */
     void
@@ -50,13 +72,20 @@ namespace moraine
     take_pressure(const unsigned int i);
 
     /** Take the part of @p c, the tangent of the i-th point, that changes with
-     * the volume. @return what is left of it. */
+     * the volume. @return what InternalForce is to take for it. */
     VoigtMatrix<dim>
     take_volumetric(const unsigned int i, const VoigtMatrix<dim> &c);
 
+    /** What the point taken last has to add itself; none if cells do. */
+    const Coupling *
+    coupling() const
+    {
+      return by_points ? &of_point : nullptr;
+    }
+
     /** A modulus of all points, @f$\lambda + 2\mu/n@f$ [stress]. */
     void
-    add_modulus(const double modulus);
+    add_modulus(const double modulus, dealii::FullMatrix<double> &matrix);
 
     /** Add to the forces, and if asked to the matrix. */
     void
@@ -65,17 +94,33 @@ namespace moraine
         dealii::FullMatrix<double> &matrix);
 
   private:
-    /** The terms of Q and k. Changes Q. */
+    /** Find @f$\hat g@f$ of the i-th point. */
+    void
+    find_mean_gradients(const unsigned int i);
+
+    /** Sum k of the i-th point, whose @f$\kappa@f$ is @p modulus. */
+    void
+    sum_moduli(const unsigned int i, const double modulus);
+
+    /** The terms of P. */
+    void
+    add_pressures(dealii::FullMatrix<double> &matrix) const;
+
+    /** The terms of Q and k, summed over cells. */
     void
     add_products(dealii::FullMatrix<double> &matrix);
 
-    const TrialPoints<dim>             *trial   = nullptr;
-    unsigned int                        n_nodes = 0;
-    bool                                finite  = false;
+    const TrialPoints<dim>             *trial     = nullptr;
+    unsigned int                        n_nodes   = 0;
+    bool                                finite    = false;
+    bool                                by_points = false;
+    Coupling                            of_point;
     std::vector<double>                 P;
     std::vector<double>                 k; ///< of pairs of cells
-    std::vector<dealii::Tensor<1, dim>> Q; ///< of cells and nodes
-    std::vector<double>                 half;
+    std::vector<dealii::Tensor<1, dim>> Q; ///< of cells and nodes, over n
+    /** Scratch of nodes: @f$\hat g@f$ or @f$\bar g_c@f$, and what it is
+     * multiplied by. */
+    std::vector<dealii::Tensor<1, dim>> mean_gradients, factors;
   };
 
 

@@ -86,9 +86,13 @@ namespace moraine
     unbalanced_share();
 
     /**
-     * The forces of all but inertia at the start of the step that has begun,
-     * and the mass alone as tangent(), for the acceleration at the start.
-     * @return the forces, condensed. Collective.
+     * The forces at the start of the step that has begun, with the velocities
+     * that conditions prescribe in it, and the mass alone as tangent(), for
+     * the accelerations at the start:
+     * @f[ M \delta a = f(t_n, u_n, v_n) - M a_n . @f]
+     * The step must have a target, which has given held nodes their
+     * @f$v_n@f$ and @f$a_n@f$; it needs a new one after that.
+     * @return the right-hand side, condensed. Collective.
      */
     LA::Vector
     forces_and_mass();
@@ -149,12 +153,22 @@ namespace moraine
     void
     check_that_it_is_held(const bool first_step) const;
 
-    /**
-     * Norm of the forces of terms that stabilise, as assembled last, over that
-     * of all forces, then or at the start of the step. Collective.
-     */
-    double
-    share_of_stabilisation() const;
+    using Which = std::function<bool(const Term<dim> &)>;
+
+    /** What some terms are of all, as assembled last. */
+    struct Share
+    {
+      /** Norm of their forces over that of all, then or at the start of the
+       * step. */
+      double of_forces = 0;
+      /** Their work over the largest of other terms that are not dead, or the
+       * kinetic energy, if a term stabilises or in dynamics. */
+      double of_work = 0;
+    };
+
+    /** Of the terms that are asked for. Collective. */
+    Share
+    share(const Which &which) const;
 
     /** Whether cells or couplings changed at the last begin_step(). */
     bool
@@ -246,6 +260,10 @@ namespace moraine
     void
     find_forces_at_start();
 
+    /** Find the share of them that the time integrator asks for. */
+    void
+    weigh_forces_at_start();
+
     /** Those of point terms, in one pass over the stencils. */
     void
     add_point_forces_by_kind();
@@ -269,7 +287,6 @@ namespace moraine
     ConstraintTable::AddLines
     lines_of_terms() const;
 
-    using Which      = std::function<bool(const Term<dim> &)>;
     using Prescribed = typename Motion<dim>::Prescribed;
 
     /** Add the terms that are asked for. */
@@ -280,18 +297,19 @@ namespace moraine
     void
     add_point_terms(const Which &which, const bool tangent);
 
-    /** Of a term in the trial state. */
+    /** Of the i-th term in the trial state. */
     void
-    count_work(const Term<dim> &term, const double work);
+    count_work(const unsigned int i, const double work);
 
     /** Norms of forces without cancellation. */
     struct ForceScale
     {
       std::vector<double> of_bodies;
-      double              now      = 0;            ///< of all bodies
-      double              at_start = 0;            ///< of the step
-      std::vector<double> dead_squares;            ///< of bodies, of all ranks
-      double              stabilising_squares = 0; ///< of this rank
+      double              now      = 0; ///< of all bodies
+      double              at_start = 0; ///< of the step
+      std::vector<double> dead_squares; ///< of bodies, of all ranks
+      /** Of terms that stabilise and of this rank. */
+      std::vector<double> stabilising_squares;
     };
 
     using NodeValues = std::vector<dealii::Tensor<1, dim>>;
@@ -306,6 +324,8 @@ namespace moraine
        * work of those of the trial state that are not dead. */
       std::array<NodeValues, Works::n_kinds> by_kind;
       std::array<double, Works::n_kinds>     works{};
+      /** The same by term, if any stabilises too. */
+      std::vector<double> works_of_terms;
     };
 
     /** The sum of those at the start. Collective. */

@@ -46,10 +46,12 @@ namespace moraine
   template <int dim>
   struct StencilBlock
   {
-    unsigned int        n_points = 0;
-    unsigned int        n_nodes  = 0;
-    const unsigned int *points   = nullptr; ///< flat point numbers
-    const unsigned int *nodes    = nullptr; ///< node numbers of the GridSpace
+    unsigned int n_points = 0;
+    unsigned int n_nodes  = 0;
+    /** Functions of the nodes behind them are zero at all points. */
+    unsigned int        n_own_nodes = 0;
+    const unsigned int *points      = nullptr; ///< flat point numbers
+    const unsigned int *nodes       = nullptr; ///< numbers of the GridSpace
     /** The part of its volume with which each point counts; none if that is
      * all of it. A point may occur more than once then. */
     const double *shares = nullptr;
@@ -90,6 +92,7 @@ namespace moraine
       n_points      = points_in_block;
       points        = point_numbers;
       n_nodes       = nodes_in_block;
+      n_own_nodes   = nodes_in_block;
       nodes         = node_numbers;
       means.n_cells = 0;
       if (values.size() < n_points * n_nodes)

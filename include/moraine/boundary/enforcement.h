@@ -23,15 +23,22 @@ namespace moraine
    * |----------------------|-----|-----|----|---------|------------|
    * | weighted             | 1/2 | 1   | 1  | 4/(3 δ) | no         |
    * | augmented Lagrangian | 0   | 0   | 0  | 4/(3 δ) | yes        |
-   * | symmetric Nitsche    | 1   | 1   | 1  | γ/h     | per step   |
+   * | symmetric Nitsche    | 1   | 1   | 1  | max     | per step   |
    * | skew Nitsche         | 1   | 1   | -1 | γ/h     | per step   |
    * | penalty              | 0   | 0   | 0  | β/h     | no         |
+   *
+   * max is the larger one of γ/h and 4/d, d the depth of the material behind
+   * the surface in a cell. In dynamics, and of the symmetric form at finite
+   * strain, d is in the place of h. Where cells have one change of volume Q has
+   * no @f$\lambda@f$; the symmetric form holds the mean of u - g along the
+   * normal in a cell instead (mean_factor).
    *
    * The first row is the closed form of the Dirichlet-weighted basis
    * (Cortis et al. 2017, eqs. 13-28) for a band δ thin against the cell h:
    * integrals of d', d d' and d'^2 across the band. t is the multiplier the
    * surface carries from the last step or pass; in the second row it takes the
-   * place of the flux.
+   * place of the flux. Without one (no) the equations of a step know nothing of
+   * the last one, and t is the traction at the start of a step alone.
    */
   struct Enforcement
   {
@@ -43,6 +50,9 @@ namespace moraine
     bool        augments;         ///< within a step, until the constraint holds
     std::string name;             ///< as scenes call it
     double      lambda_share = 1; ///< how much of @f$\lambda@f$ is in Q
+    /** By @f$\lambda@f$ times this the mean of what is missed along the normal
+     * on the piece of the surface in a cell is held [1/length]. */
+    double mean_factor = 0;
   };
 
   /**

@@ -69,6 +69,9 @@ namespace moraine
     dealii::Tensor<1, dim>          normal;
     dealii::SymmetricTensor<2, dim> M;
     dealii::Tensor<1, dim>          violation; ///< @f$M(\Delta u - \Delta g)@f$
+    /** Along the normal, its mean over the piece of the surface in the cell,
+     * where that is penalised. */
+    double mean_violation = 0;
     /** Where a roller pushes: along the normal, or along the mean of both ends
      * of the step, in which a curved wall does no work and has no moment. */
     dealii::Tensor<1, dim> push;
@@ -122,6 +125,11 @@ namespace moraine
       std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
                                            const double)>;
 
+    /** Of the material behind the surface in a cell, in cell sizes: cells
+     * filled less follow their neighbours by default, and what lies in a cell
+     * without a point would be nothing. */
+    static constexpr double smallest_depth = 0.1;
+
     ImplicitBoundary(const std::string                  &name,
                      std::shared_ptr<const Surface<dim>> surface,
                      const RigidMotion<dim>             &motion,
@@ -137,6 +145,11 @@ namespace moraine
      * where it was at first and its motion is prescribed there. @p
      * cells_changed says that pieces must be found again even if the surface
      * stands still.
+     *
+     * Multipliers hold a roller at each quadrature point: at several in a cell
+     * bilinear functions cannot slide along a curve. So a curved roller has one
+     * in each piece, but not @p in_motion (dynamics), where the fewer of them
+     * feed vibrations.
      */
     void
     begin_step(const GridSpace<dim> &space,
@@ -144,23 +157,27 @@ namespace moraine
                const double          search_tolerance,
                const bool            moves_points,
                const StrainMeasure   measure,
-               const bool            cells_changed);
+               const bool            cells_changed,
+               const bool            in_motion = false);
 
     /**
-     * Let the factor of Nitsche's method act over the depth of the material
-     * behind the surface in the cell of each point,
-     * @f$\min(h, |\Omega \cap c| / |\Gamma \cap c|)@f$, instead of h, but over
-     * no less than h/10: by so much the energy of linear displacements bounds
-     * their flux, @f$\int_{\Gamma \cap c} f\, Q^{-1} f \leq |\Gamma \cap c| /
+     * Let the factor of Nitsche's method act over @p share of the depth of the
+     * material behind the surface in the cell of each point,
+     * @f$|\Omega \cap c| / |\Gamma \cap c|@f$ or h/10 if that is more, instead
+     * of h, but never over more than h: by this depth the energy of linear
+     * displacements bounds their flux, @f$\int_{\Gamma \cap c} f\, Q^{-1} f
+     * \leq |\Gamma \cap c| /
      * |\Omega \cap c| \int_{\Omega \cap c} \sigma : \varepsilon@f$.
      * Until the next begin_step().
      * @param volumes @f$|\Omega \cap c|@f$ by active_cell_index()
+     * @param share > 0
      */
     void
-    set_depths(const std::vector<double> &volumes);
+    set_depths(const std::vector<double> &volumes, const double share);
 
     /** Set the prescribed increments of a step to @p t_end, and multipliers as
-     * they are at its start. */
+     * they are at its start; an enforcement without them has them only where
+     * @p t_end is the start. */
     void
     set_target(const double t_end);
 
@@ -280,6 +297,15 @@ namespace moraine
     }
 
   private:
+    /** What a step makes of the surface; see begin_step(). */
+    struct Kind
+    {
+      bool moves_with_points = true;
+      bool projects          = false; ///< points onto a curved roller
+      bool turns_multiplier  = false;
+      bool has_single_points = false; ///< one in each piece
+    };
+
     /** Functions of the nodes of each point's cell, point by point. */
     struct Shapes
     {
@@ -326,13 +352,11 @@ namespace moraine
     const Constraint<dim>           constraint;
     const Enforcement               how;
     const double                    limit;
-    double                          t_start           = 0;
-    double                          t_placed          = 0;
-    bool                            placed            = false;
-    bool                            has_pieces        = false;
-    bool                            moves_with_points = true;
-    bool                            projects          = false;
-    bool                            turns_multiplier  = false;
+    double                          t_start    = 0;
+    double                          t_placed   = 0;
+    bool                            placed     = false;
+    bool                            has_pieces = false;
+    Kind                            kind;
     std::vector<CarriedPlace<dim>>  carried;
     std::vector<CarriedPlace<dim>>  prepared;
     bool                            kept_at_points = false;

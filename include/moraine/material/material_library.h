@@ -40,6 +40,21 @@ namespace moraine
 
     void
     add_parameters(dealii::ParameterHandler &prm);
+
+    bool
+    yields() const
+    {
+      return !uniaxial_yield_stress.empty() || !shear_yield_stress.empty() ||
+             !yield_radius.empty();
+    }
+
+    /** Whether elements of degree 1 may lock: it yields, which keeps volume,
+     * or has a Poisson ratio above 0.4. */
+    bool
+    hardly_changes_volume() const
+    {
+      return poisson_ratio > 0.4 || yields();
+    }
   };
 
   /**

@@ -48,6 +48,8 @@ namespace moraine
    * increments of the mesh displacement at its place add up to its displacement
    * and carry it along. Where an interpolated probe leaves the active cells it
    * follows the point that is nearest to it from then on, and news() says so.
+   * It waits where it is as long as it has not stood on a body, or while that
+   * body is not there.
    */
   template <int dim>
   class Probes : public StatePart
@@ -132,9 +134,11 @@ namespace moraine
   private:
     struct Probe
     {
-      ProbeParameters<dim>   parameters;
-      dealii::Point<dim>     start;
-      unsigned int           point_id = 0;
+      ProbeParameters<dim> parameters;
+      dealii::Point<dim>   start;
+      unsigned int         point_id = 0;
+      /** Of an interpolated probe: what it stands on, or stood on last. */
+      unsigned int           body     = dealii::numbers::invalid_unsigned_int;
       double                 distance = 0; ///< of the point that is followed
       dealii::Tensor<1, dim> displacement;
       dealii::Tensor<1, dim> increment;            ///< of the trial step
@@ -155,6 +159,14 @@ namespace moraine
     choose_point(const dealii::Point<dim> &place,
                  const PointSet<dim>      &points,
                  Probe                    &probe) const;
+
+    /** The body of a point, known on one rank. Collective. */
+    unsigned int
+    body_of(const unsigned int id, const PointSet<dim> &points) const;
+
+    /** Whether @p body has points by now. Collective. */
+    bool
+    is_there(const unsigned int body, const PointSet<dim> &points) const;
 
     /** The displacement of a point, known on one rank. Collective. */
     dealii::Tensor<1, dim>

@@ -14,6 +14,13 @@
 
 namespace moraine
 {
+  /** The largest shares that a GhostTerm had in a step. */
+  struct GhostShares
+  {
+    double of_forces = 0; ///< of the norm of all forces
+    double of_work   = 0; ///< over the largest of other terms
+  };
+
   /** What summary.json says about a run; lists keep their order. */
   struct Summary
   {
@@ -33,6 +40,13 @@ namespace moraine
       double        peak_memory_mib = 0;
     };
 
+    /** What solving linear systems took. */
+    struct LinearSystems
+    {
+      unsigned int             iterations = 0;
+      std::vector<std::string> solvers; ///< see LinearSolver::choices()
+    };
+
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
@@ -46,16 +60,16 @@ namespace moraine
     /** Steps that ended by Newton::pseudo_transient(). */
     unsigned int n_pseudo_transient = 0;
     unsigned int newton_iterations  = 0;
-    unsigned int linear_iterations  = 0;
     /** Left out if not asked for. */
     std::optional<double> condition_number;
-    double                wall_seconds = 0;
+    /** Left out without a ghost term. */
+    std::optional<GhostShares> ghost_term;
+    double                     wall_seconds = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */
     std::vector<std::string> effects;
-    /** See LinearSolver::choices(). */
-    std::vector<std::string> linear_solvers;
+    LinearSystems            linear;
     /** What may make results less than they look; left out if nothing. */
     std::vector<std::string> warnings;
     /** Left out if the scene has no exact solution. */

@@ -28,8 +28,11 @@ namespace moraine
   class EnergyWatch : public StatePart
   {
   public:
-    /** Less energy than @p round_off is not looked at. */
-    explicit EnergyWatch(const double round_off);
+    /** Less energy than @p round_off is not looked at. @p remedies: keys of
+     * section 'Method' that the scene can still change against energy from
+     * boundaries or transfers, empty if none. */
+    explicit EnergyWatch(const double       round_off,
+                         const std::string &remedies = "");
 
     /** Take the sums of @p works up to time @p t and, of the step that ended
      * there, @p work_of_motions, by boundaries in their prescribed motion. */
@@ -55,14 +58,15 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
-    const double round_off;
-    double       given       = 0; ///< G [force length]
-    double       moved       = 0; ///< W_moved [force length]
-    double       total       = 0; ///< T + E + D [force length]
-    double       grows_since = 0; ///< total > 4 G
-    bool         starts_anew = false;
-    Works        works;
-    double       time = 0;
+    const double      round_off;
+    const std::string of_method;       ///< the end of a sentence of remedies
+    double            given       = 0; ///< G [force length]
+    double            moved       = 0; ///< W_moved [force length]
+    double            total       = 0; ///< T + E + D [force length]
+    double            grows_since = 0; ///< total > 4 G
+    bool              starts_anew = false;
+    Works             works;
+    double            time = 0;
   };
 } // namespace moraine
 

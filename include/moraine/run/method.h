@@ -35,8 +35,10 @@ namespace moraine
     std::string  strain               = "small";
     std::string  mesh_after_step      = "default";
     std::string  point_weights        = "volumes";
-    std::string  volumetric_strain    = "pointwise";
+    std::string  volumetric_strain    = "auto";
     double       aggregate_below      = 0.1;
+    std::string  cut_cells            = "aggregation";
+    double       ghost_factor         = 0.1;
     double       fictitious_stiffness = 0.;
     std::string  domain_update        = "corners";
     std::string  split_domains        = "auto";
@@ -64,11 +66,26 @@ namespace moraine
                                           PointWeights::fitted_to_cells;
     }
 
+    /** Whether nodes of cut cells are held by a GhostTerm. */
+    bool
+    has_ghost_term() const
+    {
+      return cut_cells == "ghost";
+    }
+
+    /** Cells can have means of the volumetric strain. */
+    bool
+    can_average_volume() const
+    {
+      return chosen().can_average_volume && degree == 1;
+    }
+
+    /** Once Scene has chosen what is meant by auto. */
     VolumetricStrain
     volumetric() const
     {
-      return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
-                                                VolumetricStrain::cell_mean;
+      return volumetric_strain == "cell mean" ? VolumetricStrain::cell_mean :
+                                                VolumetricStrain::pointwise;
     }
 
     /** Boxes keep their size at small strain. */
@@ -81,6 +98,15 @@ namespace moraine
       return split_domains == "true" ||
              (split_domains == "auto" && strain == "finite" &&
               chosen().can_split_domains);
+    }
+
+    /** Whether points move through the mesh and nothing that is theirs grows
+     * with the distance between them. */
+    bool
+    points_drift_apart(const bool have_domains) const
+    {
+      return strain == "finite" && after_step() == MeshAfterStep::reset &&
+             (!have_domains || update_of_domains() == DomainUpdate::frozen);
     }
 
     StrainMeasure

@@ -27,6 +27,8 @@ namespace moraine
      * was singular or steps failed.
      */
     unsigned int n_fictitious_stiffness = 0;
+    /** If the scene has a ghost term. */
+    std::optional<GhostShares> ghost_term;
     /** What may make results less than they look. */
     std::vector<std::string> warnings;
   };

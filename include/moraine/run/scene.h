@@ -270,6 +270,11 @@ namespace moraine
     void
     choose_enforcement(const InputFile &input);
 
+    /** Cell means if nothing is said, volume hardly changes and nothing that
+     * is @p given excludes them. */
+    void
+    choose_volumetric_strain(const std::vector<InputFile::Entry> &given);
+
     unsigned int             dimension = dim;
     dealii::ParameterHandler prm;
   };

@@ -42,7 +42,8 @@ namespace moraine
     /**
      * What is to be told of an accepted step that ended at time @p t with the
      * boundaries' @p reports: that the material misses one of them, with @p
-     * largest_motion of a node in the step; that energy grows without work.
+     * largest_motion of a node in the step; that points of a body drift apart;
+     * that energy grows without work.
      */
     std::vector<std::string>
     of_step(const double                            t,
@@ -69,13 +70,18 @@ namespace moraine
                     const BoundaryReport<dim> &report,
                     const double               largest_motion);
 
+    /** That points without domains that follow them are stretched apart. */
+    std::string
+    points_apart(const double t);
+
     std::string
     energy_made(const double t);
 
     const Scene<dim>         &scene;
     const Model<dim>         &model;
-    std::vector<unsigned int> n_parts; ///< of each body
-    std::set<std::string>     missed;  ///< boundaries told of
+    std::vector<unsigned int> n_parts;   ///< of each body
+    std::set<std::string>     missed;    ///< boundaries told of
+    std::set<unsigned int>    stretched; ///< bodies told of
     EnergyWatch               energy;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */

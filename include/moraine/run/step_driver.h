@@ -165,6 +165,11 @@ namespace moraine
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
 
+    /** Count what a ghost term has of the step that is to be accepted. @return
+     * what to warn of, or "". Collective. */
+    std::string
+    share_of_ghost_term();
+
     void
     accept(const NewtonReport &report,
            const LA::Vector   &x,

@@ -4,6 +4,8 @@
 #ifndef moraine_solver_multigrid_options_h
 #define moraine_solver_multigrid_options_h
 
+#include <deal.II/lac/trilinos_precondition.h>
+
 #include <moraine/core/linear_algebra.h>
 
 #include <Epetra_MultiVector.h>
@@ -31,6 +33,16 @@ namespace moraine
   private:
     std::unique_ptr<Epetra_MultiVector> modes;
   };
+
+
+
+  /**
+   * Make block Gauss-Seidel on the finest level from the values that the matrix
+   * has now: of its blocks on the diagonal it keeps factors, of the rest it
+   * sees every change. Other smoothers stay as they are.
+   */
+  void
+  renew_smoother(dealii::TrilinosWrappers::PreconditionAMG &multigrid);
 } // namespace moraine
 
 #endif

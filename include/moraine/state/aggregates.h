@@ -52,9 +52,10 @@ namespace moraine
 
     /**
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
-     * cell that holds it. Roots that this rank does not know are asked for
-     * beside @p active, its own cells; so are cells that have a root in common
-     * with one that it flags or owns, if cells are grouped.
+     * cell that holds it. If cells are grouped, those that have a root in
+     * common with one of @p active, its own cells, or one that it owns are
+     * asked for beside these; so are the roots of all nodes this rank knows
+     * then.
      * @return whether ties, groups or nodes of this rank changed. Collective.
      */
     bool

@@ -174,8 +174,13 @@ namespace moraine
                const Constrain &constrain,
                const bool       moves = false);
 
-    /** @f$(1-\alpha_m) a_{n+1} + \alpha_m a_n@f$ over @f$1-\alpha_f@f$; none in
-     * a step of size 0. */
+    /** Aim at the start of the step itself, where inertia is that of
+     * accelerations(). */
+    void
+    set_target_at_start();
+
+    /** @f$(1-\alpha_m) a_{n+1} + \alpha_m a_n@f$ over @f$1-\alpha_f@f$;
+     * @f$a_n@f$ after set_target_at_start(), none in another step of size 0. */
     dealii::Tensor<1, dim>
     inertial_acceleration(const unsigned int            node,
                           const dealii::Tensor<1, dim> &du) const
@@ -254,7 +259,7 @@ namespace moraine
     Nodal
     at_end() const;
 
-    /** Take accelerations at the start of the first step. Collective. */
+    /** Take accelerations at the start of a step. Collective. */
     void
     set_accelerations(const LA::Vector &values);
 

@@ -81,11 +81,13 @@ namespace moraine
     }
 
     /** Before the first step: tie nodes without a cell of which points fill at
-     * least the part @p fill, 0 < @p fill <= 1, to the nearest one. */
+     * least the part @p fill, 0 < @p fill <= 1, to the nearest one. Ties that
+     * @p give_way are those of a GhostTerm, others lines of constraints. */
     void
-    aggregate_below(const double fill)
+    aggregate_below(const double fill, const bool give_way = false)
     {
       cell_aggregates.emplace(fill, cell_means.has_value());
+      ties_give_way = give_way;
     }
 
     /**
@@ -214,6 +216,13 @@ namespace moraine
     aggregates() const
     {
       return cell_aggregates ? &*cell_aggregates : nullptr;
+    }
+
+    /** The same if tied nodes have exactly what their roots have. */
+    const Aggregates<dim> *
+    strict_aggregates() const
+    {
+      return ties_give_way ? nullptr : aggregates();
     }
 
     const GridSpace<dim> &
@@ -350,7 +359,8 @@ namespace moraine
     const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
     StepTime                                             times;
-    bool                                                 first_step = true;
+    bool                                                 first_step    = true;
+    bool                                                 ties_give_way = false;
     /** Of fitted_weights; empty without them. */
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;

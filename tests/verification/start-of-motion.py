@@ -1,0 +1,144 @@
+# ranks: 1 # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""One element with E = rho = 1, u'' = -3 u: forces that are there at once, for
+they depend on velocities, begin with a stage or come from a base that
+accelerates, do not cost the second order in time."""
+
+from math import cos, exp, sin, sqrt
+
+SCENE = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 1, 1
+  set Cell size = 1
+end
+subsection Method
+  set Method = finite element
+  set Mesh after step = keep
+end
+subsection Materials
+  subsection m
+    set Young modulus = 1
+    set Poisson ratio = 0
+    set Density = 1
+  end
+end
+subsection Bodies
+  subsection b
+    set Lower corner = 0, 0
+    set Upper corner = 1, 1
+    {body}
+  end
+end
+subsection Grid conditions
+  subsection l
+    set Side = left
+    set Components = x
+    {base}
+  end
+  subsection y
+    set Side = bottom
+    set Components = y
+  end
+  subsection top
+    set Side = top
+    set Components = y
+  end
+  {condition}
+end
+{rest}
+subsection Probes
+  subsection tip
+    set Location = 1, 0.5
+    set Kind = interpolated
+  end
+end
+"""
+
+OMEGA = sqrt(3)
+
+
+def time(integrator, end, steps):
+    return f"""subsection Time
+  set Integrator = {integrator}
+  set End time = {end}
+  set Steps = {steps}
+end
+"""
+
+
+def damped(t):
+    frequency = sqrt(OMEGA ** 2 - 0.25)  # u'' = -u' - 3 u
+    return 0.01 * exp(-t / 2) * sin(frequency * t) / frequency
+
+
+def in_one(integrator, steps):
+    return time(integrator, 4, steps)
+
+
+def load_begins(integrator, steps):
+    return f"""subsection Loads
+  subsection p
+    set Type = side traction
+    set Side = right
+    set Value = 0.01; 0
+  end
+end
+subsection Stages
+  subsection a
+    set Loads = none
+    {time(integrator, 1, 2)}
+  end
+  subsection b
+    set Loads = p
+    {time(integrator, 5, steps)}
+  end
+end
+"""
+
+
+def hold_ends(integrator, steps):
+    return f"""subsection Stages
+  subsection pull
+    {time("quasi-static", 1, 1)}
+  end
+  subsection held
+    {time(integrator, 2, 2)}
+  end
+  subsection free
+    set Grid conditions = l, y, top
+    {time(integrator, 6, steps)}
+  end
+end
+"""
+
+
+held = """subsection r
+    set Side = right
+    set Components = x
+    set Displacement = 0.01 * min(t, 1); 0
+  end"""
+for name, parts, rest, exact in (
+        ("mass damping", {"body": "set Initial velocity = 0.01 * x; 0\n"
+                                  "    set Mass damping = 1"}, in_one, damped),
+        ("a load begins with a stage", {}, load_begins,
+         lambda t: 0.01 * (1 - cos(OMEGA * (t - 1))) if t > 1 else 0.),
+        ("a condition ends with a stage", {"condition": held}, hold_ends,
+         lambda t: 0.01 * cos(OMEGA * (t - 2)) if t > 2 else 0.01 * min(t, 1)),
+        ("the base accelerates",
+         {"base": "set Displacement = 0.005 * t^2; 0"}, in_one,
+         lambda t: 0.005 * t * t - 0.005 * (1 - cos(OMEGA * t)))):
+    for integrator in ("Newmark", "generalised-alpha", "energy-momentum"):
+        errors = []
+        for steps in (80, 160):
+            scene = folder / "scene.prm"
+            scene.write_text(SCENE.format(**{
+                "body": "", "base": "", "condition": "",
+                "rest": rest(integrator, steps), **parts}))
+            errors.append(max(abs(row["u_x at tip"] - exact(row["t"]))
+                              for row in run(scene).history()))
+        number(f"{name}, {integrator}: largest error over 0.01, 80 steps",
+               errors[0] / 0.01, 2)
+        number(f"{name}, {integrator}: over that of 160 steps",
+               errors[0] / errors[1], 2)
