@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/grid_condition_term.h>
+#include <moraine/state/motion.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,6 +11,19 @@
 namespace moraine
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** The force on a node over what is unbalanced there. */
+    template <int dim>
+    double
+    force_over_unbalanced(const StepContext<dim> &context)
+    {
+      return context.motion ? -context.motion->integrator().divisor() : -1.;
+    }
+  } // namespace
+
+
 
   template <int dim>
   GridConditionTerm<dim>::GridConditionTerm(
@@ -117,6 +131,7 @@ namespace moraine
                                                 GlobalSystem<dim> &system) const
   {
     const GridSpace<dim> &space = context.state.grid();
+    const double          share = force_over_unbalanced(context);
     for (const auto &entry : prescribed.entries)
       {
         const auto dof = space.node_dof(entry.node) + entry.component;
@@ -124,7 +139,7 @@ namespace moraine
             !space.locally_owned().is_element(dof))
           continue;
         Tensor<1, dim> force;
-        force[entry.component] = -unbalanced(dof);
+        force[entry.component] = share * unbalanced(dof);
         system.add(entry.node, force);
       }
   }
@@ -137,6 +152,7 @@ namespace moraine
                                   const LA::Vector       &unbalanced)
   {
     const GridSpace<dim> &space = context.state.grid();
+    const double          share = force_over_unbalanced(context);
     prepared.clear();
     for (const auto &condition : conditions)
       prepared.push_back({condition.name, {}, 0., 0., 0., 0.});
@@ -154,7 +170,7 @@ namespace moraine
           {
             const auto dof = space.node_dof(node) + entries[last].component;
             if (space.locally_owned().is_element(dof))
-              force[entries[last].component] = -unbalanced(dof);
+              force[entries[last].component] = share * unbalanced(dof);
           }
         auto &report = prepared[entries[first].condition];
         report.reaction += force;

@@ -18,18 +18,20 @@ namespace moraine
       "How the constraint is imposed: Nitsche's method (skew or symmetric), a "
       "penalty with multipliers that take its place until the constraint holds "
       "(augmented Lagrangian), the Dirichlet-weighted basis of a thin band, or "
-      "a penalty alone. If left out with finite strain: augmented Lagrangian "
-      "with a band of 0.01, because Nitsche's flux is linear in the increment "
-      "of a step.",
+      "a penalty alone. If left out with finite strain, or in statics with a "
+      "material that yields: augmented Lagrangian with a band of 0.01, because "
+      "Nitsche's flux is elastic and linear in the increment of a step.",
       Patterns::Selection("skew Nitsche|symmetric Nitsche|augmented Lagrangian|"
                           "weighted|penalty"));
-    prm.add_parameter("Band width",
-                      band_width,
-                      "Width of the band over the cell size, delta/h: of "
-                      "'weighted', whose error is of its order, and of "
-                      "'augmented Lagrangian', whose penalty is 4/(3 delta); "
-                      "0.01 there if left out with finite strain.",
-                      Patterns::Double(1e-12, 1.));
+    prm.add_parameter(
+      "Band width",
+      band_width,
+      "Width of the band over the cell size, delta/h: of "
+      "'weighted', whose error is of its order, and of "
+      "'augmented Lagrangian', whose penalty is 4/(3 delta); "
+      "0.01 there if left out with finite strain or, in statics, "
+      "a material that yields.",
+      Patterns::Double(1e-12, 1.));
     prm.add_parameter(
       "Nitsche factor",
       nitsche_factor,
@@ -42,6 +44,16 @@ namespace moraine
                       penalty_factor,
                       "Of 'penalty': beta in beta/h, > 0.",
                       Patterns::Double(1e-12));
+    prm.add_parameter(
+      "Held in a cell",
+      held_in_a_cell,
+      "What of the piece of the surface in a cell is held. mean: the mean over "
+      "it, unless it runs along the faces of the cell. places: the places that "
+      "integrate exactly; cells of degree 1 that the surface cuts at an angle "
+      "lock then with all but Nitsche's method. auto: mean, but places with "
+      "Nitsche's method, with degree 2 and, in dynamics, for a roller on a "
+      "curve.",
+      Patterns::Selection("auto|mean|places"));
   }
 
 
@@ -51,23 +63,40 @@ namespace moraine
   {
     const DirichletWeight weight(band_width);
     const double          c3 = weight.integral_derivative_squared();
+    Enforcement how{0., 0., 0., penalty_factor, false, false, enforcement};
     // The multiplier takes the place of the flux through the band. Both at once
     // lose definiteness where the points of a cut cell hold little energy
     // against the flux on its surface, and updates of t diverge.
     if (enforcement == "augmented Lagrangian")
-      return {0., 0., 0., c3, true, true, enforcement};
-    if (enforcement == "weighted")
-      return {weight.integral_value_derivative(),
-              weight.integral_derivative(),
-              1.,
-              c3,
-              false,
-              false,
-              enforcement};
-    if (enforcement == "symmetric Nitsche")
-      return {1., 1., 1., nitsche_factor, true, false, enforcement};
-    if (enforcement == "skew Nitsche")
-      return {1., 1., -1., nitsche_factor, true, false, enforcement};
-    return {0., 0., 0., penalty_factor, false, false, enforcement};
+      how = {0., 0., 0., c3, true, true, enforcement};
+    else if (enforcement == "weighted")
+      how = {weight.integral_value_derivative(),
+             weight.integral_derivative(),
+             1.,
+             c3,
+             false,
+             false,
+             enforcement};
+    else if (enforcement == "symmetric Nitsche")
+      how = {1., 1., 1., nitsche_factor, true, false, enforcement};
+    else if (enforcement == "skew Nitsche")
+      how = {1., 1., -1., nitsche_factor, true, false, enforcement};
+    if (held_in_a_cell != "auto")
+      how.held = held_in_a_cell == "mean" ? Enforcement::Held::mean :
+                                            Enforcement::Held::places;
+    return how;
+  }
+
+
+
+  bool
+  Enforcement::holds_means(const unsigned int degree,
+                           const bool         curved_roller,
+                           const bool         in_motion) const
+  {
+    if (held != Held::automatic)
+      return held == Held::mean;
+    const bool is_nitsche = carries_multiplier && !augments;
+    return !is_nitsche && degree == 1 && !(curved_roller && in_motion);
   }
 } // namespace moraine

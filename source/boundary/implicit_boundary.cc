@@ -27,6 +27,11 @@ namespace moraine
 
 
 
+    /** Pieces whose normals differ by more than 45 degrees meet in a corner. */
+    constexpr double cosine_of_corner = 0.7071;
+
+
+
     template <int dim>
     unsigned int
     n_gauss_points_in(const CellVertices<dim> &cell)
@@ -35,6 +40,30 @@ namespace moraine
         dim == 2 && (cell[0] - cell[1] - (cell[2] - cell[3])).norm() >
                       1e-12 * cell[0].distance(cell[3]);
       return is_skewed ? 2 * n_gauss_points : n_gauss_points;
+    }
+
+
+
+    /** Whether a plane with this @p normal is parallel to opposite faces of a
+     * cell, on which its functions are those of a face. */
+    template <int dim>
+    bool
+    is_along_faces(const CellVertices<dim> &cell, const Tensor<1, dim> &normal)
+    {
+      std::array<bool, dim> holds_edges; ///< that run along an axis
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          holds_edges[d] = true;
+          for (unsigned int v = 0; v < cell.size(); ++v)
+            if (!((v >> d) & 1))
+              {
+                const Tensor<1, dim> edge = cell[v | (1 << d)] - cell[v];
+                holds_edges[d]            = holds_edges[d] &&
+                                 std::abs(edge * normal) <= 1e-8 * edge.norm();
+              }
+        }
+      return std::count(holds_edges.begin(), holds_edges.end(), true) ==
+             dim - 1;
     }
 
 
@@ -160,8 +189,8 @@ namespace moraine
                           moves_points && curved_roller,
                           moves_points && measure == StrainMeasure::finite &&
                             constraint.kind == Constraint<dim>::fixed,
-                          how.augments && curved_roller && !in_motion};
-    const bool changes = kind.has_single_points != before.has_single_points;
+                          how.holds_means(space.degree(), curved_roller, in_motion)};
+    const bool changes = kind.holds_means != before.holds_means;
     const bool moves   = moves_points && motion.moves();
     if (has_pieces && !cells_changed && !moves && !changes)
       {
@@ -180,6 +209,9 @@ namespace moraine
     boundary_points.clear();
     find_pieces(space, search_tolerance);
     evaluate_shapes(space);
+    if (kind.holds_means)
+      take_means(space);
+    number_points();
     take_over_nearest(space.communicator());
     kept_at_points = false;
     placed = has_pieces = true;
@@ -223,11 +255,77 @@ namespace moraine
                      [](const auto &a, const auto &b) {
                        return a.cell < b.cell;
                      });
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::number_points()
+  {
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       boundary_points[q].number =
         q > 0 && boundary_points[q - 1].cell == boundary_points[q].cell ?
           boundary_points[q - 1].number + 1 :
           0;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_means(const GridSpace<dim> &space)
+  {
+    const unsigned int              n = shapes.n_nodes;
+    std::vector<BoundaryPoint<dim>> means;
+    Shapes                          of_means;
+    CellVertices<dim>               vertices;
+    unsigned int                    first = 0; ///< of the cell
+    of_means.n_nodes                      = n;
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const BoundaryPoint<dim> &point = boundary_points[q];
+        if (means.empty() || means.back().cell != point.cell)
+          {
+            first    = means.size();
+            vertices = present_vertices(space, point.cell);
+          }
+        const auto same =
+          std::find_if(means.begin() + first, means.end(), [&](const auto &m) {
+            return m.normal * point.normal > cosine_of_corner * m.normal.norm();
+          });
+        const double         *N      = &shapes.values[q * n];
+        const Tensor<1, dim> *grad_N = &shapes.gradients[q * n];
+        if (same == means.end() || is_along_faces(vertices, point.normal))
+          {
+            means.push_back(point);
+            of_means.values.insert(of_means.values.end(), N, N + n);
+            of_means.gradients.insert(of_means.gradients.end(),
+                                      grad_N,
+                                      grad_N + n);
+            continue;
+          }
+        same->JxW += point.JxW;
+        const double share = point.JxW / same->JxW;
+        same->x += share * (point.x - same->x);
+        same->normal += share * (point.normal - same->normal);
+        const std::size_t m = (same - means.begin()) * n;
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            of_means.values[m + a] += share * (N[a] - of_means.values[m + a]);
+            of_means.gradients[m + a] +=
+              share * (grad_N[a] - of_means.gradients[m + a]);
+          }
+      }
+    for (BoundaryPoint<dim> &mean : means)
+      {
+        mean.normal /= mean.normal.norm();
+        // A roller asks how far from the surface its points end.
+        if (kind.projects)
+          mean.x += at_start.level(mean.x) * at_start.normal(mean.x);
+      }
+    boundary_points = std::move(means);
+    shapes          = std::move(of_means);
   }
 
 
@@ -245,9 +343,7 @@ namespace moraine
     std::vector<SurfacePoint<dim>> pieces;
     // The mesh as it was built decides, so that the points stay the same ones.
     at_start.pieces(vertices,
-                    kind.has_single_points ?
-                      1 :
-                      n_gauss_points_in<dim>(vertices_of<dim>(cell)),
+                    n_gauss_points_in<dim>(vertices_of<dim>(cell)),
                     pieces);
     for (const SurfacePoint<dim> &piece : pieces)
       {

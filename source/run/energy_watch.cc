@@ -17,6 +17,9 @@ namespace moraine
 
     /** And this is no error that can be lived with. */
     constexpr double most_allowed = 100;
+
+    /** What boundaries that hold or transfers make is told of. */
+    constexpr double told_share = 0.2;
   } // namespace
 
 
@@ -53,6 +56,53 @@ namespace moraine
 
 
 
+  double
+  EnergyWatch::made_by_boundaries() const
+  {
+    return works.of_forces[unsigned(WorkKind::boundaries)] - moved;
+  }
+
+
+
+  std::string
+  EnergyWatch::cause() const
+  {
+    const double held        = made_by_boundaries();
+    const double made        = -works.out_of_balance();
+    const double transferred = -works.lost_in_transfer;
+    if (held >= std::max(made, transferred))
+      return "It comes from boundaries that hold: another 'Enforcement' "
+             "('augmented Lagrangian', 'penalty') or a larger 'Nitsche "
+             "factor'" +
+             of_method;
+    if (made >= transferred)
+      return "It comes from the integrator: shorter steps, or 'Integrator = "
+             "energy-momentum' or 'generalised-alpha' in section 'Time'";
+    return "It comes from carrying velocities between nodes and points: "
+           "another 'Velocity transfer' or 'Integrator = "
+           "generalised-alpha' in section 'Time'" +
+           of_method;
+  }
+
+
+
+  std::string
+  EnergyWatch::warning()
+  {
+    const double made = std::max(made_by_boundaries(), -works.lost_in_transfer);
+    if (told || total <= round_off || !(made > told_share * given))
+      return "";
+    told = true;
+    std::ostringstream text;
+    text << "energy grows without work: by t = " << std::setprecision(6) << time
+         << " it is " << std::setprecision(2) << 100 * made / given
+         << " % of what the start, loads and boundaries that move have given. "
+         << cause();
+    return text.str();
+  }
+
+
+
   std::string
   EnergyWatch::failure() const
   {
@@ -66,22 +116,7 @@ namespace moraine
             "given no more than "
          << given << "; they have been more than that can explain since t = "
          << std::setprecision(6) << grows_since << ". ";
-    const double held = works.of_forces[unsigned(WorkKind::boundaries)] - moved;
-    const double made = -works.out_of_balance();
-    const double transferred = -works.lost_in_transfer;
-    if (held >= std::max(made, transferred))
-      text << "It comes from boundaries that hold: another 'Enforcement' "
-              "('augmented Lagrangian', 'penalty') or a larger 'Nitsche "
-              "factor'"
-           << of_method;
-    else if (made >= transferred)
-      text << "It comes from the integrator: shorter steps, or 'Integrator = "
-              "energy-momentum' or 'generalised-alpha' in section 'Time'";
-    else
-      text << "It comes from carrying velocities between nodes and points: "
-              "another 'Velocity transfer' or 'Integrator = "
-              "generalised-alpha' in section 'Time'"
-           << of_method;
+    text << cause();
     return text.str();
   }
 
@@ -93,6 +128,7 @@ namespace moraine
     archive.write("checks/energy/given", given, "force length");
     archive.write("checks/energy/moved", moved, "force length");
     archive.write("checks/energy/grows_since", grows_since, "time");
+    archive.write("checks/energy/told", told ? 1u : 0u);
   }
 
 
@@ -103,6 +139,7 @@ namespace moraine
     given       = archive.number("checks/energy/given");
     moved       = archive.number("checks/energy/moved");
     grows_since = archive.number("checks/energy/grows_since");
+    told        = archive.integer("checks/energy/told") != 0;
     total       = 0;
   }
 } // namespace moraine

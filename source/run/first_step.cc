@@ -12,6 +12,7 @@
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
 #include <moraine/run/scene_conditions.h>
+#include <moraine/run/skipped_tables.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -406,8 +407,10 @@ namespace moraine
       text << "initial stress: ";
       if (share < 1e-12)
         return text.str() + "in equilibrium to round-off";
-      text << std::setprecision(2) << 100 * share
+      text << std::setprecision(100 * share < 10 ? 2 : 3) << 100 * share
            << " % of the forces are out of balance";
+      if (!stage.boundaries.empty())
+        text << " (surfaces that cut cells begin to hold with the first step)";
       if (share > told_share_of_forces)
         text << (stage.time.integrator.dynamic() ?
                    "; they set the bodies in motion at once" :
@@ -457,6 +460,7 @@ namespace moraine
     check_prescribed_motion(stage, model, notes);
     check_displacements_at_start(scene, model);
     check_loads(stage, model);
+    tell_of_skipped_tables(scene, stage, notes);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(scene, model, notes);
     model.probes->check_places(
@@ -514,6 +518,7 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, model, notes);
     check_loads(stage, model);
+    tell_of_skipped_tables(scene, stage, notes);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();

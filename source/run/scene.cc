@@ -365,8 +365,6 @@ namespace moraine
     refuse_old_names(input);
     const auto given = input.parse(prm);
     locate_files(input);
-    if (method.strain_measure() == StrainMeasure::finite)
-      choose_enforcement(input);
     complete_stages(given,
                     time,
                     {names_of(boundaries),
@@ -374,6 +372,14 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
+    const auto yields = [](const auto &named) { return named.second.yields(); };
+    const auto moves  = [](const auto &named) {
+      return named.second.time.integrator.dynamic();
+    };
+    if (method.strain_measure() == StrainMeasure::finite ||
+        (std::any_of(materials.begin(), materials.end(), yields) &&
+         std::none_of(stages.begin(), stages.end(), moves)))
+      choose_enforcement(input);
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     check(input, given);

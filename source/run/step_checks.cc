@@ -201,6 +201,7 @@ namespace moraine
         for (const BoundaryReport<dim> &report : reports)
           work_of_motions += report.work_of_motion;
         energy.count(model.motion->works(), work_of_motions, t);
+        found.push_back(energy.warning());
       }
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;
@@ -296,9 +297,12 @@ namespace moraine
     std::ostringstream text;
     text << "energy grows without work: by t = " << t
          << " the integrator has made " << std::setprecision(2)
-         << 100 * share_made
-         << " % of the largest part of it; shorter steps, or 'Integrator = "
-            "energy-momentum' or 'generalised-alpha', do not";
+         << 100 * share_made << " % of the largest part of it; shorter steps"
+         << (scene.stages.front().second.time.integrator.integrator ==
+                 "generalised-alpha" ?
+               " or 'Integrator = energy-momentum' do not" :
+               ", or 'Integrator = energy-momentum' or 'generalised-alpha', "
+               "do not");
     return text.str();
   }
 

@@ -148,12 +148,14 @@ namespace moraine
           report = pseudo_transient(report, x);
         sums.condition_number =
           std::max(sums.condition_number, report.condition_number);
-        std::string reason = reason_to_reject(report, x);
+        const std::string too_long = error_too_large(report, x);
+        std::string       reason =
+          too_long.empty() ? reason_to_reject(report, x) : too_long;
         if (reason.empty() && may_support_more())
           reason = point_that_leaves(model, time_control, x);
         if (reason.empty())
           return accept(report, x, passes);
-        ++n_rejections;
+        n_rejections = too_long.empty() ? n_rejections + 1 : 0;
         reject(report, reason, n_rejections);
       }
   }
@@ -456,15 +458,6 @@ namespace moraine
                                                  model.system->residual());
     if (!report.converged())
       return report.message.empty() ? to_string(report.status) : report.message;
-    const double tolerance = scene.stages[stage].second.time.error_tolerance;
-    const double error     = tolerance > 0 ? error_of_step(x) : 0.;
-    if (error > tolerance)
-      {
-        std::ostringstream text;
-        text << "its estimated error is " << error
-             << " of a cell, more than Error tolerance = " << tolerance;
-        return text.str();
-      }
     if (support &&
         model.system
             ->share([this](const Term<dim> &term) { return &term == support; })
@@ -472,6 +465,25 @@ namespace moraine
       return "what points leave empty would carry the load: too few points in "
              "the cells, or a body that is not held";
     return model.system->reason_to_reject(x);
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepDriver<dim>::error_too_large(const NewtonReport &report,
+                                   const LA::Vector   &x) const
+  {
+    const double tolerance = scene.stages[stage].second.time.error_tolerance;
+    if (!report.converged() || !(tolerance > 0))
+      return "";
+    const double error = error_of_step(x);
+    if (!(error > tolerance))
+      return "";
+    std::ostringstream text;
+    text << "its estimated error is " << error
+         << " of a cell, more than Error tolerance = " << tolerance;
+    return text.str();
   }
 
 

@@ -26,6 +26,10 @@ namespace moraine
     /** Rounding errors of a residual, over those of its largest products. */
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
+    /** Stiffness over the geometric mean of a part, beyond which it is none of
+     * a body or a boundary but of what is torn or turned inside out. */
+    constexpr double largest_contrast = 1e10;
+
 
 
     /** What goes beyond a goal of zero is infinitely far away. */
@@ -77,15 +81,40 @@ namespace moraine
 
 
   void
+  ResidualMeasure::take_diagonal(const LA::Vector &x)
+  {
+    diagonal.reinit(x, true);
+    system.tangent()->trilinos_matrix().ExtractDiagonalCopy(
+      *diagonal.trilinos_vector()(0));
+    const auto         &part   = system.part_of_unknown();
+    double             *values = diagonal.trilinos_vector()[0];
+    const unsigned int  n      = diagonal.locally_owned_size();
+    std::vector<double> sums(2 * scales.size(), 0.);
+    for (unsigned int k = 0; k < n; ++k)
+      if (std::isfinite(values[k]) && values[k] != 0.)
+        {
+          const unsigned int p = part.empty() ? 0 : part[k];
+          sums[2 * p] += std::log(std::abs(values[k]));
+          sums[2 * p + 1] += 1;
+        }
+    Utilities::MPI::sum(sums, x.get_mpi_communicator(), sums);
+    std::vector<double> largest(scales.size(), 0.);
+    for (unsigned int p = 0; p < largest.size(); ++p)
+      if (sums[2 * p + 1] > 0)
+        largest[p] = largest_contrast * std::exp(sums[2 * p] / sums[2 * p + 1]);
+    for (unsigned int k = 0; k < n; ++k)
+      values[k] =
+        std::min(std::abs(values[k]), largest[part.empty() ? 0 : part[k]]);
+  }
+
+
+
+  void
   ResidualMeasure::update(const LA::Vector &x, const bool tangent)
   {
-    if (tangent)
-      {
-        diagonal.reinit(x, true);
-        system.tangent()->trilinos_matrix().ExtractDiagonalCopy(
-          *diagonal.trilinos_vector()(0));
-      }
     scales = system.force_scales();
+    if (tangent)
+      take_diagonal(x);
     LA::Vector    products(x);
     double       *values = products.trilinos_vector()[0];
     const double *K      = diagonal.trilinos_vector()[0];

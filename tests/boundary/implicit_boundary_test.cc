@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 
 #include "../small_scene.h"
 
@@ -220,4 +221,124 @@ TEST(ImplicitBoundary, DepthsAreThoseOfTheMaterialWithinTheCellAndATenthOfIt)
     }
   begin_step();
   expect(1, 1);
+}
+
+
+
+namespace
+{
+  /** Points of each cell of this rank; with their length on all ranks. */
+  struct Places
+  {
+    Places(const SurfacePointer<2> &surface,
+           const std::string       &enforcement,
+           const std::string       &held      = "auto",
+           const bool               in_motion = false)
+    {
+      EnforcementParameters parameters;
+      parameters.enforcement    = enforcement;
+      parameters.held_in_a_cell = held;
+      SmallScene<2> scene;
+      State<2>      state(scene.space,
+                     scene.points,
+                     *scene.basis,
+                     {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                     MeshAfterStep::reset,
+                     StrainMeasure::small);
+      state.begin_step();
+      ImplicitBoundary<2> boundary(
+        "surface",
+        surface,
+        RigidMotion<2>(
+          {}, [](const double) { return 0.; }, Point<2>()),
+        [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+        {Constraint<2>::roller, {}},
+        parameters.enforcement_of(),
+        0.);
+      boundary.begin_step(
+        scene.space, 0, 0.5, true, StrainMeasure::small, false, in_motion);
+      points = boundary.points();
+      for (const auto &point : points)
+        {
+          ++of_cell[point.cell];
+          length += point.JxW;
+        }
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          Tensor<1, 2> of_linear(-points[q].x);
+          for (unsigned int a = 0; a < 4; ++a)
+            of_linear +=
+              boundary.N(q)[a] * scene.space.node_position(
+                                   scene.space.cell_nodes(points[q].cell)[a]);
+          off_linear = std::max(off_linear, of_linear.norm());
+        }
+      length = Utilities::MPI::sum(length, MPI_COMM_WORLD);
+    }
+
+    void
+    expect(const unsigned int n) const
+    {
+      for (const auto &in_cell : of_cell)
+        EXPECT_EQ(in_cell.second, n);
+    }
+
+    std::vector<BoundaryPoint<2>>        points;
+    std::map<unsigned int, unsigned int> of_cell;
+    double                               length     = 0;
+    double                               off_linear = 0;
+  };
+} // namespace
+
+
+
+TEST(ImplicitBoundary, HoldsTheMeanOfACellUnlessItRunsAlongItsFaces)
+{
+  const auto line = [](const Point<2> &a, const Point<2> &b) {
+    return make_flat_face<2>(std::vector<Point<2>>{a, b});
+  };
+  const Point<2> a(0.6, 0.7), b(2.9, 2.3), c(2.9, 0.7);
+  for (const char *how : {"augmented Lagrangian", "weighted", "penalty"})
+    {
+      const Places inclined(line(a, b), how);
+      inclined.expect(1);
+      EXPECT_NEAR(inclined.length, a.distance(b), 1e-12);
+      EXPECT_LT(inclined.off_linear, 1e-12);
+      for (const auto &point : inclined.points)
+        EXPECT_NEAR((point.x - a) * point.normal, 0, 1e-12);
+      Places(line(a, b), how, "places").expect(4);
+      Places(line(a, c), how).expect(4);
+    }
+  Places(line(a, b), "skew Nitsche").expect(4);
+  Places(line(a, b), "skew Nitsche", "mean").expect(1);
+}
+
+
+
+TEST(ImplicitBoundary, OnACurveARollersMeanIsOnIt)
+{
+  const Point<2> centre(1.9, 1.8);
+  const double   radius = 1.3;
+  const auto     circle = make_arc(centre, radius, true, 0., 360.);
+  const Places   one(circle, "augmented Lagrangian");
+  one.expect(1);
+  EXPECT_NEAR(one.length, 2 * numbers::PI * radius, 1e-6);
+  for (const auto &point : one.points)
+    {
+      EXPECT_NEAR(point.x.distance(centre), radius, 1e-12);
+      EXPECT_LT((point.normal - (point.x - centre) / radius).norm(), 1e-2);
+    }
+  const Places in_motion(circle, "augmented Lagrangian", "auto", true);
+  EXPECT_GE(Utilities::MPI::sum(in_motion.points.size(), MPI_COMM_WORLD),
+            4 * Utilities::MPI::sum(one.points.size(), MPI_COMM_WORLD));
+}
+
+
+
+TEST(ImplicitBoundary, OnEachSideOfACornerThereIsAMean)
+{
+  const Places corner(make_flat_face<2>(std::vector<Point<2>>{{1.2, 1.3},
+                                                              {1.6, 1.4},
+                                                              {1.5, 1.8}}),
+                      "augmented Lagrangian");
+  corner.expect(2);
 }

@@ -4,7 +4,8 @@
 # Contained block (Cortis et al. 2017, section 5.1, table 1) at five places
 # against the mesh, and a cube.
 paper = {"Boundaries/*/Enforcement": "weighted",
-         "Boundaries/*/Band width": 1e-6}
+         "Boundaries/*/Band width": 1e-6,
+         "Boundaries/*/Held in a cell": "places"}
 quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 
 

@@ -82,6 +82,17 @@ for method in ("GIMP", "finite element"):
     u, s, rejected = sweep({"Method/Method": method}, H / 2)
     bound(f"{method}, half the cell size: tip over aligned - 1", u, 4e-3)
     bound(f"{method}, half the cell size: largest stress over aligned", s, 1.5)
+for name, in_a_cell in (("augmented Lagrangian", "auto"), ("weighted", "auto"),
+                        ("penalty", "auto"), ("weighted", "places")):
+    for h, allowed in ((H, 2e-2), (H / 2, 1e-2)):
+        u, s, rejected = sweep({"Boundaries/support/Enforcement": name,
+                                "Boundaries/support/Held in a cell": in_a_cell}, h)
+        if in_a_cell == "places":
+            at_least(f"{name}, places, h = {h}: tip over aligned - 1", u, 5e-2)
+            continue
+        number(f"{name}, h = {h}: tip over aligned - 1", u, 1)
+        bound(f"{name}, h = {h}: tip over aligned - 1", u, allowed)
+        bound(f"{name}, h = {h}: largest stress over aligned", s, 2)
 u, s, rejected = sweep({"Method/Aggregate below": 0})
 at_least("GIMP without aggregation: largest stress over aligned", s, 100)
 

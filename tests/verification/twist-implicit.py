@@ -52,8 +52,8 @@ for method, n in (("mpm", 6), ("gimp", 3), ("cpdi1", 3), ("cpdi2", 3)):
     for angle in ANGLES:
         number(f"{method}, {n}² points, {angle} degrees: torque / (2 pi 25 E)",
                found[angle], 3)
-        bound(f"{method}, {n}² points, {angle} degrees: against fitted FE, "
-              "5 by 18", found[angle] / coarse[angle] - 1, 0.02)
+        bound(f"{method}, {n}² points, {angle} degrees: against fine fitted FE",
+              found[angle] / fine[angle] - 1, 0.015)
 
 for method in ("gimp", "cpdi1"):
     found = torques(SCENES[method],

@@ -39,9 +39,34 @@ namespace moraine
    * surface carries from the last step or pass; in the second row it takes the
    * place of the flux. Without one (no) the equations of a step know nothing of
    * the last one, and t is the traction at the start of a step alone.
+   *
+   * Where c_3 is a large number, bilinear functions that vanish at several
+   * places of a line through a cell have no gradient left: cells lock. So these
+   * rows hold the mean over the piece @f$\Gamma_c@f$ of the surface in a cell,
+   * of M u as of M g, by a traction that is constant on it: functions are
+   * replaced by @f$\bar N_a = |\Gamma_c|^{-1} \int_{\Gamma_c} N_a@f$. Cortis et
+   * al. hold every place. See holds_means().
    */
   struct Enforcement
   {
+    /** What of the piece of the surface in a cell is held. */
+    enum class Held
+    {
+      automatic, ///< see holds_means()
+      mean,
+      places ///< those of Gauss, as many as integrate functions exactly
+    };
+
+    /**
+     * Means by default, but not with Nitsche's method and cells of degree 2,
+     * which do not lock, nor of a roller on a curve in dynamics, as vibrations
+     * feed on the turning normal of a single place.
+     */
+    bool
+    holds_means(const unsigned int degree,
+                const bool         curved_roller,
+                const bool         in_motion) const;
+
     double      w_constrained;      ///< @f$w_c@f$
     double      w_free;             ///< @f$w_f@f$
     double      adjoint_sign;       ///< @f$s@f$
@@ -53,6 +78,7 @@ namespace moraine
     /** By @f$\lambda@f$ times this the mean of what is missed along the normal
      * on the piece of the surface in a cell is held [1/length]. */
     double mean_factor = 0;
+    Held   held        = Held::automatic;
   };
 
   /**
@@ -66,6 +92,7 @@ namespace moraine
     double      band_width     = 1e-6;
     double      nitsche_factor = 10;
     double      penalty_factor = 1e6;
+    std::string held_in_a_cell = "auto";
 
     void
     add_parameters(dealii::ParameterHandler &prm);

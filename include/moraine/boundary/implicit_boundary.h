@@ -146,10 +146,8 @@ namespace moraine
      * cells_changed says that pieces must be found again even if the surface
      * stands still.
      *
-     * Multipliers hold a roller at each quadrature point: at several in a cell
-     * bilinear functions cannot slide along a curve. So a curved roller has one
-     * in each piece, but not @p in_motion (dynamics), where the fewer of them
-     * feed vibrations.
+     * @p in_motion says that it is dynamics; see
+     * Enforcement::holds_means().
      */
     void
     begin_step(const GridSpace<dim> &space,
@@ -303,7 +301,7 @@ namespace moraine
       bool moves_with_points = true;
       bool projects          = false; ///< points onto a curved roller
       bool turns_multiplier  = false;
-      bool has_single_points = false; ///< one in each piece
+      bool holds_means       = false; ///< of the pieces in cells
     };
 
     /** Functions of the nodes of each point's cell, point by point. */
@@ -330,6 +328,15 @@ namespace moraine
     add_pieces(const CellIterator      &cell,
                const CellVertices<dim> &vertices,
                const Owner             &owner_of);
+
+    /** Let the points of a cell be one, with the means of their functions; on
+     * each side of a corner one. Those of a piece parallel to faces of the cell
+     * stay, as functions can vanish there and keep their gradient. */
+    void
+    take_means(const GridSpace<dim> &space);
+
+    void
+    number_points();
 
     /** Evaluate the functions of active cell @p cell_index at every point. */
     void

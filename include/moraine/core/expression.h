@@ -127,6 +127,13 @@ namespace moraine
     double
     value(const double t) const;
 
+    /** Of a table; none of an expression. */
+    const std::vector<LinearTable::Row> &
+    rows() const
+    {
+      return table.rows();
+    }
+
   private:
     std::string                                curve_text;
     std::string                                origin;

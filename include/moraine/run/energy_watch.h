@@ -46,6 +46,11 @@ namespace moraine
       starts_anew = true;
     }
 
+    /** That boundaries that hold, or transfers between nodes and points, have
+     * made more than a fifth of what was given, once; or "". */
+    std::string
+    warning();
+
     /** Why the run cannot be believed; empty if it can. */
     std::string
     failure() const;
@@ -58,6 +63,14 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
+    /** What they gave beyond the work of their motions [force length]. */
+    double
+    made_by_boundaries() const;
+
+    /** Where most of the energy without work comes from, and what helps. */
+    std::string
+    cause() const;
+
     const double      round_off;
     const std::string of_method;       ///< the end of a sentence of remedies
     double            given       = 0; ///< G [force length]
@@ -65,6 +78,7 @@ namespace moraine
     double            total       = 0; ///< T + E + D [force length]
     double            grows_since = 0; ///< total > 4 G
     bool              starts_anew = false;
+    bool              told        = false; ///< by warning()
     Works             works;
     double            time = 0;
   };

@@ -165,6 +165,11 @@ namespace moraine
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);
 
+    /** Why a step in balance is too long for the tolerance of its error, which
+     * is not for lack of support; or "". Collective. */
+    std::string
+    error_too_large(const NewtonReport &report, const LA::Vector &x) const;
+
     /** Count what a ghost term has of the step that is to be accepted. @return
      * what to warn of, or "". Collective. */
     std::string

@@ -34,7 +34,7 @@ namespace moraine
     std::string limit_points = "stop";
 
     /** Updates of carried multipliers in one step. */
-    unsigned int maximum_augmentations = 30;
+    unsigned int maximum_augmentations = 50;
 
     void
     add_parameters(dealii::ParameterHandler &prm);

@@ -28,7 +28,9 @@ namespace moraine
    *
    * @f$s_k@f$ its force scale, @f$s_k^0@f$ that at the start of the step, and
    * the last term what rounding leaves of the residual, with the system's
-   * displacement scale @f$\ell@f$. The distance is
+   * displacement scale @f$\ell@f$ and K at most @f$10^{10}@f$ times its
+   * geometric mean: a point that is squeezed to nothing is no excuse for the
+   * forces of the others. The distance is
    * @f$(\sum_k \lVert r \rVert_k^2 / g_k^2)^{1/2}@f$, 1 or less in balance; a
    * soft part is not forgiven because a stiff one has larger forces.
    */
@@ -89,6 +91,10 @@ namespace moraine
   private:
     std::vector<double>
     norms_of_parts(const LA::Vector &v) const;
+
+    /** Of the tangent, whose unknowns are like those of @p x. */
+    void
+    take_diagonal(const LA::Vector &x);
 
     const NonlinearSystem &system;
     const double           tolerance;

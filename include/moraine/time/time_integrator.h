@@ -161,6 +161,13 @@ namespace moraine
       return alpha_f / (1 - alpha_f);
     }
 
+    /** What the equations are divided by, @f$1 - \alpha_f@f$. */
+    double
+    divisor() const
+    {
+      return 1 - alpha_f;
+    }
+
   private:
     TimeIntegrator(const double beta,
                    const double gamma,

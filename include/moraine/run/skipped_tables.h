@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_skipped_tables_h
+#define moraine_run_skipped_tables_h
+
+#include <moraine/run/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Steps of the largest size may pass over a pulse, and with it over a whole
+   * load: add to @p notes each table over time, of a load or a wave that acts
+   * in @p stage, of which they miss a row by more than half of its range.
+   */
+  template <int dim>
+  void
+  tell_of_skipped_tables(const Scene<dim>         &scene,
+                         const StageParameters    &stage,
+                         std::vector<std::string> &notes);
+} // namespace moraine
+
+#endif
