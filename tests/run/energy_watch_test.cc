@@ -47,6 +47,23 @@ namespace moraine
 
 
 
+  TEST(EnergyWatch, what_boundaries_or_transfers_make_is_told_of_once)
+  {
+    EnergyWatch held(0), carried(0);
+    held.count(works_of(3.5, 0.7), 0, 1);
+    EXPECT_EQ(held.warning(), "");
+    held.count(works_of(4, 0.9), 0, 2);
+    EXPECT_NE(held.warning().find("boundaries that hold"), std::string::npos);
+    held.count(works_of(5, 2), 0, 3);
+    EXPECT_EQ(held.warning(), "");
+    Works works            = works_of(4);
+    works.lost_in_transfer = -0.9;
+    carried.count(works, 0, 1);
+    EXPECT_NE(carried.warning().find("carrying velocities"), std::string::npos);
+  }
+
+
+
   TEST(EnergyWatch, stored_and_dissipated_energy_count)
   {
     for (double Works::*part : {&Works::stored, &Works::dissipated})

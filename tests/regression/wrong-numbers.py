@@ -1,0 +1,114 @@
+# ranks: 1  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What could end with "ok" and a wrong number: steps out of balance, a slope on
+boundaries that cut cells, a step too long for its error, a load between steps."""
+
+PAD = """
+subsection Mesh
+  set Lower corner = 900, -400
+  set Upper corner = 1300, 0
+  set Cell size = 5
+end
+subsection Method
+  set Method = finite element
+  set Degree = 2
+  set Strain = finite
+end
+subsection Materials
+  subsection rubber
+    set Model = neo-Hookean
+    set Young modulus = 3
+    set Poisson ratio = 0.45
+  end
+end
+subsection Bodies
+  subsection pad
+    set Lower corner = 0, 0
+    set Upper corner = 200, 100
+    set Rotation angle = 31
+    set Translation = 1053.7, -287.9
+  end
+end
+subsection Boundaries
+  subsection bottom
+    set Body = pad
+    set Part = bottom
+  end
+  subsection top
+    set Body = pad
+    set Part = top
+    set Translation = 35*t*sin(31*pi/180); -35*t*cos(31*pi/180)
+  end
+end
+subsection Time
+  set End time = 0.5
+  set Steps = 10
+end
+"""
+
+# A pad that is squeezed until points of cut cells are: no step is accepted that
+# leaves the forces of its plates out of balance.
+scene = folder / "pad.prm"
+scene.write_text(PAD)
+pad = run(scene, {"Output/Write": "end"}, expect=None)
+worst = max(abs(row[f"reaction_{d} of top"] + row[f"reaction_{d} of bottom"])
+            / abs(row["reaction_y of top"])
+            for row in pad.history() for d in "xy")
+bound("pad: plates out of balance", worst, 1e-6)
+at_least("pad: steps", len(pad.history()), 5)
+
+# Taylor's factor for this slope is 1.279; it falls on base and sides that cut
+# cells at any angle as on those of the mesh.
+SLOPE = "prm/geotechnics/factor-of-safety.prm"
+words = open(root / SLOPE).read().split("subsection Grid conditions")
+below = words[1].split("subsection Loads")[1]
+turned = words[0] + """subsection Boundaries
+  subsection base
+    set Body = embankment
+    set Part = 1
+  end
+  subsection right
+    set Body = embankment
+    set Part = 2
+    set Constraint = roller
+  end
+  subsection left
+    set Body = embankment
+    set Part = 6
+    set Constraint = roller
+  end
+end
+subsection Loads""" + below
+scene = folder / "slope.prm"
+scene.write_text(turned)
+for angle in (0, 15):
+    for factor, stands in (1.25, True), (1.32, False):
+        result = run(scene, {
+            "Bodies/embankment/Rotation angle": angle,
+            "Mesh/Lower corner": "-4, -1", "Mesh/Upper corner": "42, 24",
+            "Loads/weight/Value": f"9.81*sin({angle}*pi/180); "
+                                  f"-9.81*cos({angle}*pi/180)",
+            "Probes/crest/Location":
+                f"10*cos({angle}*pi/180)-11.9*sin({angle}*pi/180), "
+                f"10*sin({angle}*pi/180)+11.9*cos({angle}*pi/180)",
+            "Strength reduction/Factor": factor, "Output/Write": "end"},
+            expect=None)
+        text(f"slope turned by {angle}, factor {factor}: stands",
+             result.summary["status"] == "ok")
+
+# A step that is only too long is shortened; nodes need no stiffness for that.
+block = run("prm/hard-cases/cut-block.prm", {
+    "Time/Integrator": "Newmark", "Time/Error tolerance": 1e-4, "Time/Steps": 1,
+    "Time/End time": 0.05, "Method/Aggregate below": 0})
+at_least("too long a step: rejected", block.summary["rejected_steps"], 3)
+text("  stiffness of empty parts",
+     "stiffness of empty parts" in block.summary["effects"])
+
+# A pulse between the ends of steps is told of.
+for curve in ("0: 0, 0.101: 0, 0.103: 1, 0.105: 0",
+              "0: 0, 0.1: 1, 0.2: 0"):
+    pulse = run("prm/phuong-2023/column-fixed-fe.prm", {
+        "Loads/pulse/Value": "0; -1", "Loads/pulse/Curve": curve,
+        "Time/End time": 0.2, "Time/Steps": 20})
+    text(f"pulse {curve}: told of", "load pulse: its table has" in pulse.output)
