@@ -66,7 +66,7 @@ namespace moraine
             std::ostringstream message;
             message << "absorbing boundary '" << boundary_name
                     << "': its place (" << places()[without[0]].x
-                    << ") is no longer on any material";
+                    << ") is no longer on any material, or beyond the mesh";
             throw ComputationError(message.str());
           }
         carried.remove(without);

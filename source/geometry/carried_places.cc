@@ -15,6 +15,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
+
 namespace moraine
 {
   using namespace dealii;
@@ -23,6 +25,35 @@ namespace moraine
   {
     /** In each direction of a piece or a face: products of Q2. */
     constexpr unsigned int n_gauss_points = 3;
+
+
+
+    /** The cell around @p x, or around the point of the box of the mesh nearest
+     * to it if that is not farther away than @p tolerance: material at the edge
+     * may reach over it. */
+    template <int dim>
+    typename GridSpace<dim>::CellIterator
+    cell_around(const GridSpace<dim>                        &space,
+                const Point<dim>                            &x,
+                const double                                 tolerance,
+                const typename GridSpace<dim>::CellIterator &hint)
+    {
+      const auto &cache = space.mesh().search_cache();
+      const auto  found =
+        GridTools::find_active_cell_around_point(cache, x, hint).first;
+      if (found.state() == IteratorState::valid)
+        return found;
+      const auto box =
+        GridTools::compute_bounding_box(space.mesh().triangulation());
+      Point<dim> inside = x;
+      for (unsigned int d = 0; d < dim; ++d)
+        inside[d] =
+          std::min(std::max(x[d], box.lower_bound(d)), box.upper_bound(d));
+      return inside != x && inside.distance(x) <= tolerance ?
+               GridTools::find_active_cell_around_point(cache, inside, hint)
+                 .first :
+               found;
+    }
   } // namespace
 
 
@@ -49,10 +80,7 @@ namespace moraine
         Place &place            = now[k];
         place.active_cell_index = GridSpace<dim>::no_cell;
         const auto cell =
-          GridTools::find_active_cell_around_point(space.mesh().search_cache(),
-                                                   place.in_mesh,
-                                                   hint)
-            .first;
+          cell_around(space, place.in_mesh, search_tolerance, hint);
         if (cell.state() != IteratorState::valid)
           {
             without.push_back(k);

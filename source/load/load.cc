@@ -43,7 +43,7 @@ namespace moraine
             throw ObjectError("load", load_name, message.str());
           }
         message << "load '" << load_name << "': its place (" << x
-                << ") is no longer on any material";
+                << ") is no longer on any material, or beyond the mesh";
         throw ComputationError(message.str());
       }
     placed = true;

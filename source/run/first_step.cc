@@ -261,11 +261,12 @@ namespace moraine
         if (boundary.enforcement().w_constrained > 0 && (finite || any_yields))
           notes.push_back(
             boundary.name() + ": its flux is elastic" +
-            (finite ? " and of the increment of a step; 'Enforcement = "
-                      "augmented Lagrangian' holds at any strain" :
-                      ", and beside material that yields its reaction is off "
-                      "by some per cent; 'Enforcement = augmented Lagrangian' "
-                      "has no flux"));
+            (finite ?
+               " and of the increment of a step; 'Enforcement = "
+               "augmented Lagrangian' holds at any strain" :
+               ", and beside material that yields its reaction and limit "
+               "loads are off by some per cent; 'Enforcement = "
+               "augmented Lagrangian' has no flux"));
     }
   } // namespace
 

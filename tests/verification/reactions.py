@@ -66,7 +66,7 @@ for integrator, radius in (("Newmark", None), ("generalised-alpha", 1),
                            ("generalised-alpha", 0.8), ("generalised-alpha", 0),
                            ("energy-momentum", None)):
     for method, base in (("finite element", "nodes"), ("GIMP", "nodes"),
-                         ("finite element", "surface")):
+                         ("finite element", "surface"), ("GIMP", "surface")):
         time = f"subsection Time\n set Integrator = {integrator}\n"
         if radius is not None:
             time += f" set Spectral radius = {radius}\n"
