@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/run/skipped_tables.h>
+
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
-#include <moraine/run/skipped_tables.h>
 
 #include <algorithm>
 #include <cmath>
