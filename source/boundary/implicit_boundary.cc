@@ -290,13 +290,19 @@ namespace moraine
             first    = means.size();
             vertices = present_vertices(space, point.cell);
           }
+        const bool along = is_along_faces(vertices, point.normal);
         const auto same =
-          std::find_if(means.begin() + first, means.end(), [&](const auto &m) {
-            return m.normal * point.normal > cosine_of_corner * m.normal.norm();
-          });
+          along ? means.end() :
+                  std::find_if(means.begin() + first,
+                               means.end(),
+                               [&](const auto &m) {
+                                 return m.normal * point.normal >
+                                          cosine_of_corner * m.normal.norm() &&
+                                        !is_along_faces(vertices, m.normal);
+                               });
         const double         *N      = &shapes.values[q * n];
         const Tensor<1, dim> *grad_N = &shapes.gradients[q * n];
-        if (same == means.end() || is_along_faces(vertices, point.normal))
+        if (same == means.end())
           {
             means.push_back(point);
             of_means.values.insert(of_means.values.end(), N, N + n);

@@ -266,8 +266,8 @@ namespace moraine
     void
     check_conditions(const std::vector<InputFile::Entry> &given) const;
 
-    /** What boundaries are enforced by if nothing is said, where flux would not be
-     * elastic. */
+    /** What boundaries are enforced by if nothing is said, where flux would not
+     * be elastic. */
     void
     choose_enforcement(const InputFile &input);
 
