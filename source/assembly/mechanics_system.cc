@@ -435,7 +435,7 @@ namespace moraine
     // Stop when the constraint holds to round-off or gets no better, and where
     // it holds well when it gets little better: some ways in which nodes
     // alternate along a surface have next to no mean in a cell.
-    const double little = violation <= 1e-6 * motion ? 0.1 : 0.5;
+    const double little = violation <= 1e-10 * motion ? 0.3 : 0.5;
     if (violation <= 1e-14 * motion || violation > little * last_violation)
       return false;
     last_violation = violation;
