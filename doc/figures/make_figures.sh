@@ -69,7 +69,7 @@ enforcements=()
 for setting in "skew Nitsche 10: skew Nitsche" \
   "symmetric Nitsche 20: symmetric Nitsche; Nitsche factor = 20" \
   "augmented Lagrangian 1e-6: augmented Lagrangian; Band width = 1e-6" \
-  "weighted 1e-6: weighted; Band width = 1e-6" \
+  "weighted 1e-6 of places: weighted; Band width = 1e-6; Held in a cell = places" \
   "penalty 1e6: penalty; Penalty factor = 1e6"; do
   words=${setting#*: }
   enforcements+=("Study/Series/${setting%%:*}/Settings = Boundaries/*/Enforcement = ${words//; /; Boundaries/*/}")

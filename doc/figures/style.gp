@@ -26,10 +26,10 @@ set xlabel offset 0,0.4
 
 # As make_figures.sh names the enforcements in a study, and in words.
 array Name[5] = ['skew Nitsche 10', 'symmetric Nitsche 20', 'augmented Lagrangian 1e-6', \
-                 'weighted 1e-6', 'penalty 1e6']
+                 'weighted 1e-6 of places', 'penalty 1e6']
 array Title[5] = ['skew Nitsche, γ = 10 (default)', 'symmetric Nitsche, γ = 20', \
                   'augmented Lagrangian, 1e-6 h', \
-                  'weighted, 1e-6 h (paper)', \
+                  'weighted, 1e-6 h, every place (paper)', \
                   'penalty, β = 1e6']
 
 # The value where the rows of a study are of this series, else nothing.
