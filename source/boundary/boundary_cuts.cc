@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// Where a surface cuts the cells, and what of it they hold.
+
+#include <moraine/boundary/implicit_boundary.h>
+
+#include <moraine/mesh/active_search.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * Segments are cut exactly; this many points integrate products of Q2. On a
+     * line through a quadrilateral that is no parallelogram functions are no
+     * polynomials; there twice as many are exact to about round-off.
+     */
+    constexpr unsigned int n_gauss_points = 4;
+
+
+
+    /** Pieces whose normals differ by more than 45 degrees meet in a corner. */
+    constexpr double cosine_of_corner = 0.7071;
+
+
+
+    template <int dim>
+    unsigned int
+    n_gauss_points_in(const CellVertices<dim> &cell)
+    {
+      const bool is_skewed =
+        dim == 2 && (cell[0] - cell[1] - (cell[2] - cell[3])).norm() >
+                      1e-12 * cell[0].distance(cell[3]);
+      return is_skewed ? 2 * n_gauss_points : n_gauss_points;
+    }
+
+
+
+    /** Whether a plane with this @p normal is parallel to opposite faces of a
+     * cell, on which its functions are those of a face. */
+    template <int dim>
+    bool
+    is_along_faces(const CellVertices<dim> &cell, const Tensor<1, dim> &normal)
+    {
+      std::array<bool, dim> holds_edges; ///< that run along an axis
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          holds_edges[d] = true;
+          for (unsigned int v = 0; v < cell.size(); ++v)
+            if (!((v >> d) & 1))
+              {
+                const Tensor<1, dim> edge = cell[v | (1 << d)] - cell[v];
+                holds_edges[d]            = holds_edges[d] &&
+                                 std::abs(edge * normal) <= 1e-8 * edge.norm();
+              }
+        }
+      return std::count(holds_edges.begin(), holds_edges.end(), true) ==
+             dim - 1;
+    }
+
+
+
+    /** The vertices of an active cell where its nodes are now. */
+    template <int dim>
+    CellVertices<dim>
+    present_vertices(const GridSpace<dim> &space, const unsigned int cell)
+    {
+      const unsigned int *nodes = space.cell_nodes(cell);
+      const unsigned int  k     = space.degree();
+      CellVertices<dim>   vertices;
+      for (unsigned int v = 0; v < vertices.size(); ++v)
+        {
+          unsigned int node = 0, stride = 1;
+          for (unsigned int d = 0; d < dim; ++d, stride *= k + 1)
+            node += ((v >> d) & 1) * k * stride;
+          vertices[v] = space.node_position(nodes[node]);
+        }
+      return vertices;
+    }
+
+
+
+    /** What lies beyond a face of a cell, by no more than @p thickness. */
+    template <int dim>
+    CellVertices<dim>
+    layer_beyond(const unsigned int       face,
+                 const CellVertices<dim> &cell,
+                 const double             thickness)
+    {
+      const unsigned int across = 1u << (face / 2);
+      CellVertices<dim>  layer  = cell;
+      for (unsigned int v = 0; v < cell.size(); ++v)
+        if (((v & across) != 0) == (face % 2 == 1))
+          {
+            const Tensor<1, dim> edge = cell[v] - cell[v ^ across];
+            layer[v ^ across]         = cell[v];
+            layer[v] += thickness / edge.norm() * edge;
+          }
+      return layer;
+    }
+
+
+
+    template <int dim>
+    BoundingBox<dim>
+    box_of(const CellVertices<dim> &vertices)
+    {
+      return BoundingBox<dim>(
+        std::vector<Point<dim>>(vertices.begin(), vertices.end()));
+    }
+
+
+
+    template <int dim>
+    bool
+    overlap(const BoundingBox<dim> &a,
+            const BoundingBox<dim> &b,
+            const double            by)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (a.lower_bound(d) > b.upper_bound(d) + by ||
+            b.lower_bound(d) > a.upper_bound(d) + by)
+          return false;
+      return true;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::find_pieces(const GridSpace<dim> &space,
+                                     const double          search_tolerance)
+  {
+    const auto &tria    = space.mesh().triangulation();
+    const Owner itself  = [](const auto &cell, const auto &) { return cell; };
+    const Owner nearest = [&](const auto &cell, const auto &x) {
+      return nearest_active_cell(space, cell, x, search_tolerance);
+    };
+    if (!space.nodes_moved())
+      {
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned() || !space.is_active(cell))
+            add_pieces(cell, vertices_of<dim>(cell), nearest);
+      }
+    else
+      // Cells without material stay where material once was: here those beside
+      // it end a little beyond it.
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned() && space.is_active(cell))
+          {
+            const CellVertices<dim> vertices =
+              present_vertices(space, cell->active_cell_index());
+            add_pieces(cell, vertices, itself);
+            for (const unsigned int f : cell->face_indices())
+              if (cell->at_boundary(f) || !space.is_active(cell->neighbor(f)))
+                add_pieces(cell,
+                           layer_beyond(f, vertices, search_tolerance),
+                           itself);
+          }
+    std::stable_sort(boundary_points.begin(),
+                     boundary_points.end(),
+                     [](const auto &a, const auto &b) {
+                       return a.cell < b.cell;
+                     });
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::number_points()
+  {
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      boundary_points[q].number =
+        q > 0 && boundary_points[q - 1].cell == boundary_points[q].cell ?
+          boundary_points[q - 1].number + 1 :
+          0;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_means(const GridSpace<dim> &space)
+  {
+    const unsigned int              n = shapes.n_nodes;
+    std::vector<BoundaryPoint<dim>> means;
+    Shapes                          of_means;
+    CellVertices<dim>               vertices;
+    unsigned int                    first = 0; ///< of the cell
+    of_means.n_nodes                      = n;
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const BoundaryPoint<dim> &point = boundary_points[q];
+        if (means.empty() || means.back().cell != point.cell)
+          {
+            first    = means.size();
+            vertices = present_vertices(space, point.cell);
+          }
+        const bool along = is_along_faces(vertices, point.normal);
+        const auto same =
+          along ? means.end() :
+                  std::find_if(means.begin() + first,
+                               means.end(),
+                               [&](const auto &m) {
+                                 return m.normal * point.normal >
+                                          cosine_of_corner * m.normal.norm() &&
+                                        !is_along_faces(vertices, m.normal);
+                               });
+        const double         *N      = &shapes.values[q * n];
+        const Tensor<1, dim> *grad_N = &shapes.gradients[q * n];
+        if (same == means.end())
+          {
+            means.push_back(point);
+            of_means.values.insert(of_means.values.end(), N, N + n);
+            of_means.gradients.insert(of_means.gradients.end(),
+                                      grad_N,
+                                      grad_N + n);
+            continue;
+          }
+        same->JxW += point.JxW;
+        const double share = point.JxW / same->JxW;
+        same->x += share * (point.x - same->x);
+        same->normal += share * (point.normal - same->normal);
+        const std::size_t m = (same - means.begin()) * n;
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            of_means.values[m + a] += share * (N[a] - of_means.values[m + a]);
+            of_means.gradients[m + a] +=
+              share * (grad_N[a] - of_means.gradients[m + a]);
+          }
+      }
+    for (BoundaryPoint<dim> &mean : means)
+      {
+        mean.normal /= mean.normal.norm();
+        // A roller asks how far from the surface its points end.
+        if (kind.projects)
+          mean.x += at_start.level(mean.x) * at_start.normal(mean.x);
+      }
+    boundary_points = std::move(means);
+    shapes          = std::move(of_means);
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::add_pieces(const CellIterator      &cell,
+                                    const CellVertices<dim> &vertices,
+                                    const Owner             &owner_of)
+  {
+    if (!overlap(box_of<dim>(vertices),
+                 at_start.bounding_box(),
+                 1e-9 * cell->diameter()))
+      return;
+    std::vector<SurfacePoint<dim>> pieces;
+    // The mesh as it was built decides, so that the points stay the same ones.
+    at_start.pieces(vertices,
+                    n_gauss_points_in<dim>(vertices_of<dim>(cell)),
+                    pieces);
+    for (const SurfacePoint<dim> &piece : pieces)
+      {
+        const CellIterator owner = owner_of(cell, piece.x);
+        if (owner.state() != IteratorState::valid || !owner->is_locally_owned())
+          continue;
+        BoundaryPoint<dim> point;
+        point.x      = piece.x;
+        point.normal = piece.normal;
+        point.JxW    = piece.JxW;
+        point.cell   = owner->active_cell_index();
+        point.h      = std::pow(owner->measure(), 1. / dim);
+        point.depth  = point.h;
+        boundary_points.push_back(point);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &space)
+  {
+    shapes.n_nodes = space.nodes_per_cell();
+    shapes.values.resize(boundary_points.size() * shapes.n_nodes);
+    shapes.gradients.resize(boundary_points.size() * shapes.n_nodes);
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const auto &point = boundary_points[q];
+        moraine::evaluate_shapes(space,
+                                 point.cell,
+                                 point.x,
+                                 &shapes.values[q * shapes.n_nodes],
+                                 &shapes.gradients[q * shapes.n_nodes]);
+      }
+  }
+
+
+
+#define INSTANTIATE(dim)                                                   \
+  template void ImplicitBoundary<dim>::find_pieces(const GridSpace<dim> &, \
+                                                   const double);          \
+  template void ImplicitBoundary<dim>::number_points();                    \
+  template void ImplicitBoundary<dim>::take_means(const GridSpace<dim> &); \
+  template void ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
