@@ -322,7 +322,9 @@ namespace moraine
     method.request_fields(parameters, fields);
     StateFields<dim>(fields, parameters.strain_measure(), materials);
     if (scene.is_dynamic())
-      Motion<dim>::request_fields(velocity_transfer(scene), fields);
+      Motion<dim>::request_fields(velocity_transfer(scene),
+                                  fields,
+                                  scene.divides_steps());
     if (scene.is_dynamic() && method.recovers_strains &&
         parameters.strain_measure() == StrainMeasure::small)
       fields.request(FieldNames<dim>::stress_of_recovery);

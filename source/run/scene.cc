@@ -410,6 +410,17 @@ namespace moraine
 
   template <int dim>
   bool
+  Scene<dim>::divides_steps() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+      return named.second.time.integrator.first_part() < 1.;
+    });
+  }
+
+
+
+  template <int dim>
+  bool
   Scene<dim>::absorbs_later(const std::string &name) const
   {
     // What absorbs once does so to the end.

@@ -42,7 +42,7 @@ namespace moraine
       if (contains({"Newmark beta", "Newmark gamma"}, key))
         return chosen.integrator == "Newmark";
       if (key == "Spectral radius")
-        return chosen.integrator == "generalised-alpha";
+        return contains({"generalised-alpha", "Bathe"}, chosen.integrator);
       if (contains({"Mass", "Velocity transfer", "Error tolerance"}, key))
         return chosen.dynamic();
       if (key == "FLIP share")

@@ -103,10 +103,10 @@ namespace moraine
         observer->run_resumes(time_control);
     while (!time_control.finished())
       {
-        if (interrupted(communicator))
+        if (!time_control.between_parts() && interrupted(communicator))
           return false;
         advance();
-        if (after_step)
+        if (after_step && !time_control.between_parts())
           after_step();
       }
     return true;
@@ -141,6 +141,8 @@ namespace moraine
     for (unsigned int n_rejections = 0;;)
       {
         time_control.next();
+        if (scene.stages[stage].second.time.integrator.dynamic())
+          model.motion->set_integrator(time_control.integrator());
         LA::Vector   x;
         NewtonReport report = solve(x);
         const bool   passes = may_pass_limit_point(report);
@@ -363,13 +365,15 @@ namespace moraine
         ++sums.n_pseudo_transient;
         distance = largest;
       }
+    const std::string failure = checks.failure();
+    if (!failure.empty())
+      throw ComputationError(failure);
+    if (time_control.between_parts())
+      return;
     const AcceptedStep<dim> step{
       time_control, t_start, report, last_reports, increments, distance};
     for (RunObserver<dim> *observer : observers)
       observer->step_accepted(step);
-    const std::string failure = checks.failure();
-    if (!failure.empty())
-      throw ComputationError(failure);
   }
 
 

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace moraine
 {
@@ -28,10 +29,13 @@ namespace moraine
   template <int dim>
   void
   Motion<dim>::request_fields(const VelocityTransfer &transfer,
-                              PointFields            &fields)
+                              PointFields            &fields,
+                              const bool              looks_back)
   {
     fields.request(FieldNames<dim>::velocity);
     fields.request(FieldNames<dim>::acceleration);
+    if (looks_back)
+      fields.request(FieldNames<dim>::acceleration_before);
     if (transfer.scheme == VelocityTransfer::Scheme::apic)
       fields.request(FieldNames<dim>::velocity_gradient);
   }
@@ -51,6 +55,7 @@ namespace moraine
     , lumped(lumped_mass)
     , v_field(points.fields().find(FieldNames<dim>::velocity))
     , a_field(points.fields().find(FieldNames<dim>::acceleration))
+    , before_field(points.fields().find(FieldNames<dim>::acceleration_before))
     , gradient_field(points.fields().find(FieldNames<dim>::velocity_gradient))
   {
     AssertThrow(v_field.exists() && a_field.exists(),
@@ -67,7 +72,9 @@ namespace moraine
     const Basis<dim>     &basis = state.point_basis();
     const unsigned int    n     = space.n_nodes();
     NodeValues            masses(n);
-    Nodal                 sums{NodeValues(n), NodeValues(n)};
+    Nodal                 sums{NodeValues(n),
+               NodeValues(n),
+               NodeValues(before_field.exists() ? n : 0)};
     StencilBlock<dim>     block;
     NodeValues            places; ///< of the nodes of a block
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
@@ -84,12 +91,16 @@ namespace moraine
             const unsigned int point  = block.points[p];
             const double      *values = points.values(point);
             const double       m      = state.mass(point);
-            Tensor<1, dim>     V = v_field(values), A = a_field(values);
+            Tensor<1, dim>     V = v_field(values), A = a_field(values), B;
+            if (before_field.exists())
+              B = before_field(values);
             if (known)
               for (unsigned int k = 0; k < block.n_nodes; ++k)
                 {
                   V -= block.N(p)[k] * known->v[block.nodes[k]];
                   A -= block.N(p)[k] * known->a[block.nodes[k]];
+                  if (before_field.exists())
+                    B -= block.N(p)[k] * known->a_before[block.nodes[k]];
                 }
             // The mean place of what nodes see of the point: with it the
             // gradient gives no momentum.
@@ -106,22 +117,27 @@ namespace moraine
                 masses[node][0] += share;
                 sums.v[node] += share * V;
                 sums.a[node] += share * A;
+                if (before_field.exists())
+                  sums.a_before[node] += share * B;
                 if (gradient_field.exists())
                   sums.v[node] += share * (G * (places[k] - centre));
               }
           }
       }
-    for (NodeValues *values : {&masses, &sums.v, &sums.a})
-      space.sum_over_ranks(*values);
-    for (unsigned int k = 0; k < n; ++k)
-      if (masses[k][0] > 0)
-        {
-          sums.v[k] /= masses[k][0];
-          sums.a[k] /= masses[k][0];
-        }
-    if (const Aggregates<dim> *aggregates = state.strict_aggregates())
-      for (NodeValues *values : {&sums.v, &sums.a})
-        aggregates->hand_over(space, masses, *values);
+    std::vector<NodeValues *> found{&sums.v, &sums.a};
+    if (before_field.exists())
+      found.push_back(&sums.a_before);
+    space.sum_over_ranks(masses);
+    const Aggregates<dim> *const aggregates = state.strict_aggregates();
+    for (NodeValues *values : found)
+      {
+        space.sum_over_ranks(*values);
+        for (unsigned int k = 0; k < n; ++k)
+          if (masses[k][0] > 0)
+            (*values)[k] /= masses[k][0];
+        if (aggregates)
+          aggregates->hand_over(space, masses, *values);
+      }
     return sums;
   }
 
@@ -133,11 +149,15 @@ namespace moraine
   {
     v.assign(state.grid().n_nodes(), Tensor<1, dim>());
     a.assign(state.grid().n_nodes(), Tensor<1, dim>());
+    if (before_field.exists())
+      a_before = a;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
         double *values = points.values(p);
         v_field.store(Tensor<1, dim>(), values);
         a_field.store(Tensor<1, dim>(), values);
+        if (before_field.exists())
+          before_field.store(Tensor<1, dim>(), values);
         if (gradient_field.exists())
           gradient_field.store(Tensor<2, dim>(), values);
       }
@@ -225,15 +245,18 @@ namespace moraine
   Motion<dim>::set_step_size(const double size)
   {
     step_size    = size;
-    by_increment = by_start = 0;
+    by_increment = by_start = by_before = 0;
     if (!(size > 0))
       return;
-    const double of_increment = 1, of_start = 1, none = 0;
-    by_increment =
-      rule.end_inertia() * rule.acceleration(size, of_increment, none, none);
-    by_start =
-      rule.end_inertia() * rule.acceleration(size, none, none, of_start) +
-      rule.start_inertia();
+    const auto at_end =
+      [&](const double du, const double a, const double before) {
+        const double no_velocity = 0;
+        return rule.end_inertia() *
+               rule.acceleration(size, du, no_velocity, a, before);
+      };
+    by_increment = at_end(1, 0, 0);
+    by_start     = at_end(0, 1, 0) + rule.start_inertia();
+    by_before    = at_end(0, 0, 1);
   }
 
 
@@ -247,6 +270,8 @@ namespace moraine
       {
         v.resize(state.grid().n_nodes());
         a.resize(state.grid().n_nodes());
+        if (before_field.exists())
+          a_before.resize(state.grid().n_nodes());
         return;
       }
     Nodal nodal = map_to_nodes();
@@ -258,10 +283,13 @@ namespace moraine
             {
               nodal.v[k] += missing.v[k];
               nodal.a[k] += missing.a[k];
+              if (before_field.exists())
+                nodal.a_before[k] += missing.a_before[k];
             }
         }
-    v = std::move(nodal.v);
-    a = std::move(nodal.a);
+    v        = std::move(nodal.v);
+    a        = std::move(nodal.a);
+    a_before = std::move(nodal.a_before);
   }
 
 
@@ -287,6 +315,8 @@ namespace moraine
     };
     v = constrained(v, Prescribed::none);
     a = constrained(a, Prescribed::none);
+    if (rule.looks_back())
+      a_before = constrained(a_before, Prescribed::none);
     if (!(size > 0) || !moves)
       return;
     const NodeValues none(space.n_nodes());
@@ -294,8 +324,12 @@ namespace moraine
     const NodeValues half = constrained(none, Prescribed::in_the_middle);
     for (unsigned int k = 0; k < v.size(); ++k)
       {
+        const Tensor<1, dim> acceleration =
+          4. * (prescribed[k] - 2. * half[k]) / (size * size);
         v[k] += (4. * half[k] - prescribed[k]) / size;
-        a[k] += 4. * (prescribed[k] - 2. * half[k]) / (size * size);
+        a[k] += acceleration;
+        if (rule.looks_back())
+          a_before[k] += acceleration;
       }
   }
 
@@ -349,12 +383,9 @@ namespace moraine
   Motion<dim>::at_end() const
   {
     const NodeValues &du = state.nodal_increments();
-    Nodal             end{v, a};
+    Nodal             end{v, a, {}};
     for (unsigned int k = 0; k < v.size(); ++k)
-      {
-        end.a[k] = rule.acceleration(step_size, du[k], v[k], a[k]);
-        end.v[k] = rule.velocity(step_size, v[k], a[k], end.a[k]);
-      }
+      std::tie(end.v[k], end.a[k]) = end_of_step(k, du[k]);
     return end;
   }
 
@@ -392,15 +423,18 @@ namespace moraine
           {
             double        *values = points.values(block.points[p]);
             const double  *N      = block.N(p);
-            Tensor<1, dim> V_start, V_end, A_end;
+            Tensor<1, dim> V_start, V_end, A_start, A_end;
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 V_start += N[k] * v_0[k];
                 V_end += N[k] * v_1[k];
+                A_start += N[k] * a_0[k];
                 A_end += N[k] * a_1[k];
               }
             v_field.store(V_end + share * (v_field(values) - V_start), values);
             a_field.store(A_end, values);
+            if (before_field.exists())
+              before_field.store(A_start, values);
             if (gradient_field.exists())
               {
                 Tensor<2, dim> gradient;
@@ -428,6 +462,8 @@ namespace moraine
     Nodal      end      = at_end();
     const auto products = map_to_points(end);
     count(step, products, end);
+    if (before_field.exists())
+      a_before = std::move(a);
     v = std::move(end.v);
     a = std::move(end.a);
   }

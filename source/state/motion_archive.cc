@@ -38,6 +38,11 @@ namespace moraine
                                    "motion/acceleration",
                                    "length/time^2",
                                    archive);
+    if (before_field.exists())
+      state.grid().write_node_values(a_before,
+                                     "motion/acceleration_before",
+                                     "length/time^2",
+                                     archive);
   }
 
 
@@ -60,6 +65,10 @@ namespace moraine
       return;
     state.grid().read_node_values(archive, "motion/velocity", v);
     state.grid().read_node_values(archive, "motion/acceleration", a);
+    if (before_field.exists())
+      state.grid().read_node_values(archive,
+                                    "motion/acceleration_before",
+                                    a_before);
   }
 
 

@@ -147,12 +147,30 @@ namespace moraine
   TimeControl::next()
   {
     Assert(!finished(), ExcMessage("The run is at its end."));
-    const double remaining = stops[next_stop].time - current;
+    const double stop = stops[next_stop].time;
+    if (between_parts())
+      {
+        // Stops may be others than when the first part was accepted.
+        const double margin = same_time * parameters().one_step();
+        const double end = end_of_parts > stop - margin ? stop : end_of_parts;
+        trial_is_stop    = end == stop && cut_of_second == 1.;
+        trial =
+          cut_of_second == 1. ? end : current + cut_of_second * (end - current);
+        found_time = trial;
+        return;
+      }
+    const double remaining = stop - current;
     const double n_parts =
       std::max(1., std::ceil(remaining / size - same_time));
     trial_is_stop = n_parts == 1.;
-    trial =
-      trial_is_stop ? stops[next_stop].time : current + remaining / n_parts;
+    trial         = trial_is_stop ? stop : current + remaining / n_parts;
+    if (tries_first_part())
+      {
+        end_of_parts  = trial;
+        trial_is_stop = false;
+        trial         = current +
+                parameters().integrator.first_part() * (end_of_parts - current);
+      }
     if (!follows_path())
       found_time = trial;
   }
@@ -166,6 +184,7 @@ namespace moraine
     Assert(trial > current, ExcMessage("next() comes before accept()."));
     const double       taken  = trial - current;
     const unsigned int before = stage();
+    const bool         first  = tries_first_part();
     current                   = trial;
     rate                      = (found_time - current_time) / taken;
     current_time              = found_time;
@@ -175,8 +194,30 @@ namespace moraine
       ++next_stop;
     if (on_step_end)
       ++completed_steps;
+    if (first)
+      first_part = taken;
+    else
+      {
+        choose_size(first_part + taken, iterations, allowed_growth);
+        first_part = end_of_parts = 0.;
+        cut_of_second             = 1.;
+      }
+    if (stage() != before)
+      size = parameters().one_step() * parameters().largest_step;
+    accepted_size   = size;
+    rejected_before = rejected;
+  }
+
+
+
+  void
+  TimeControl::choose_size(const double       taken,
+                           const unsigned int iterations,
+                           const double       allowed_growth)
+  {
     ++accepted;
-    in_a_row             = rejected > rejected_before ? 1 : in_a_row + 1;
+    in_a_row = rejected > rejected_before ? 1 : in_a_row + 1;
+    size *= cut_of_second;
     const double largest = parameters().one_step() * parameters().largest_step;
     if (iterations <= parameters().easy_iterations ||
         in_a_row == enough_in_a_row)
@@ -187,10 +228,19 @@ namespace moraine
     if (allowed_growth * taken < size)
       size = std::max(allowed_growth * taken,
                       parameters().one_step() * parameters().smallest_step);
-    if (stage() != before)
-      size = largest;
-    accepted_size   = size;
-    rejected_before = rejected;
+  }
+
+
+
+  TimeIntegrator
+  TimeControl::integrator() const
+  {
+    const IntegratorParameters &chosen = parameters().integrator;
+    return between_parts() ?
+             TimeIntegrator::second_part_of_bathe(chosen.spectral_radius,
+                                                  (trial - current) /
+                                                    first_part) :
+             TimeIntegrator(chosen);
   }
 
 
@@ -209,6 +259,8 @@ namespace moraine
     archive.write("time/accepted", accepted);
     archive.write("time/rejected", rejected_before);
     archive.write("time/in_a_row", in_a_row);
+    archive.write("time/first_part", first_part, "time");
+    archive.write("time/end_of_parts", end_of_parts, "time");
   }
 
 
@@ -238,6 +290,8 @@ namespace moraine
     rejected        = archive.integer("time/rejected");
     rejected_before = rejected;
     in_a_row        = archive.integer("time/in_a_row");
+    first_part      = archive.number("time/first_part");
+    end_of_parts    = archive.number("time/end_of_parts");
     undo();
   }
 
@@ -246,9 +300,10 @@ namespace moraine
   void
   TimeControl::undo()
   {
-    trial      = current;
-    found_time = current_time;
-    size       = accepted_size;
+    trial         = current;
+    found_time    = current_time;
+    size          = accepted_size;
+    cut_of_second = 1.;
   }
 
 
@@ -256,9 +311,9 @@ namespace moraine
   bool
   TimeControl::can_cut() const
   {
-    return parameters().cut * (trial - current) >=
-           parameters().one_step() * parameters().smallest_step *
-             (1. - same_time);
+    return parameters().cut * trial_size() >= parameters().one_step() *
+                                                parameters().smallest_step *
+                                                (1. - same_time);
   }
 
 
@@ -269,8 +324,11 @@ namespace moraine
     Assert(trial > current, ExcMessage("next() comes before reject()."));
     ++rejected;
     const bool repeat = can_cut();
-    size              = parameters().cut * (trial - current);
-    text              = "The step from t = " + in_words(current_time) +
+    if (between_parts())
+      cut_of_second *= parameters().cut;
+    else
+      size = parameters().cut * trial_size();
+    text = "The step from t = " + in_words(current_time) +
            (follows_path() ? " along the path by " + in_words(trial - current) :
                              " to " + in_words(trial)) +
            " failed: " + reason + ".";
@@ -290,7 +348,8 @@ namespace moraine
   void
   TimeControl::take_back_cuts()
   {
-    size = accepted_size;
+    size          = accepted_size;
+    cut_of_second = 1.;
   }
 
 

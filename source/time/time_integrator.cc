@@ -22,9 +22,13 @@ namespace moraine
       integrator,
       "quasi-static: every step is in equilibrium, and nothing has inertia. "
       "Newmark: by beta and gamma. generalised-alpha: by the spectral radius. "
-      "energy-momentum: conserves both at finite strain.",
-      patterns::selection(
-        {"quasi-static", "Newmark", "generalised-alpha", "energy-momentum"}));
+      "Bathe: a step in two parts, by the spectral radius; the most accurate "
+      "for waves. energy-momentum: conserves both at finite strain.",
+      patterns::selection({"quasi-static",
+                           "Newmark",
+                           "generalised-alpha",
+                           "Bathe",
+                           "energy-momentum"}));
     prm.add_parameter(
       "Newmark beta",
       beta,
@@ -39,7 +43,7 @@ namespace moraine
     prm.add_parameter(
       "Spectral radius",
       spectral_radius,
-      "Of integrator generalised-alpha: what is left of the highest "
+      "Of integrators generalised-alpha and Bathe: what is left of the highest "
       "frequencies after a step. 1: no damping, 0: they end at once.",
       Patterns::Double(0, 1));
     prm.add_parameter(
@@ -94,6 +98,9 @@ namespace moraine
     , alpha_m(alpha_m)
     , alpha_f(alpha_f)
     , in_the_middle(in_the_middle)
+    , of_start(0.5 / beta - 1)
+    , velocity_start(1 - gamma)
+    , error((in_the_middle ? 0.25 : beta) - 1. / 6)
   {}
 
 
@@ -125,11 +132,45 @@ namespace moraine
 
 
 
+  TimeIntegrator
+  TimeIntegrator::second_part_of_bathe(const double rho, const double ratio)
+  {
+    const double s  = 1 / (1 + ratio); // where the first part ended
+    const double q1 = (rho + 1) / (2 * s * (rho - 1) + 4);
+    const double q2 = 0.5 - s * q1;
+    // In units of this part; v_n of the step is v - ratio (a_n + a_{n+s}) / 2.
+    const double   gamma = q2 / (1 - s);
+    TimeIntegrator rule(gamma * gamma, gamma, 0., 0.);
+    rule.velocity_before = 0.5 - q1;
+    rule.velocity_start  = 1 - gamma - rule.velocity_before;
+    const double of_v    = 0.5 * rule.velocity_before / ratio;
+    const double before  = gamma * rule.velocity_before - of_v;
+    rule.of_before       = before / rule.beta;
+    rule.of_start        = (gamma * rule.velocity_start - of_v) / rule.beta;
+    rule.error           = rule.beta - before / ratio - 1. / 6;
+    return rule;
+  }
+
+
+
+  double
+  IntegratorParameters::first_part() const
+  {
+    if (integrator != "Bathe")
+      return 1.;
+    const double rho = spectral_radius;
+    return 2 / (2 + std::sqrt(2 + 2 * rho));
+  }
+
+
+
   TimeIntegrator::TimeIntegrator(const IntegratorParameters &parameters)
     : TimeIntegrator(parameters.integrator == "generalised-alpha" ?
                        generalised_alpha(parameters.spectral_radius) :
                      parameters.integrator == "energy-momentum" ?
                        energy_momentum() :
+                     parameters.integrator == "Bathe" ?
+                       newmark(0.25, 0.5) :
                        newmark(parameters.beta, parameters.gamma))
   {}
 } // namespace moraine

@@ -436,3 +436,97 @@ TEST(TimeControl, CutsTheLengthOfAPathAndEndsAtTheEndTime)
   other.read(at_end);
   EXPECT_TRUE(other.finished());
 }
+
+namespace
+{
+  TimeParameters
+  divided_steps(const unsigned int n)
+  {
+    TimeParameters parameters             = steps(n);
+    parameters.integrator.integrator      = "Bathe";
+    parameters.integrator.spectral_radius = 1.;
+    parameters.growth                     = 1.;
+    return parameters;
+  }
+} // namespace
+
+TEST(TimeControl, DividesSteps)
+{
+  TimeControl time(divided_steps(2));
+  for (const double end : {0.5, 1.})
+    {
+      time.next();
+      EXPECT_EQ(time.trial_time(), end - 0.25);
+      time.accept(1);
+      EXPECT_TRUE(time.between_parts());
+      EXPECT_FALSE(time.at_step_end());
+      time.next();
+      EXPECT_EQ(time.trial_time(), end);
+      time.accept(1);
+      EXPECT_FALSE(time.between_parts());
+      EXPECT_TRUE(time.at_step_end());
+    }
+  EXPECT_TRUE(time.finished());
+  EXPECT_EQ(time.n_accepted(), 2u);
+  EXPECT_EQ(time.n_completed_steps(), 2u);
+}
+
+TEST(TimeControl, SecondPartsLookBack)
+{
+  TimeParameters parameters             = divided_steps(1);
+  parameters.integrator.spectral_radius = 0.5;
+  TimeControl time(parameters);
+  time.next();
+  EXPECT_FALSE(time.integrator().looks_back());
+  time.accept(1);
+  time.next();
+  EXPECT_TRUE(time.integrator().looks_back());
+}
+
+TEST(TimeControl, CutsEitherPartOfAStep)
+{
+  TimeControl time(divided_steps(1));
+  time.next();
+  EXPECT_TRUE(time.reject("test"));
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.25);
+  time.accept(1);
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.5);
+  EXPECT_TRUE(time.reject("test"));
+  time.next();
+  EXPECT_EQ(time.trial_time(), 0.375);
+  time.accept(1);
+  EXPECT_FALSE(time.between_parts());
+  EXPECT_FALSE(time.at_step_end());
+  // What remains is divided anew, and its end hit.
+  unsigned int n = 0;
+  for (; !time.finished(); ++n)
+    step(time);
+  EXPECT_EQ(time.time(), 1.);
+  EXPECT_EQ(n % 2, 0u);
+}
+
+TEST(TimeControl, GoesOnBetweenPartsOfAStep)
+{
+  TimeControl time(divided_steps(3));
+  step(time);
+  time.next();
+  EXPECT_TRUE(time.reject("test"));
+  Archive archive;
+  time.write(archive);
+  TimeControl other(divided_steps(3));
+  other.read(archive);
+  EXPECT_TRUE(other.between_parts());
+  other.next();
+  EXPECT_EQ(other.trial_time(), 1. / 3);
+  other.accept(1);
+  EXPECT_EQ(other.n_completed_steps(), 1u);
+  // With fewer steps the second part may end at the next.
+  TimeParameters fewer = divided_steps(30);
+  TimeControl    third(fewer);
+  third.read(archive);
+  third.next();
+  EXPECT_GT(third.trial_time(), third.time());
+  EXPECT_LE(third.trial_time(), 1. / 3);
+}

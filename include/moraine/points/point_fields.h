@@ -254,6 +254,8 @@ namespace moraine
     /** In dynamics, where points carry them. */
     inline static const Vector velocity{"velocity", "length/time"};
     inline static const Vector acceleration{"acceleration", "length/time^2"};
+    inline static const Vector acceleration_before{"acceleration before",
+                                                   "length/time^2"};
     /** Where it goes back to nodes, see Motion. */
     inline static const Tensor velocity_gradient{"velocity_gradient", "1/time"};
     inline static const SymmetricTensor stress{"stress", "stress"};

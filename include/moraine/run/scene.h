@@ -208,6 +208,10 @@ namespace moraine
     bool
     is_dynamic() const;
 
+    /** Whether some integrator divides steps into two parts. */
+    bool
+    divides_steps() const;
+
     /** The first stage with inertia, or else the first. */
     const StageParameters &
     first_dynamic_stage() const;

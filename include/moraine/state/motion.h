@@ -123,9 +123,12 @@ namespace moraine
     using NodeValues = std::vector<dealii::Tensor<1, dim>>;
 
     /** Ask for what points carry with @p transfer; velocity and acceleration
-     * to be seen even if nodes keep theirs. */
+     * to be seen even if nodes keep theirs. @p looks_back: some integrator asks
+     * for accelerations of the step before. */
     static void
-    request_fields(const VelocityTransfer &transfer, PointFields &fields);
+    request_fields(const VelocityTransfer &transfer,
+                   PointFields            &fields,
+                   const bool              looks_back = false);
 
     /** Of the material of @p state at rest. Points have the fields of
      * @p transfer. */
@@ -185,7 +188,9 @@ namespace moraine
     inertial_acceleration(const unsigned int            node,
                           const dealii::Tensor<1, dim> &du) const
     {
-      return by_increment * (du - step_size * v[node]) + by_start * a[node];
+      const dealii::Tensor<1, dim> result =
+        by_increment * (du - step_size * v[node]) + by_start * a[node];
+      return by_before == 0 ? result : result + by_before * a_before[node];
     }
 
     /** Its derivative by @f$\Delta u@f$; 1 in a step of size 0. */
@@ -207,10 +212,7 @@ namespace moraine
         return v[node];
       if (rule.forces_in_the_middle())
         return du / step_size;
-      return rule.velocity(step_size,
-                           v[node],
-                           a[node],
-                           rule.acceleration(step_size, du, v[node], a[node]));
+      return end_of_step(node, du).first;
     }
 
     /** Its derivative by @f$\Delta u@f$. */
@@ -253,6 +255,7 @@ namespace moraine
     struct Nodal
     {
       NodeValues v, a;
+      NodeValues a_before; ///< empty if no integrator looks back
     };
 
     /** Of the trial state at the end of the step. */
@@ -336,6 +339,17 @@ namespace moraine
     void
     set_step_size(const double size);
 
+    /** Velocity and acceleration. */
+    std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+    end_of_step(const unsigned int node, const dealii::Tensor<1, dim> &du) const
+    {
+      const dealii::Tensor<1, dim> before =
+        rule.looks_back() ? a_before[node] : dealii::Tensor<1, dim>();
+      const dealii::Tensor<1, dim> end =
+        rule.acceleration(step_size, du, v[node], a[node], before);
+      return {rule.velocity(step_size, v[node], a[node], before, end), end};
+    }
+
     /** @f$S^+@f$ of what points carry, less what they get from @p known. */
     Nodal
     map_to_nodes(const Nodal *known = nullptr) const;
@@ -373,14 +387,15 @@ namespace moraine
     TimeIntegrator                          rule;
     const VelocityTransfer                  transfer;
     const bool                              lumped;
-    PointField<dim, dealii::Tensor<1, dim>> v_field, a_field;
+    PointField<dim, dealii::Tensor<1, dim>> v_field, a_field, before_field;
     PointField<dim, dealii::Tensor<2, dim>> gradient_field;
     NodeValues                              v, a;
-    NodeValues                              prescribed; ///< increments, if any
-    double                                  step_size = 0;
-    /** Of inertial_acceleration(), by @f$\Delta u - \Delta t\, v_n@f$ and
-     * @f$a_n@f$. */
-    double by_increment = 0, by_start = 0;
+    NodeValues a_before;   ///< if some integrator looks back
+    NodeValues prescribed; ///< increments, if any
+    double     step_size = 0;
+    /** Of inertial_acceleration(), by @f$\Delta u - \Delta t\, v_n@f$,
+     * @f$a_n@f$ and @f$a_{n-1}@f$. */
+    double by_increment = 0, by_start = 0, by_before = 0;
     Works  done;
   };
 } // namespace moraine

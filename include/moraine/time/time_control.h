@@ -97,7 +97,9 @@ namespace moraine
    * own. An interval is divided by stops: the ends of the user's steps and the
    * times asked for. Between two stops, what remains is split into equal parts
    * no larger than the current size, so that stops are hit exactly and no
-   * sliver of a step is left over.
+   * sliver of a step is left over. An integrator may divide each of these
+   * steps once more; then its first part is accepted before the second is
+   * tried, and only the second may be the end of a step.
    *
    * The last interval may follow a path of equilibria. Then what is divided is
    * its length, and the solver finds the time; the run ends after the user's
@@ -152,6 +154,18 @@ namespace moraine
     {
       return rate;
     }
+
+    /** Whether the first of two parts of a step is the last that was accepted.
+     */
+    bool
+    between_parts() const
+    {
+      return first_part > 0.;
+    }
+
+    /** Of the trial step. */
+    TimeIntegrator
+    integrator() const;
 
     /** Of a trial step along a path: where it ends. */
     void
@@ -239,6 +253,7 @@ namespace moraine
     unsigned int
     n_completed_steps() const;
 
+    /** Those in two parts count once. */
     unsigned int
     n_accepted() const;
 
@@ -255,6 +270,26 @@ namespace moraine
       bool         ends_step;
       unsigned int stage;
     };
+
+    /** After the second part of a step, or all of it. */
+    void
+    choose_size(const double       taken,
+                const unsigned int iterations,
+                const double       allowed_growth);
+
+    /** Whether the trial step is the first of two parts. */
+    bool
+    tries_first_part() const
+    {
+      return !between_parts() && parameters().integrator.first_part() < 1.;
+    }
+
+    /** Of the trial step, in the first of two parts that of both. */
+    double
+    trial_size() const
+    {
+      return (tries_first_part() ? end_of_parts : trial) - current;
+    }
 
     /** Of the stage of the next step. */
     const TimeParameters &
@@ -277,7 +312,10 @@ namespace moraine
     double                            current_time;
     double                            found_time; ///< of the trial step
     double                            size;
-    double       accepted_size; ///< after the last accepted step
+    double       accepted_size;       ///< after the last accepted step
+    double       first_part      = 0; ///< its length if the second is to come
+    double       end_of_parts    = 0; ///< then the end of the second
+    double       cut_of_second   = 1; ///< in this step
     bool         trial_is_stop   = false;
     bool         on_step_end     = false;
     bool         path_ended      = false;

@@ -38,6 +38,13 @@ namespace moraine
     {
       return integrator != "quasi-static";
     }
+
+    /**
+     * Where a step is divided into two parts, 0 to 1, so that the matrices of
+     * both are alike (Noh and Bathe 2019, eq. 33); 1 if it is not divided.
+     */
+    double
+    first_part() const;
   };
 
 
@@ -66,6 +73,19 @@ namespace moraine
    * v_n)/\Delta t = f@f$ with forces in the middle of the step: Newmark's
    * formulas with @f$\beta = 1/2@f$, @f$\gamma = 1@f$ and the mean acceleration
    * of the step for @f$a_{n+1}@f$.
+   *
+   * Bathe's rule (Bathe and Baig 2005; with a spectral radius, Noh and Bathe
+   * 2019) divides a step. The first part, to @f$t_n + s \Delta t@f$, is the
+   * trapezoidal rule; then
+   *
+   * @f[ v_{n+1} = v_n + \Delta t\, (q_0 a_n + q_1 a_{n+s} + q_2 a_{n+1}), \quad
+   *     u_{n+1} = u_n + \Delta t\, (q_0 v_n + q_1 v_{n+s} + q_2 v_{n+1}) @f]
+   *
+   * with @f$q_1 = (\rho + 1) / (2 s (\rho - 1) + 4)@f$, @f$q_0 = (s - 1) q_1 +
+   * \tfrac12@f$ and @f$q_2 = \tfrac12 - s q_1@f$. Here either part is a step of
+   * its own: the second has the formulas of Newmark with another term by the
+   * acceleration @f$a_{n-1}@f$ at the start of the step before, of which
+   * @f$v_n@f$ above follows by the trapezoidal rule.
    */
   class TimeIntegrator
   {
@@ -81,6 +101,11 @@ namespace moraine
     static TimeIntegrator
     energy_momentum();
 
+    /** The second part of Bathe's rule, over the length of the first. */
+    static TimeIntegrator
+    second_part_of_bathe(const double spectral_radius, const double ratio);
+
+    /** Of steps that are not divided, and of the first part of others. */
     explicit TimeIntegrator(const IntegratorParameters &parameters);
 
     /** Whether the balance of momentum holds for forces in the middle of the
@@ -105,39 +130,57 @@ namespace moraine
       return gamma / (beta * step_size);
     }
 
-    /** @f$a_{n+1}@f$ from @f$\Delta u@f$, @f$v_n@f$ and @f$a_n@f$. */
+    /** Whether it asks for @f$a_{n-1}@f$. */
+    bool
+    looks_back() const
+    {
+      return velocity_before != 0;
+    }
+
+    /** @f$a_{n+1}@f$ from @f$\Delta u@f$, @f$v_n@f$, @f$a_n@f$ and, if
+     * looks_back(), @f$a_{n-1}@f$. */
     template <class Value>
     Value
     acceleration(const double step_size,
                  const Value &du,
                  const Value &v,
-                 const Value &a) const
+                 const Value &a,
+                 const Value &a_before) const
     {
-      return acceleration_by_increment(step_size) * (du - step_size * v) -
-             (0.5 / beta - 1) * a;
+      Value result =
+        acceleration_by_increment(step_size) * (du - step_size * v) -
+        of_start * a;
+      if (looks_back())
+        result -= of_before * a_before;
+      return result;
     }
 
-    /** @f$v_{n+1}@f$ from the accelerations of both ends. */
+    /** @f$v_{n+1}@f$ from the accelerations of both ends and the one before. */
     template <class Value>
     Value
     velocity(const double step_size,
              const Value &v,
              const Value &a,
+             const Value &a_before,
              const Value &a_end) const
     {
-      return v + step_size * ((1 - gamma) * a + gamma * a_end);
+      Value mean = velocity_start * a + gamma * a_end;
+      if (looks_back())
+        mean += velocity_before * a_before;
+      return v + step_size * mean;
     }
 
     /**
      * Estimated error of @f$\Delta u@f$ of a step whose accelerations at both
      * ends are known, @f$|\beta - \tfrac16| \Delta t^2 (a_{n+1} - a_n)@f$
-     * (Zienkiewicz and Xie 1991): the factor of the difference.
+     * (Zienkiewicz and Xie 1991): the factor of the difference. As they do for
+     * Newmark's rule, that of the second part of Bathe's compares it with an
+     * acceleration that is linear in time.
      */
     double
     error_of_increment(const double step_size) const
     {
-      const double coefficient = in_the_middle ? 0.25 : beta;
-      return std::abs(coefficient - 1. / 6) * step_size * step_size;
+      return std::abs(error) * step_size * step_size;
     }
 
     /** The factor of @f$M a_{n+1}@f$: @f$(1-\alpha_m)/(1-\alpha_f)@f$. */
@@ -177,6 +220,13 @@ namespace moraine
 
     double beta, gamma, alpha_m, alpha_f;
     bool   in_the_middle;
+
+    /** Of @f$a_n@f$ and @f$a_{n-1}@f$ in @f$-a_{n+1}@f$ and in
+     * @f$(v_{n+1} - v_n)/\Delta t@f$. */
+    double of_start, of_before = 0, velocity_start, velocity_before = 0;
+
+    /** Of error_of_increment(), over @f$\Delta t^2@f$. */
+    double error;
   };
 } // namespace moraine
 
