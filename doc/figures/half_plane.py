@@ -10,7 +10,7 @@ wave's pole, which is taken back in time by exp(eps t)."""
 
 import numpy as np
 
-E, NU, RHO, HALF_WIDTH, PRESSURE, RISE = 2000.0, 0.41, 1.0, 0.5, 30.0, 0.125
+E, NU, RHO, HALF_WIDTH, PRESSURE, RISE = 2000.0, 0.41, 1.0, 0.5, 32.0, 0.2
 DEPTH, WIDTH = 4.0, 3.0
 G = E / 2 / (1 + NU)
 M = E * (1 - NU) / (1 + NU) / (1 - 2 * NU)
@@ -77,6 +77,6 @@ for end in (0.4, 0.5, 0.6, 0.65):
     radii.append(radius)
     print(f"{end} s of load: r_b = {radius:.2f} m; of the traction is left",
           ", ".join(f"{name}: {np.linalg.norm(rest + pull / r) / np.linalg.norm(t):.3f}"
-                    for name, r in (("no springs", np.inf), ("4 m", 4), ("10.3 m", 10.3),
+                    for name, r in (("no springs", np.inf), ("4 m", 4), ("9.9 m", 9.9),
                                     ("this", radius))))
 print(f"mean: r_b = {np.mean(radii):.2f} m")

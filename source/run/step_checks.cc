@@ -5,6 +5,7 @@
 
 #include <moraine/basis/body_parts.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -186,15 +187,17 @@ namespace moraine
 
   template <int dim>
   std::vector<std::string>
-  StepChecks<dim>::of_step(const double                            t,
+  StepChecks<dim>::of_step(const TimeControl                      &time,
                            const std::vector<BoundaryReport<dim>> &reports,
                            const double largest_motion)
   {
+    const double             t = time.time();
     std::vector<std::string> found;
     for (const BoundaryReport<dim> &report : reports)
       found.push_back(missed_boundary(t, report, largest_motion));
     found.push_back(points_apart(t));
-    found.push_back(energy_made(t));
+    if (!time.between_parts())
+      found.push_back(energy_made(t));
     if (model.motion)
       {
         double work_of_motions = 0;
@@ -298,8 +301,8 @@ namespace moraine
     text << "energy grows without work: by t = " << t
          << " the integrator has made " << std::setprecision(2)
          << 100 * share_made << " % of the largest part of it; shorter steps"
-         << (scene.stages.front().second.time.integrator.integrator ==
-                 "generalised-alpha" ?
+         << (contains({"generalised-alpha", "Bathe"},
+                      scene.stages.front().second.time.integrator.integrator) ?
                " or 'Integrator = energy-momentum' do not" :
                ", or 'Integrator = energy-momentum' or 'generalised-alpha', "
                "do not");

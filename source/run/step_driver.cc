@@ -355,7 +355,7 @@ namespace moraine
       largest = std::max(largest, u.norm());
     largest = Utilities::MPI::max(largest, communicator);
     for (const std::string &warning :
-         checks.of_step(time_control.time(), last_reports, largest))
+         checks.of_step(time_control, last_reports, largest))
       warn(warning);
     if (!held.empty())
       warn(held);
@@ -365,15 +365,14 @@ namespace moraine
         ++sums.n_pseudo_transient;
         distance = largest;
       }
+    const AcceptedStep<dim> step{
+      time_control, t_start, report, last_reports, increments, distance};
+    if (!time_control.between_parts())
+      for (RunObserver<dim> *observer : observers)
+        observer->step_accepted(step);
     const std::string failure = checks.failure();
     if (!failure.empty())
       throw ComputationError(failure);
-    if (time_control.between_parts())
-      return;
-    const AcceptedStep<dim> step{
-      time_control, t_start, report, last_reports, increments, distance};
-    for (RunObserver<dim> *observer : observers)
-      observer->step_accepted(step);
   }
 
 

@@ -15,7 +15,7 @@ import signal
 import subprocess
 import time
 
-KILLS = int(os.environ.get("MORAINE_KILLS", "6"))
+KILLS = int(os.environ.get("MORAINE_KILLS", "7"))
 moments = random.Random(2026)
 
 # On several ranks a direct solver (MUMPS) does not repeat itself bit by bit.
@@ -31,6 +31,9 @@ SCENES = {
         "prm/cortis-2017/cantilever-45.prm", {"Time/Steps": 12}, 1),
     "dynamics with absorbing boundaries": (
         "prm/dynamics/cavity-pulse.prm", {}, 1),
+    "steps in two parts, points that move": (
+        "prm/phuong-2023/column-viscous-gimp.prm",
+        {"Time/Integrator": "Bathe", "Loads/pulse/Curve": 0.1}, 1),
     "3D on 3 ranks": (
         "prm/large-deformation/stretch-3d.prm", {"Solver/Solver": "gmres"}, 3),
 }

@@ -53,8 +53,11 @@ def compare(name, result, exact, balance=1e-10):
             text(f"{name}: energy at t = {row['t']}", f"NO, {bound_all}")
 
 
-fixed = run("prm/phuong-2023/column-fixed-fe.prm")
-compare("fixed", fixed, fixed_end)
+average = {"Time/Integrator": "Newmark"}
+compare("fixed, average acceleration",
+        run("prm/phuong-2023/column-fixed-fe.prm", average), fixed_end)
+# What Bathe's rule takes of the waves that the mesh does not resolve.
+compare("fixed", run("prm/phuong-2023/column-fixed-fe.prm"), fixed_end, 1e-4)
 viscous = run("prm/phuong-2023/column-viscous-fe.prm")
 compare("viscous", viscous, viscous_end)
 bound("viscous: final displacement at 10 m over impulse / (rho c) - 1",
@@ -108,14 +111,15 @@ for name, scene in (("GIMP", gimp),
                     ("MPM", "prm/phuong-2023/column-fixed-mpm.prm"),
                     ("FE", "prm/phuong-2023/column-fixed-fe.prm"),
                     ("DM-GC", "prm/phuong-2023/column-fixed-dmgc.prm")):
-    compare_points(f"fixed, {name}", scene, 2.7e-2 if name == "DM-GC" else 2.5e-2)
-    if name != "MPM":
-        compare_points(f"fixed, {name}, half the step", scene, 2e-2,
-                       {"Time/Steps": 800}, on_ranks=1)
+    compare_points(f"fixed, {name}", scene, 2e-2)
+    if name == "FE":
+        compare_points("fixed, FE, average acceleration", scene, 2.5e-2, average)
+        compare_points("fixed, FE, average acceleration, half the step", scene,
+                       2e-2, {**average, "Time/Steps": 800}, on_ranks=1)
 # The forces of DM-GC are those of the points' own functions; with those of the
 # recovered stress, waves grew the faster, the smaller the steps.
 result = run("prm/phuong-2023/column-fixed-dmgc.prm",
-             {"Time/End time": 2, "Time/Steps": 3200}, on_ranks=1)
+             {**average, "Time/End time": 2, "Time/Steps": 3200}, on_ranks=1)
 bound("fixed, DM-GC, a quarter of the step: energy out of balance",
       result.summary["energy"]["balance_error"], 1e-4)
 # Points that do, at a thousandth of it and at a third.
@@ -129,7 +133,7 @@ for load in (0.001, 0.3):
                for row in rows) / 0.2101, 2)
 for integrator, settings in (
         ("generalised-alpha, 0.8", {"Time/Integrator": "generalised-alpha"}),
-        ("lumped mass", {"Time/Mass": "lumped"})):
+        ("lumped mass", {**average, "Time/Mass": "lumped"})):
     result = run("prm/phuong-2023/column-fixed-fe.prm", settings)
     rows = result.history()
     number(f"{integrator}: displacement at 10 m, largest error over the peak",

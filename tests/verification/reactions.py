@@ -64,7 +64,7 @@ BASES = {"nodes": "subsection Grid conditions\n subsection base\n"
 
 for integrator, radius in (("Newmark", None), ("generalised-alpha", 1),
                            ("generalised-alpha", 0.8), ("generalised-alpha", 0),
-                           ("energy-momentum", None)):
+                           ("Bathe", 0.8), ("energy-momentum", None)):
     for method, base in (("finite element", "nodes"), ("GIMP", "nodes"),
                          ("finite element", "surface"), ("GIMP", "surface")):
         time = f"subsection Time\n set Integrator = {integrator}\n"

@@ -129,7 +129,8 @@ for name, parts, rest, exact in (
         ("the base accelerates",
          {"base": "set Displacement = 0.005 * t^2; 0"}, in_one,
          lambda t: 0.005 * t * t - 0.005 * (1 - cos(OMEGA * t)))):
-    for integrator in ("Newmark", "generalised-alpha", "energy-momentum"):
+    for integrator in ("Newmark", "generalised-alpha", "Bathe",
+                       "energy-momentum"):
         errors = []
         for steps in (80, 160):
             scene = folder / "scene.prm"

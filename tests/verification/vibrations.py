@@ -52,6 +52,7 @@ bound("average acceleration, 100 periods: out of balance", imbalance(rows),
 
 for integrator, name in (("Newmark", "average acceleration"),
                          ("generalised-alpha", "generalised-alpha, 0.8"),
+                         ("Bathe", "Bathe, 0.8"),
                          ("energy-momentum", "energy and momentum")):
     for steps in (20, 50):
         rows = run(bar, {"Time/Integrator": integrator,

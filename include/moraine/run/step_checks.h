@@ -6,6 +6,7 @@
 
 #include <moraine/run/energy_watch.h>
 #include <moraine/run/model.h>
+#include <moraine/time/time_control.h>
 
 #include <limits>
 #include <set>
@@ -40,13 +41,13 @@ namespace moraine
     separation();
 
     /**
-     * What is to be told of an accepted step that ended at time @p t with the
+     * What is to be told of the step that @p time has accepted, with the
      * boundaries' @p reports: that the material misses one of them, with @p
      * largest_motion of a node in the step; that points of a body drift apart;
      * that energy grows without work.
      */
     std::vector<std::string>
-    of_step(const double                            t,
+    of_step(const TimeControl                      &time,
             const std::vector<BoundaryReport<dim>> &reports,
             const double                            largest_motion);
 
