@@ -152,10 +152,9 @@ namespace moraine
       {
         // Stops may be others than when the first part was accepted.
         const double margin = same_time * parameters().one_step();
-        const double end = end_of_parts > stop - margin ? stop : end_of_parts;
-        trial_is_stop    = end == stop && cut_of_second == 1.;
-        trial =
-          cut_of_second == 1. ? end : current + cut_of_second * (end - current);
+        const double end    = parts.end > stop - margin ? stop : parts.end;
+        trial_is_stop       = end == stop && parts.cut == 1.;
+        trial = parts.cut == 1. ? end : current + parts.cut * (end - current);
         found_time = trial;
         return;
       }
@@ -166,10 +165,10 @@ namespace moraine
     trial         = trial_is_stop ? stop : current + remaining / n_parts;
     if (tries_first_part())
       {
-        end_of_parts  = trial;
+        parts.end     = trial;
         trial_is_stop = false;
         trial         = current +
-                parameters().integrator.first_part() * (end_of_parts - current);
+                parameters().integrator.first_part() * (parts.end - current);
       }
     if (!follows_path())
       found_time = trial;
@@ -195,12 +194,11 @@ namespace moraine
     if (on_step_end)
       ++completed_steps;
     if (first)
-      first_part = taken;
+      parts.first = taken;
     else
       {
-        choose_size(first_part + taken, iterations, allowed_growth);
-        first_part = end_of_parts = 0.;
-        cut_of_second             = 1.;
+        choose_size(parts.first + taken, iterations, allowed_growth);
+        parts = Parts();
       }
     if (stage() != before)
       size = parameters().one_step() * parameters().largest_step;
@@ -217,7 +215,7 @@ namespace moraine
   {
     ++accepted;
     in_a_row = rejected > rejected_before ? 1 : in_a_row + 1;
-    size *= cut_of_second;
+    size *= parts.cut;
     const double largest = parameters().one_step() * parameters().largest_step;
     if (iterations <= parameters().easy_iterations ||
         in_a_row == enough_in_a_row)
@@ -239,7 +237,7 @@ namespace moraine
     return between_parts() ?
              TimeIntegrator::second_part_of_bathe(chosen.spectral_radius,
                                                   (trial - current) /
-                                                    first_part) :
+                                                    parts.first) :
              TimeIntegrator(chosen);
   }
 
@@ -259,8 +257,8 @@ namespace moraine
     archive.write("time/accepted", accepted);
     archive.write("time/rejected", rejected_before);
     archive.write("time/in_a_row", in_a_row);
-    archive.write("time/first_part", first_part, "time");
-    archive.write("time/end_of_parts", end_of_parts, "time");
+    archive.write("time/first_part", parts.first, "time");
+    archive.write("time/end_of_parts", parts.end, "time");
   }
 
 
@@ -290,8 +288,8 @@ namespace moraine
     rejected        = archive.integer("time/rejected");
     rejected_before = rejected;
     in_a_row        = archive.integer("time/in_a_row");
-    first_part      = archive.number("time/first_part");
-    end_of_parts    = archive.number("time/end_of_parts");
+    parts.first     = archive.number("time/first_part");
+    parts.end       = archive.number("time/end_of_parts");
     undo();
   }
 
@@ -300,10 +298,10 @@ namespace moraine
   void
   TimeControl::undo()
   {
-    trial         = current;
-    found_time    = current_time;
-    size          = accepted_size;
-    cut_of_second = 1.;
+    trial      = current;
+    found_time = current_time;
+    size       = accepted_size;
+    parts.cut  = 1.;
   }
 
 
@@ -325,7 +323,7 @@ namespace moraine
     ++rejected;
     const bool repeat = can_cut();
     if (between_parts())
-      cut_of_second *= parameters().cut;
+      parts.cut *= parameters().cut;
     else
       size = parameters().cut * trial_size();
     text = "The step from t = " + in_words(current_time) +
@@ -348,8 +346,8 @@ namespace moraine
   void
   TimeControl::take_back_cuts()
   {
-    size          = accepted_size;
-    cut_of_second = 1.;
+    size      = accepted_size;
+    parts.cut = 1.;
   }
 
 

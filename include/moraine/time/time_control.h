@@ -160,7 +160,7 @@ namespace moraine
     bool
     between_parts() const
     {
-      return first_part > 0.;
+      return parts.first > 0.;
     }
 
     /** Of the trial step. */
@@ -271,6 +271,14 @@ namespace moraine
       unsigned int stage;
     };
 
+    /** Of a step that the integrator divides. */
+    struct Parts
+    {
+      double first = 0; ///< length of the first if the second is to come
+      double end   = 0; ///< of both
+      double cut   = 1; ///< of the second, in this step
+    };
+
     /** After the second part of a step, or all of it. */
     void
     choose_size(const double       taken,
@@ -288,7 +296,7 @@ namespace moraine
     double
     trial_size() const
     {
-      return (tries_first_part() ? end_of_parts : trial) - current;
+      return (tries_first_part() ? parts.end : trial) - current;
     }
 
     /** Of the stage of the next step. */
@@ -312,10 +320,8 @@ namespace moraine
     double                            current_time;
     double                            found_time; ///< of the trial step
     double                            size;
-    double       accepted_size;       ///< after the last accepted step
-    double       first_part      = 0; ///< its length if the second is to come
-    double       end_of_parts    = 0; ///< then the end of the second
-    double       cut_of_second   = 1; ///< in this step
+    double       accepted_size; ///< after the last accepted step
+    Parts        parts;
     bool         trial_is_stop   = false;
     bool         on_step_end     = false;
     bool         path_ended      = false;

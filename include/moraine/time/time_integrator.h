@@ -41,7 +41,7 @@ namespace moraine
 
     /**
      * Where a step is divided into two parts, 0 to 1, so that the matrices of
-     * both are alike (Noh and Bathe 2019, eq. 33); 1 if it is not divided.
+     * both are alike (Noh and Bathe 2019); 1 if it is not divided.
      */
     double
     first_part() const;
