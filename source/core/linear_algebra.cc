@@ -28,10 +28,12 @@ namespace moraine
           , first(n_owned > 0 ? *owned.begin() : 0)
         {
           for (const auto row : owned)
-            for (auto entry = pattern.begin(row); entry != pattern.end(row);
-                 ++entry)
-              if (!is_owned(entry->column()))
-                others.push_back(entry->column());
+            {
+              const auto end = pattern.end(row);
+              for (auto entry = pattern.begin(row); entry != end; ++entry)
+                if (!is_owned(entry->column()))
+                  others.push_back(entry->column());
+            }
           std::sort(others.begin(), others.end());
           others.erase(std::unique(others.begin(), others.end()), others.end());
         }
@@ -96,8 +98,8 @@ namespace moraine
         for (const auto row : owned)
           {
             of_others.clear();
-            for (auto entry = pattern.begin(row); entry != pattern.end(row);
-                 ++entry)
+            const auto end = pattern.end(row);
+            for (auto entry = pattern.begin(row); entry != end; ++entry)
               if (columns.is_owned(entry->column()))
                 *next++ = columns.number(entry->column());
               else
