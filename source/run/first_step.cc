@@ -13,6 +13,7 @@
 #include <moraine/run/model.h>
 #include <moraine/run/scene_conditions.h>
 #include <moraine/run/skipped_tables.h>
+#include <moraine/run/thin_bodies.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -462,6 +463,7 @@ namespace moraine
     check_displacements_at_start(scene, model);
     check_loads(stage, model);
     tell_of_skipped_tables(scene, stage, notes);
+    tell_of_thin_bodies(model, notes);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(scene, model, notes);
     model.probes->check_places(

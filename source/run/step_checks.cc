@@ -196,6 +196,7 @@ namespace moraine
     for (const BoundaryReport<dim> &report : reports)
       found.push_back(missed_boundary(t, report, largest_motion));
     found.push_back(points_apart(t));
+    found.push_back(moved_far(t));
     if (!time.between_parts())
       found.push_back(energy_made(t));
     if (model.motion)
@@ -285,6 +286,56 @@ namespace moraine
 
   template <int dim>
   std::string
+  StepChecks<dim>::moved_far(const double t)
+  {
+    const unsigned int n_bodies = model.body_names.size();
+    if (model.state->strain_measure() != StrainMeasure::small ||
+        scene.is_dynamic() || far.size() == n_bodies)
+      return "";
+    // Coordinates at the start, and with the other sign, and the motion.
+    constexpr unsigned int n = 2 * dim + 1;
+    std::vector<double>    largest(n * n_bodies,
+                                std::numeric_limits<double>::lowest());
+    const PointSet<dim>   &points = *model.points;
+    const auto             u      = points.displacement_field();
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        const Tensor<1, dim> motion = u(points.values(p));
+        const Point<dim>     start  = points.position(p) - motion;
+        double              *of     = largest.data() + n * points.body(p);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            of[2 * d]     = std::max(of[2 * d], start[d]);
+            of[2 * d + 1] = std::max(of[2 * d + 1], -start[d]);
+          }
+        of[2 * dim] = std::max(of[2 * dim], motion.norm());
+      }
+    Utilities::MPI::max(largest,
+                        model.mesh->triangulation().get_communicator(),
+                        largest);
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        const double *of   = largest.data() + n * b;
+        double        size = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          size = std::max(size, of[2 * d] + of[2 * d + 1]);
+        if (!(of[2 * dim] > size) || !far.insert(b).second)
+          continue;
+        std::ostringstream text;
+        text << "body '" << model.body_names[b] << "': by t = " << t
+             << " it has moved by " << std::setprecision(3)
+             << of[2 * dim] / size
+             << " times its size, and small strain knows of no lengths and "
+                "directions that change; 'Strain = finite' does";
+        return text.str();
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
   StepChecks<dim>::energy_made(const double t)
   {
     if (!model.motion || told_of_energy)
@@ -323,6 +374,8 @@ namespace moraine
     archive.write("checks/stretched_bodies",
                   std::vector<unsigned int>(stretched.begin(),
                                             stretched.end()));
+    archive.write("checks/far_bodies",
+                  std::vector<unsigned int>(far.begin(), far.end()));
     archive.write("checks/share_of_energy_made", share_made);
     archive.write("checks/told_of_energy", told_of_energy ? 1u : 0u);
     energy.write(archive);
@@ -339,9 +392,12 @@ namespace moraine
     missed.clear();
     for (std::string name; std::getline(names, name);)
       missed.insert(name);
-    const std::vector<unsigned int> bodies =
-      archive.integers("checks/stretched_bodies");
-    stretched      = {bodies.begin(), bodies.end()};
+    const auto bodies_of = [&](const std::string &name) {
+      const std::vector<unsigned int> bodies = archive.integers(name);
+      return std::set<unsigned int>(bodies.begin(), bodies.end());
+    };
+    stretched      = bodies_of("checks/stretched_bodies");
+    far            = bodies_of("checks/far_bodies");
     share_made     = archive.number("checks/share_of_energy_made");
     told_of_energy = archive.integer("checks/told_of_energy") != 0;
     energy.read(archive);

@@ -224,7 +224,18 @@ namespace moraine
         if (!first_step && system.coupling_changed())
           {
             system.assemble(x, true);
-            system.check_that_it_is_held(false);
+            try
+              {
+                system.check_that_it_is_held(false);
+              }
+            catch (const ComputationError &error)
+              {
+                // A shorter step may be less distorted at first.
+                NewtonReport not_held;
+                not_held.status  = NewtonStatus::not_held;
+                not_held.message = error.what();
+                return not_held;
+              }
             system.start_over();
           }
         const NewtonReport report =

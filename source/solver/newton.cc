@@ -447,6 +447,8 @@ namespace moraine
           return "too many iterations";
         case NewtonStatus::not_a_number:
           return "not a number";
+        case NewtonStatus::not_held:
+          return "not held";
       }
     Assert(false, ExcInternalError());
     return "";

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What could end with "ok" and a wrong number: steps out of balance, a slope on
-boundaries that cut cells, a step too long for its error, a load between steps."""
+boundaries that cut cells, a step too long for its error, a load between steps,
+cells that are too coarse for a body, displacements too large for small strain."""
 
 PAD = """
 subsection Mesh
@@ -112,3 +113,64 @@ for curve in ("0: 0, 0.101: 0, 0.103: 1, 0.105: 0",
         "Loads/pulse/Value": "0; -1", "Loads/pulse/Curve": curve,
         "Time/End time": 0.2, "Time/Steps": 20})
     text(f"pulse {curve}: told of", "load pulse: its table has" in pulse.output)
+
+# What cells are too coarse for, and what small strain is too coarse for.
+BLOCK = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 4
+  set Cell size = 0.25
+end
+subsection Materials
+  subsection soft
+    set Young modulus = 1
+    set Poisson ratio = 0.3
+  end
+  subsection stiff
+    set Young modulus = {stiffness}
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape = box
+    set Lower corner = 0, {bottom}
+    set Upper corner = {corner}
+    set Material = soft
+  end{second}
+end
+subsection Grid conditions
+  subsection left
+    set Side = left
+  end
+  subsection right
+    set Side = right
+    set Displacement = {pull}*t; 0
+  end
+end
+"""
+SECOND = """
+  subsection wall
+    set Shape = box
+    set Lower corner = {x}, 0
+    set Upper corner = 4, 4
+    set Material = stiff
+  end"""
+THICK = "nowhere as thick"
+SHARED = "cells by less than half"
+FAR = "times its size"
+for name, corner, second, stiffness, pull in (
+        ("a strip of 1.2 cells", "4, 1.35", "", 1, 0.1),
+        ("a strip of two", "4, 1.55", "", 1, 0.1),
+        ("a stiff wall to 2.4 of a cell", "2.4, 4", SECOND.format(x=2.4), 100, 0.1),
+        ("one that ends with it", "2.5, 4", SECOND.format(x=2.5), 100, 0.1),
+        ("one not much stiffer", "2.4, 4", SECOND.format(x=2.4), 5, 0.1),
+        ("pulled by 0.9 of its size", "4, 4", "", 1, 3.6),
+        ("pulled by 1.1", "4, 4", "", 1, 4.4)):
+    scene = folder / "block.prm"
+    scene.write_text(BLOCK.format(
+        corner=corner, second=second, stiffness=stiffness, pull=pull,
+        bottom=1.05 if "strip" in name else 0))
+    result = run(scene, {"Method/Method": "finite element"}, expect=None)
+    text(f"{name}: told of", ", ".join(
+        text for text in (THICK, SHARED, FAR) if text in result.output) or "nothing")

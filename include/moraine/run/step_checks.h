@@ -44,7 +44,7 @@ namespace moraine
      * What is to be told of the step that @p time has accepted, with the
      * boundaries' @p reports: that the material misses one of them, with @p
      * largest_motion of a node in the step; that points of a body drift apart;
-     * that energy grows without work.
+     * that a body moves far at small strain; that energy grows without work.
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
@@ -75,6 +75,11 @@ namespace moraine
     std::string
     points_apart(const double t);
 
+    /** That the material of a body moved by more than its size, for all that
+     * small strain knows of it. */
+    std::string
+    moved_far(const double t);
+
     std::string
     energy_made(const double t);
 
@@ -83,6 +88,7 @@ namespace moraine
     std::vector<unsigned int> n_parts;   ///< of each body
     std::set<std::string>     missed;    ///< boundaries told of
     std::set<unsigned int>    stretched; ///< bodies told of
+    std::set<unsigned int>    far;       ///< the same, as they moved far
     EnergyWatch               energy;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */

@@ -48,7 +48,8 @@ namespace moraine
     diverged,
     linear_solver_failed,
     too_many_iterations,
-    not_a_number
+    not_a_number,
+    not_held ///< a body, before the first iteration
   };
 
   /**

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/thin_bodies.h>
+
+#include <moraine/mesh/active_search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A body is thick where the cells around a vertex are filled by this. */
+    constexpr double fill_of_thick = 0.75;
+
+    /** What a body has of a cell of its own is more than this. */
+    constexpr double least_share = 0.01, most_share = 0.5;
+
+    /** Of shear moduli: a soft and a stiff body. */
+    constexpr double contrast = 10;
+
+
+
+    /** What part of each active cell every body fills; the same on all ranks.
+     */
+    template <int dim>
+    std::vector<std::vector<double>>
+    filled_parts(const Model<dim> &model)
+    {
+      const auto         &tria  = model.mesh->triangulation();
+      const unsigned int  n     = tria.n_active_cells();
+      const unsigned int  n_all = n * model.bodies.size();
+      std::vector<double> volumes(n_all, 0.);
+      for (const auto &in_cell : model.points->cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          volumes[model.points->body(p) * n +
+                  in_cell.cell->active_cell_index()] += model.points->volume(p);
+      Utilities::MPI::sum(volumes, tria.get_communicator(), volumes);
+      std::vector<std::vector<double>> parts(model.bodies.size());
+      for (unsigned int b = 0; b < parts.size(); ++b)
+        {
+          parts[b].assign(volumes.begin() + b * n,
+                          volumes.begin() + (b + 1) * n);
+          for (const auto &cell : tria.active_cell_iterators())
+            parts[b][cell->active_cell_index()] /= cell->measure();
+        }
+      return parts;
+    }
+
+
+
+    template <int dim>
+    bool
+    is_thick_somewhere(const Model<dim>          &model,
+                       const std::vector<double> &filled)
+    {
+      for (const auto &around :
+           model.mesh->search_cache().get_vertex_to_cell_map())
+        {
+          double sum = 0;
+          for (const auto &cell : around)
+            sum += filled[cell->active_cell_index()];
+          if (!around.empty() && sum >= fill_of_thick * around.size())
+            return true;
+        }
+      return false;
+    }
+
+
+
+    /** The number of cells that the stiff body fills in part beside the soft
+     * one. */
+    unsigned int
+    n_shared(const std::vector<double> &stiff, const std::vector<double> &soft)
+    {
+      unsigned int n = 0;
+      for (unsigned int c = 0; c < stiff.size(); ++c)
+        n += stiff[c] > least_share && stiff[c] < most_share &&
+             soft[c] > least_share;
+      return n;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  tell_of_thin_bodies(const Model<dim> &model, std::vector<std::string> &notes)
+  {
+    const auto parts = filled_parts(model);
+    for (unsigned int b = 0; b < parts.size(); ++b)
+      {
+        if (!model.present[b])
+          continue;
+        const std::string &name = model.body_names[b];
+        if (model.space->degree() == 1 && !is_thick_somewhere(model, parts[b]))
+          notes.push_back(
+            name +
+            ": nowhere as thick as one and a half cells; linear functions make "
+            "what bends much too stiff there, smaller cells or 'Degree = 2' "
+            "with method 'finite element' do not");
+        const double mu = model.materials[b]->elastic_stiffness().mu;
+        for (unsigned int a = 0; a < parts.size(); ++a)
+          if (model.present[a] &&
+              mu > contrast * model.materials[a]->elastic_stiffness().mu)
+            if (const unsigned int n = n_shared(parts[b], parts[a]))
+              {
+                std::ostringstream text;
+                text << name << ": fills " << n
+                     << " cells by less than half, which '"
+                     << model.body_names[a]
+                     << "', much softer, has a share of; they become as stiff "
+                        "as '"
+                     << name
+                     << "', and limit loads too high: let it end on mesh "
+                        "lines, or take smaller cells";
+                notes.push_back(text.str());
+              }
+      }
+  }
+
+
+
+  template void
+  tell_of_thin_bodies(const Model<2> &, std::vector<std::string> &);
+  template void
+  tell_of_thin_bodies(const Model<3> &, std::vector<std::string> &);
+} // namespace moraine
