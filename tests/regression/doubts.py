@@ -29,8 +29,9 @@ def show(name, scene, settings):
 # Plastic soil, and elastic material with a Poisson ratio near 0.5.
 for method in ("fe", "gimp"):
     scene = f"prm/hard-cases/bearing-{method}.prm"
-    settings = {**BEARING,
-                "Mesh/Upper corner": "5, 0" if method == "fe" else "5, 0.25"}
+    settings = {**BEARING, "Mesh/Upper corner": "5, 0.25"}
+    if method == "fe":
+        settings = {**BEARING, "Mesh/Cell size": 0.26}
     show(f"footing, {method}, pointwise", scene, {**settings, **POINT})
     show(f"footing, {method}, cell mean", scene, settings)
     show(f"membrane, {method}, pointwise, nu = 0.49",
@@ -68,6 +69,6 @@ for fill in (0, 0.1):
 
 # A condition that holds nothing: here the ground ends below the side.
 idle = run("prm/hard-cases/bearing-fe.prm",
-           {**BEARING, "Mesh/Upper corner": "5, 0.25"})
+           {**BEARING, "Mesh/Cell size": 0.26, "Mesh/Upper corner": "5.2, 0.26"})
 text("footing above the ground: said",
      "footing: holds no node of a body at the start" in idle.output)

@@ -15,7 +15,7 @@ render bearing-stress "$(last bearing-pointwise/points)" "$(last bearing-cell/po
   --heading "Mean stress at a settlement of 0.01 m, GIMP, h = 1/8, Poisson's ratio 0.49"
 
 plot bearing-load <<'GP'
-set title 'Strip footing, half width 1 m, h = 1/8 m, ν = 0.49'
+set title 'Strip footing, half width 1 m, h = 1/8 m (FE 2/15 m), ν = 0.49'
 set xlabel 'settlement  [m]'
 set ylabel 'reaction over half width and k  [-]'
 plot 'bearing-pointwise/history.csv' using (0.01 * column('t')):(-column('reaction_y of footing [force]')) w lp lt 1 title 'GIMP, pointwise', \
