@@ -118,6 +118,10 @@ for kind, fields in FIELDS.items():
           sum(b >= a for a, b in zip(energies, energies[1:])
               if a > 1e-4 * energies[0]), 0)
 
+# Points of DM-GC that stay, at the full load.
+history = run("prm/phuong-2023/column-viscoelastic-dmgc.prm").history()
+print_errors("DM-GC, viscoelastic", history, FIELDS["viscoelastic"], 0, 0.0625, "s")
+
 # Springs of a virtual layer, of a medium that is named: M/delta.
 history = run("prm/phuong-2023/column-viscous-fe.prm", {
     "Grid conditions/base/Virtual thickness": 20,
