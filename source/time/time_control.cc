@@ -194,7 +194,10 @@ namespace moraine
     if (on_step_end)
       ++completed_steps;
     if (first)
-      parts.first = taken;
+      {
+        parts.first    = taken;
+        parts.rejected = rejected > rejected_before;
+      }
     else
       {
         choose_size(parts.first + taken, iterations, allowed_growth);
@@ -214,7 +217,7 @@ namespace moraine
                            const double       allowed_growth)
   {
     ++accepted;
-    in_a_row = rejected > rejected_before ? 1 : in_a_row + 1;
+    in_a_row = parts.rejected || rejected > rejected_before ? 1 : in_a_row + 1;
     size *= parts.cut;
     const double largest = parameters().one_step() * parameters().largest_step;
     if (iterations <= parameters().easy_iterations ||
@@ -259,6 +262,7 @@ namespace moraine
     archive.write("time/in_a_row", in_a_row);
     archive.write("time/first_part", parts.first, "time");
     archive.write("time/end_of_parts", parts.end, "time");
+    archive.write("time/first_part_rejected", parts.rejected ? 1u : 0u);
   }
 
 
@@ -290,6 +294,7 @@ namespace moraine
     in_a_row        = archive.integer("time/in_a_row");
     parts.first     = archive.number("time/first_part");
     parts.end       = archive.number("time/end_of_parts");
+    parts.rejected  = archive.integer("time/first_part_rejected") != 0;
     undo();
   }
 

@@ -277,6 +277,8 @@ namespace moraine
       double first = 0; ///< length of the first if the second is to come
       double end   = 0; ///< of both
       double cut   = 1; ///< of the second, in this step
+      /** Whether trials of the first were. */
+      bool rejected = false;
     };
 
     /** After the second part of a step, or all of it. */
