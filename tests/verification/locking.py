@@ -72,15 +72,3 @@ for title, scene, allowed in (
         else:
             number(f"bearing, {title}: mean stress of {name}, root of the mean "
                    "square of what alternates over the range", usual, 2)
-
-# All boundaries implicit.
-for method, constraint, allowed in (("finite element", "roller", 3e-2),
-                                    ("GIMP", "fixed", 3e-2)):
-    result = run("prm/hard-cases/bearing-implicit.prm",
-                 {"Method/Method": method, "Mesh/Cell size": 0.0625,
-                  "Boundaries/footing/Constraint": constraint}, on_ranks=1)
-    force = [-row["reaction_y of footing"] for row in result.history()]
-    number(f"bearing, implicit, {method}, {constraint}: plateau over (2 + pi) k "
-           "- 1", force[-1] / PLATEAU - 1, 2)
-    bound(f"bearing, implicit, {method}, {constraint}: plateau",
-          force[-1] / PLATEAU - 1, allowed)
