@@ -24,12 +24,6 @@ namespace moraine
 
   namespace
   {
-    /** Tried in turn to hold nodes that too few points touch. */
-    constexpr double automatic_fictitious_stiffness[] = {1e-10,
-                                                         1e-8,
-                                                         1e-6,
-                                                         1e-4};
-
     /** After that many rejections in a row, shorter steps are no cure. */
     constexpr unsigned int rejections_before_support = 2;
 
@@ -189,22 +183,6 @@ namespace moraine
       add_support(accepted_fraction);
     for (const std::string &note : notes)
       tell(note);
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::add_support(const double fraction)
-  {
-    MechanicsSystem<dim> &system = *model.system;
-    auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
-    term->begin_step(system.step_context());
-    support = nullptr;
-    if (!term->any_empty_part(system.step_context()))
-      return;
-    support = term.get();
-    system.add(std::move(term));
   }
 
 
@@ -521,68 +499,6 @@ namespace moraine
     const double tolerance  = scene.stages[stage].second.time.error_tolerance;
     return tolerance > 0 ? margin * std::cbrt(tolerance / error_of_step(x)) :
                            std::numeric_limits<double>::infinity();
-  }
-
-
-
-  template <int dim>
-  bool
-  StepDriver<dim>::may_support_more() const
-  {
-    return support && sums.n_fictitious_stiffness <
-                        std::size(automatic_fictitious_stiffness);
-  }
-
-
-
-  template <int dim>
-  bool
-  StepDriver<dim>::hold_empty_parts(const std::string &reason)
-  {
-    if (method.fictitious_stiffness > 0 ||
-        sums.n_fictitious_stiffness ==
-          std::size(automatic_fictitious_stiffness))
-      return false;
-    MechanicsSystem<dim> &system = *model.system;
-    const double          fraction =
-      automatic_fictitious_stiffness[sums.n_fictitious_stiffness];
-    if (support)
-      support->set_fraction(fraction);
-    else
-      {
-        LA::Vector x;
-        system.initial_guess(x);
-        system.assemble(x, true);
-        system.check_that_it_is_held(false);
-        add_support(fraction);
-        if (!support)
-          return false;
-      }
-    ++sums.n_fictitious_stiffness;
-    std::ostringstream text;
-    text << reason
-         << ": probably too few points touch some nodes; from here on empty "
-            "parts of cells have "
-         << fraction
-         << " of the material's stiffness (Method / Fictitious stiffness)";
-    tell(text.str());
-    return true;
-  }
-
-
-
-  template <int dim>
-  bool
-  StepDriver<dim>::take_back_support()
-  {
-    if (!support || support->stiffness_fraction() == accepted_fraction)
-      return false;
-    support->set_fraction(accepted_fraction);
-    std::ostringstream text;
-    text << "the stiffness of empty parts of cells is no cure, it is "
-         << accepted_fraction << " of the material's again";
-    tell(text.str());
-    return true;
   }
 
 

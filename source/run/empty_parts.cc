@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// A stiffness of empty parts of cells, for nodes that too few points touch.
+
+#include <moraine/run/step_driver.h>
+
+#include <iterator>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Tried in turn to hold nodes that too few points touch. */
+    constexpr double automatic_fictitious_stiffness[] = {1e-10,
+                                                         1e-8,
+                                                         1e-6,
+                                                         1e-4};
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::add_support(const double fraction)
+  {
+    MechanicsSystem<dim> &system = *model.system;
+    auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
+    term->begin_step(system.step_context());
+    support = nullptr;
+    if (!term->any_empty_part(system.step_context()))
+      return;
+    support = term.get();
+    system.add(std::move(term));
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::may_support_more() const
+  {
+    return support && sums.n_fictitious_stiffness <
+                        std::size(automatic_fictitious_stiffness);
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::hold_empty_parts(const std::string &reason)
+  {
+    if (method.fictitious_stiffness > 0 ||
+        sums.n_fictitious_stiffness ==
+          std::size(automatic_fictitious_stiffness))
+      return false;
+    MechanicsSystem<dim> &system = *model.system;
+    const double          fraction =
+      automatic_fictitious_stiffness[sums.n_fictitious_stiffness];
+    if (support)
+      support->set_fraction(fraction);
+    else
+      {
+        LA::Vector x;
+        system.initial_guess(x);
+        system.assemble(x, true);
+        system.check_that_it_is_held(false);
+        add_support(fraction);
+        if (!support)
+          return false;
+      }
+    ++sums.n_fictitious_stiffness;
+    std::ostringstream text;
+    text << reason
+         << ": probably too few points touch some nodes; from here on empty "
+            "parts of cells have "
+         << fraction
+         << " of the material's stiffness (Method / Fictitious stiffness)";
+    tell(text.str());
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::take_back_support()
+  {
+    if (!support || support->stiffness_fraction() == accepted_fraction)
+      return false;
+    support->set_fraction(accepted_fraction);
+    std::ostringstream text;
+    text << "the stiffness of empty parts of cells is no cure, it is "
+         << accepted_fraction << " of the material's again";
+    tell(text.str());
+    return true;
+  }
+
+
+
+  template void
+  StepDriver<2>::add_support(const double);
+  template bool
+  StepDriver<2>::may_support_more() const;
+  template bool
+  StepDriver<2>::hold_empty_parts(const std::string &);
+  template bool
+  StepDriver<2>::take_back_support();
+  template void
+  StepDriver<3>::add_support(const double);
+  template bool
+  StepDriver<3>::may_support_more() const;
+  template bool
+  StepDriver<3>::hold_empty_parts(const std::string &);
+  template bool
+  StepDriver<3>::take_back_support();
+} // namespace moraine
