@@ -463,7 +463,7 @@ namespace moraine
     check_displacements_at_start(scene, model);
     check_loads(stage, model);
     tell_of_skipped_tables(scene, stage, notes);
-    tell_of_thin_bodies(model, notes);
+    tell_of_thin_bodies(model, {}, notes);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(scene, model, notes);
     model.probes->check_places(
@@ -521,6 +521,7 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, model, notes);
     check_loads(stage, model);
+    tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));

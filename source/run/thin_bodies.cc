@@ -3,7 +3,8 @@
 
 #include <moraine/run/thin_bodies.h>
 
-#include <moraine/mesh/active_search.h>
+#include <moraine/core/words.h>
+#include <moraine/state/aggregates.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,9 +17,6 @@ namespace moraine
 
   namespace
   {
-    /** A body is thick where the cells around a vertex are filled by this. */
-    constexpr double fill_of_thick = 0.75;
-
     /** What a body has of a cell of its own is more than this. */
     constexpr double least_share = 0.01, most_share = 0.5;
 
@@ -55,25 +53,6 @@ namespace moraine
 
 
 
-    template <int dim>
-    bool
-    is_thick_somewhere(const Model<dim>          &model,
-                       const std::vector<double> &filled)
-    {
-      for (const auto &around :
-           model.mesh->search_cache().get_vertex_to_cell_map())
-        {
-          double sum = 0;
-          for (const auto &cell : around)
-            sum += filled[cell->active_cell_index()];
-          if (!around.empty() && sum >= fill_of_thick * around.size())
-            return true;
-        }
-      return false;
-    }
-
-
-
     /** The number of cells that the stiff body fills in part beside the soft
      * one. */
     unsigned int
@@ -91,15 +70,20 @@ namespace moraine
 
   template <int dim>
   void
-  tell_of_thin_bodies(const Model<dim> &model, std::vector<std::string> &notes)
+  tell_of_thin_bodies(const Model<dim>               &model,
+                      const std::vector<std::string> &known,
+                      std::vector<std::string>       &notes)
   {
     const auto parts = filled_parts(model);
     for (unsigned int b = 0; b < parts.size(); ++b)
       {
         if (!model.present[b])
           continue;
-        const std::string &name = model.body_names[b];
-        if (model.space->degree() == 1 && !is_thick_somewhere(model, parts[b]))
+        const std::string &name    = model.body_names[b];
+        const bool         is_new  = !contains(known, name);
+        const auto         in_bulk = vertices_in_bulk(*model.space, parts[b]);
+        if (is_new && model.space->degree() == 1 &&
+            std::find(in_bulk.begin(), in_bulk.end(), true) == in_bulk.end())
           notes.push_back(
             name +
             ": nowhere as thick as one and a half cells; linear functions make "
@@ -108,6 +92,7 @@ namespace moraine
         const double mu = model.materials[b]->elastic_stiffness().mu;
         for (unsigned int a = 0; a < parts.size(); ++a)
           if (model.present[a] &&
+              (is_new || !contains(known, model.body_names[a])) &&
               mu > contrast * model.materials[a]->elastic_stiffness().mu)
             if (const unsigned int n = n_shared(parts[b], parts[a]))
               {
@@ -128,7 +113,11 @@ namespace moraine
 
 
   template void
-  tell_of_thin_bodies(const Model<2> &, std::vector<std::string> &);
+  tell_of_thin_bodies(const Model<2> &,
+                      const std::vector<std::string> &,
+                      std::vector<std::string> &);
   template void
-  tell_of_thin_bodies(const Model<3> &, std::vector<std::string> &);
+  tell_of_thin_bodies(const Model<3> &,
+                      const std::vector<std::string> &,
+                      std::vector<std::string> &);
 } // namespace moraine

@@ -92,30 +92,6 @@ namespace moraine
 
 
 
-    /** Whether the cells around each vertex are filled as the bulk of a body
-     * fills them. @param filled part of each cell */
-    template <int dim>
-    std::vector<bool>
-    vertices_in_bulk(const GridSpace<dim>      &space,
-                     const std::vector<double> &filled)
-    {
-      const auto &tria = space.mesh().triangulation();
-      const auto &cells_at_vertex =
-        space.mesh().search_cache().get_vertex_to_cell_map();
-      std::vector<double> sums(tria.n_vertices(), 0.);
-      for (const auto &cell : tria.active_cell_iterators())
-        if (space.is_active(cell))
-          for (const unsigned int v : cell->vertex_indices())
-            sums[cell->vertex_index(v)] += filled[cell->active_cell_index()];
-      std::vector<bool> in_bulk(sums.size());
-      for (unsigned int v = 0; v < sums.size(); ++v)
-        in_bulk[v] =
-          sums[v] > 0 && sums[v] >= fill_of_bulk * cells_at_vertex[v].size();
-      return in_bulk;
-    }
-
-
-
     /** What part of a cell has to be filled for its nodes to be free.
      * @param fill that part in the bulk */
     template <int dim>
@@ -140,6 +116,28 @@ namespace moraine
       return near_bulk ? fill : share_in_thin_part * fill * largest;
     }
   } // namespace
+
+
+
+  template <int dim>
+  std::vector<bool>
+  vertices_in_bulk(const GridSpace<dim>      &space,
+                   const std::vector<double> &filled)
+  {
+    const auto &tria = space.mesh().triangulation();
+    const auto &cells_at_vertex =
+      space.mesh().search_cache().get_vertex_to_cell_map();
+    std::vector<double> sums(tria.n_vertices(), 0.);
+    for (const auto &cell : tria.active_cell_iterators())
+      if (space.is_active(cell))
+        for (const unsigned int v : cell->vertex_indices())
+          sums[cell->vertex_index(v)] += filled[cell->active_cell_index()];
+    std::vector<bool> in_bulk(sums.size());
+    for (unsigned int v = 0; v < sums.size(); ++v)
+      in_bulk[v] =
+        sums[v] > 0 && sums[v] >= fill_of_bulk * cells_at_vertex[v].size();
+    return in_bulk;
+  }
 
 
 
@@ -429,6 +427,10 @@ namespace moraine
 
 
 
+  template std::vector<bool>
+  vertices_in_bulk(const GridSpace<2> &, const std::vector<double> &);
+  template std::vector<bool>
+  vertices_in_bulk(const GridSpace<3> &, const std::vector<double> &);
   template class Aggregates<2>;
   template class Aggregates<3>;
 } // namespace moraine

@@ -423,18 +423,22 @@ namespace moraine
           {
             double        *values = points.values(block.points[p]);
             const double  *N      = block.N(p);
-            Tensor<1, dim> V_start, V_end, A_start, A_end;
+            Tensor<1, dim> V_start, V_end, A_end;
             for (unsigned int k = 0; k < block.n_nodes; ++k)
               {
                 V_start += N[k] * v_0[k];
                 V_end += N[k] * v_1[k];
-                A_start += N[k] * a_0[k];
                 A_end += N[k] * a_1[k];
               }
             v_field.store(V_end + share * (v_field(values) - V_start), values);
             a_field.store(A_end, values);
             if (before_field.exists())
-              before_field.store(A_start, values);
+              {
+                Tensor<1, dim> A_start;
+                for (unsigned int k = 0; k < block.n_nodes; ++k)
+                  A_start += N[k] * a_0[k];
+                before_field.store(A_start, values);
+              }
             if (gradient_field.exists())
               {
                 Tensor<2, dim> gradient;

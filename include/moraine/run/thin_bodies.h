@@ -15,11 +15,14 @@ namespace moraine
    * Add to @p notes what cells are too coarse for and no equation tells: bodies
    * that are nowhere as thick as one and a half linear cells, which hardly
    * bend, and cells that a stiff body fills in part beside a soft one, as one
-   * displacement makes all of such a cell stiff. Collective.
+   * displacement makes all of such a cell stiff. Only of bodies that are not
+   * @p known from a stage before. Collective.
    */
   template <int dim>
   void
-  tell_of_thin_bodies(const Model<dim> &model, std::vector<std::string> &notes);
+  tell_of_thin_bodies(const Model<dim>               &model,
+                      const std::vector<std::string> &known,
+                      std::vector<std::string>       &notes);
 } // namespace moraine
 
 #endif

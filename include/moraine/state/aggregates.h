@@ -14,6 +14,16 @@
 namespace moraine
 {
   /**
+   * Whether the cells around each vertex are filled as the bulk of a body fills
+   * them, by three quarters: it is about one and a half cells thick or more.
+   * @param filled part of each cell
+   */
+  template <int dim>
+  std::vector<bool>
+  vertices_in_bulk(const GridSpace<dim>      &space,
+                   const std::vector<double> &filled);
+
+  /**
    * Which nodes have too little material around to be free, and which cells
    * they follow: the aggregates of Badia, Verdugo, Martin 2018
    * (doi:10.1016/j.cma.2018.03.022). A cell is *filled* if its points fill at
