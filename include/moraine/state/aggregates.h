@@ -16,7 +16,8 @@ namespace moraine
   /**
    * Whether the cells around each vertex are filled as the bulk of a body fills
    * them, by three quarters: it is about one and a half cells thick or more.
-   * @param filled part of each cell
+   * @param space grid whose vertices are asked about
+   * @param filled part of each cell, by active_cell_index()
    */
   template <int dim>
   std::vector<bool>
