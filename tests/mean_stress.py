@@ -5,8 +5,8 @@ squares with a vertex at the origin.
 
 A value minus the mean of its four neighbours, over the range of the field: of
 points ('points'; neighbours are those of the start), of means over cells
-('cells'), and of the field smoothed over nodes ('nodes': the mean of a node by
-volume and shape function, interpolated to points again).
+('cells'), and of the field that the program has smoothed over vertices
+('smoothed').
 """
 
 from math import floor, sqrt
@@ -22,42 +22,22 @@ def _means(places, values, volumes, size):
     return {key: sum_of / volume for key, (sum_of, volume) in sums.items()}
 
 
-def _nodes(place, h):
-    """Nodes of the cell of a place and their bilinear functions."""
-    i, j = floor(place[0] / h), floor(place[1] / h)
-    p, q = place[0] / h - i, place[1] / h - j
-    return (((i, j), (1 - p) * (1 - q)), ((i + 1, j), p * (1 - q)),
-            ((i, j + 1), (1 - p) * q), ((i + 1, j + 1), p * q))
-
-
-def smoothed(places, values, volumes, h):
-    sums = {}
-    for place, value, volume in zip(places, values, volumes):
-        for node, shape in _nodes(place, h):
-            both = sums.setdefault(node, [0, 0])
-            both[0] += shape * volume * value
-            both[1] += shape * volume
-    return [sum(shape * sums[node][0] / sums[node][1]
-                for node, shape in _nodes(place, h) if sums[node][1])
-            for place in places]
-
-
-def alternating(result, h, per_cell=2, field="mean_stress", beside=None):
-    """{'points' | 'cells' | 'nodes': (least, largest value, what alternates over
+def alternating(result, h, per_cell=2, beside=None):
+    """{'points' | 'cells' | 'smoothed': (least, largest value, what alternates over
     the range: root of the mean square, largest)}; without what is nearer than
     3 h to the place 'beside'."""
-    now, moved, values, volumes = zip(
-        *result.points("position", "displacement", field, "volume"))
+    now, moved, values, smoothed, volumes = zip(
+        *result.points("position", "displacement", "mean_stress",
+                       "smoothed_mean_stress", "volume"))
     start = [[a - b for a, b in zip(x, u)] for x, u in zip(now, moved)]
     cells = _means(now, values, volumes, h)
-    nodes = smoothed(now, values, volumes, h)
     found = {}
     for name, grid, size, shown in (
             ("points", _means(start, values, volumes, h / per_cell),
              h / per_cell, values),
             ("cells", cells, h, cells.values()),
-            ("nodes", _means(start, nodes, volumes, h / per_cell),
-             h / per_cell, nodes)):
+            ("smoothed", _means(start, smoothed, volumes, h / per_cell),
+             h / per_cell, smoothed)):
         low, high = min(shown), max(shown)
         jumps = []
         for (i, j), value in grid.items():

@@ -4,6 +4,7 @@
 #include <moraine/output/domain_vtu.h>
 
 #include <moraine/output/point_rows.h>
+#include <moraine/output/smoothed_stress.h>
 #include <moraine/output/vtu_file.h>
 
 #include <deal.II/grid/reference_cell.h>
@@ -27,8 +28,9 @@ namespace moraine
     const auto             order     = points_by_id(points);
     VtuFile<dim, dim>      file;
     declare_point_rows(points.fields(), file);
+    const auto smoothed   = smoothed_mean_stress(points);
     const auto make_patch = [&](const unsigned int i) {
-      const auto rows    = point_rows(points, order[i]);
+      const auto rows    = point_rows(points, smoothed, order[i]);
       const auto corners = basis.domain_corners(order[i]);
       typename VtuFile<dim, dim>::Patch patch;
       std::copy(corners.begin(), corners.end(), patch.vertices);

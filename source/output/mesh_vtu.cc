@@ -3,6 +3,7 @@
 
 #include <moraine/output/mesh_vtu.h>
 
+#include <moraine/output/stress_rows.h>
 #include <moraine/output/vtu_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -27,14 +28,76 @@ namespace moraine
       return node;
     }
 
+    /** At the corners of a cell; those without have the mean of the others. */
+    template <int dim>
+    std::array<typename SmoothedStress<dim>::Stress, (1 << dim)>
+    stress_of_corners(const typename GridSpace<dim>::CellIterator &cell,
+                      const SmoothedStress<dim>                   &stress)
+    {
+      std::array<typename SmoothedStress<dim>::Stress, (1 << dim)> corners;
+      typename SmoothedStress<dim>::Stress                         mean{};
+      std::vector<unsigned int>                                    without;
+      for (const unsigned int v : cell->vertex_indices())
+        if (const auto here = stress.at_vertex(cell->vertex_index(v)))
+          {
+            corners[v] = *here;
+            for (unsigned int c = 0; c < mean.size(); ++c)
+              mean[c] += corners[v][c];
+          }
+        else
+          without.push_back(v);
+      if (without.size() < corners.size())
+        for (double &component : mean)
+          component /= corners.size() - without.size();
+      for (const unsigned int v : without)
+        corners[v] = mean;
+      return corners;
+    }
+
+
+
+    /** Append the rows of the stress at all nodes of a patch. */
+    template <int dim>
+    void
+    add_stress(const GridSpace<dim>                        &space,
+               const typename GridSpace<dim>::CellIterator &cell,
+               const SmoothedStress<dim>                   &stress,
+               const unsigned int                           first_row,
+               Table<2, float>                             &data)
+    {
+      const auto         corners = stress_of_corners(cell, stress);
+      const unsigned int n       = space.degree() + 1;
+      for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+        {
+          Point<dim> unit;
+          for (unsigned int d = 0, rest = a; d < dim; ++d, rest /= n)
+            unit[d] = static_cast<double>(rest % n) / space.degree();
+          typename SmoothedStress<dim>::Stress here{};
+          for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
+            for (unsigned int c = 0; c < here.size(); ++c)
+              here[c] += GeometryInfo<dim>::d_linear_shape_function(unit, v) *
+                         corners[v][c];
+          unsigned int row = first_row;
+          for (const unsigned int c : tensor_components<dim>)
+            data(row++, a) = c < here.size() ? here[c] : 0.;
+          data(row++, a) = von_mises_stress<dim>(here.data());
+          data(row++, a) = mean_stress(here.data());
+        }
+    }
+
+
+
     /** A cell drawn through its nodes, which may be anywhere. */
     template <int dim>
     DataOutBase::Patch<dim, dim>
-    make_patch(const GridSpace<dim>              &space,
-               const unsigned int                *nodes,
-               const std::vector<NodeField<dim>> &fields)
+    make_patch(const GridSpace<dim>                        &space,
+               const typename GridSpace<dim>::CellIterator &cell,
+               const std::vector<NodeField<dim>>           &fields,
+               const SmoothedStress<dim>                   &stress,
+               const unsigned int                           n_rows)
     {
       const unsigned int           n_nodes = space.nodes_per_cell();
+      const unsigned int          *nodes   = space.cell_nodes(cell);
       DataOutBase::Patch<dim, dim> patch;
       patch.reference_cell       = ReferenceCells::get_hypercube<dim>();
       patch.n_subdivisions       = space.degree();
@@ -43,7 +106,9 @@ namespace moraine
         patch.vertices[v] =
           space.node_position(nodes[corner_node<dim>(v, space.degree())]);
 
-      patch.data.reinit(dim * (fields.size() + 1), n_nodes);
+      // After these come the coordinates of the nodes.
+      patch.data.reinit(n_rows + dim, n_nodes);
+      add_stress(space, cell, stress, dim * fields.size(), patch.data);
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           unsigned int row = 0;
@@ -51,7 +116,7 @@ namespace moraine
             for (unsigned int c = 0; c < dim; ++c)
               patch.data(row++, a) = field.values[nodes[a]][c];
           for (unsigned int c = 0; c < dim; ++c)
-            patch.data(row++, a) = space.node_position(nodes[a])[c];
+            patch.data(n_rows + c, a) = space.node_position(nodes[a])[c];
         }
       return patch;
     }
@@ -63,6 +128,7 @@ namespace moraine
   void
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
+                 const SmoothedStress<dim>         &stress,
                  const std::string                 &path,
                  const double                       time,
                  const unsigned int                 step)
@@ -73,18 +139,22 @@ namespace moraine
         AssertDimension(field.values.size(), space.n_nodes());
         file.add_vector(field.name, field.unit);
       }
-    std::vector<const unsigned int *> cells;
+    file.add_tensor("smoothed_stress", "stress");
+    file.add_scalar("smoothed_von_mises_stress", "stress");
+    file.add_scalar("smoothed_mean_stress", "stress");
+    std::vector<typename GridSpace<dim>::CellIterator> cells;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
-        cells.push_back(space.cell_nodes(cell));
+        cells.push_back(cell);
     file.write(path,
                time,
                step,
                space.communicator(),
                cells.size(),
                [&](const unsigned int i) {
-                 return make_patch<dim>(space, cells[i], fields);
+                 return make_patch(
+                   space, cells[i], fields, stress, file.n_rows());
                });
   }
 
@@ -93,12 +163,14 @@ namespace moraine
   template void
   write_mesh_vtu(const GridSpace<2> &,
                  const std::vector<NodeField<2>> &,
+                 const SmoothedStress<2> &,
                  const std::string &,
                  const double,
                  const unsigned int);
   template void
   write_mesh_vtu(const GridSpace<3> &,
                  const std::vector<NodeField<3>> &,
+                 const SmoothedStress<3> &,
                  const std::string &,
                  const double,
                  const unsigned int);

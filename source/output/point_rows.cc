@@ -3,51 +3,14 @@
 
 #include <moraine/output/point_rows.h>
 
+#include <moraine/output/stress_rows.h>
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 
 namespace moraine
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** Where the nine components of a tensor are stored; one past the end: 0.
-     */
-    template <int dim>
-    constexpr std::array<unsigned int, 9>
-    tensor_components()
-    {
-      if constexpr (dim == 2)
-        return {{0, 3, 4, 3, 1, 4, 4, 4, 2}};
-      else
-        return {{0, 3, 4, 3, 1, 5, 4, 5, 2}};
-    }
-
-    template <int dim>
-    double
-    mean_stress(const double *sigma)
-    {
-      return (sigma[0] + sigma[1] + sigma[2]) / 3.;
-    }
-
-    template <int dim>
-    double
-    von_mises_stress(const double *sigma)
-    {
-      const double mean   = mean_stress<dim>(sigma);
-      double       square = 0;
-      for (unsigned int c = 0; c < 3; ++c)
-        square += (sigma[c] - mean) * (sigma[c] - mean);
-      for (unsigned int c = 3; c < n_stress_components<dim>; ++c)
-        square += 2. * sigma[c] * sigma[c];
-      return std::sqrt(1.5 * square);
-    }
-  } // namespace
-
-
 
   template <int patch_dim, int dim>
   void
@@ -69,13 +32,16 @@ namespace moraine
     file.add_scalar("id", "-");
     file.add_scalar("von_mises_stress", "stress");
     file.add_scalar("mean_stress", "stress");
+    file.add_scalar("smoothed_mean_stress", "stress");
   }
 
 
 
   template <int dim>
   std::vector<double>
-  point_rows(const PointSet<dim> &points, const unsigned int p)
+  point_rows(const PointSet<dim>       &points,
+             const std::vector<double> &smoothed_mean_stress,
+             const unsigned int         p)
   {
     const double       *values = points.values(p);
     const double       *sigma  = values + points.stress_offset();
@@ -84,7 +50,7 @@ namespace moraine
       {
         const double *field_values = values + field.offset;
         if (field.kind == FieldKind::symmetric_tensor)
-          for (const unsigned int c : tensor_components<dim>())
+          for (const unsigned int c : tensor_components<dim>)
             rows.push_back(c < field.n_components ? field_values[c] : 0.);
         else if (field.kind == FieldKind::tensor)
           {
@@ -104,7 +70,8 @@ namespace moraine
       }
     rows.push_back(points.id(p));
     rows.push_back(von_mises_stress<dim>(sigma));
-    rows.push_back(mean_stress<dim>(sigma));
+    rows.push_back(mean_stress(sigma));
+    rows.push_back(smoothed_mean_stress[p]);
     return rows;
   }
 
@@ -130,6 +97,7 @@ namespace moraine
   template void declare_point_rows(const PointFields &, VtuFile<0, dim> &);   \
   template void declare_point_rows(const PointFields &, VtuFile<dim, dim> &); \
   template std::vector<double>       point_rows(const PointSet<dim> &,        \
+                                                const std::vector<double> &,  \
                                                 const unsigned int);          \
   template std::vector<unsigned int> points_by_id(const PointSet<dim> &);
   INSTANTIATE(2)

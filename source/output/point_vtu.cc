@@ -4,6 +4,7 @@
 #include <moraine/output/point_vtu.h>
 
 #include <moraine/output/point_rows.h>
+#include <moraine/output/smoothed_stress.h>
 #include <moraine/output/vtu_file.h>
 
 namespace moraine
@@ -20,8 +21,9 @@ namespace moraine
     const auto      order = points_by_id(points);
     VtuFile<0, dim> file;
     declare_point_rows(points.fields(), file);
+    const auto smoothed   = smoothed_mean_stress(points);
     const auto make_patch = [&](const unsigned int i) {
-      const auto                      rows = point_rows(points, order[i]);
+      const auto rows = point_rows(points, smoothed, order[i]);
       typename VtuFile<0, dim>::Patch patch;
       patch.vertices[0] = points.position(order[i]);
       patch.data.reinit(file.n_rows(), 1);

@@ -287,6 +287,7 @@ namespace moraine
                                 "stress",
                                 "von_mises_stress",
                                 "mean_stress",
+                                "smoothed_mean_stress",
                                 "position"};
     for (const auto &field : fields.fields())
       taken.insert(field.name);

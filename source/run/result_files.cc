@@ -275,8 +275,12 @@ namespace moraine
             add("velocity", "length/time", model.motion->velocities());
             add("acceleration", "length/time^2", model.motion->accelerations());
           }
-        write_mesh_vtu<dim>(
-          *model.space, fields, directory.file(name), t, n_vtu_written);
+        write_mesh_vtu<dim>(*model.space,
+                            fields,
+                            SmoothedStress<dim>(*model.points),
+                            directory.file(name),
+                            t,
+                            n_vtu_written);
         mesh_pvd.add(t, name);
       }
     ++n_vtu_written;

@@ -311,10 +311,43 @@ namespace moraine
           u[n][0] = 10 + space.node_position(n)[1];
         space.move_nodes(u);
         const std::string path = folder.file("mesh.vtu");
-        write_mesh_vtu<2>(
-          space, {{"step_displacement", "length", u}}, path, 1., 1);
+        // Points in the first of the two cells only, with a stress that grows.
+        PointSet<2> points(mesh, {});
+        const auto  cell = mesh.triangulation().begin_active();
+        if (cell->is_locally_owned())
+          for (const double xi : {0.25, 0.75})
+            points.insert(cell,
+                          cell->vertex(0) + Point<2>(xi, 0.5),
+                          {xi, 0.5},
+                          2 * xi,
+                          0,
+                          1.);
+        points.finish_insertion();
+        for (unsigned int p = 0; p < points.n_local(); ++p)
+          for (unsigned int c = 0; c < 3; ++c)
+            points.values(p)[points.stress_offset() + c] =
+              points.reference_position(p)[0];
+        write_mesh_vtu<2>(space,
+                          {{"step_displacement", "length", u}},
+                          SmoothedStress<2>(points),
+                          path,
+                          1.,
+                          1);
 
-        auto       arrays = read_vtu(path);
+        auto arrays = read_vtu(path);
+        EXPECT_EQ(arrays["smoothed_stress"].n_components, 9u);
+        EXPECT_EQ(arrays["smoothed_stress"].unit, "stress");
+        auto means = arrays["smoothed_mean_stress"].values;
+        ASSERT_EQ(means.size(), 2 * (degree + 1) * (degree + 1));
+        std::sort(means.begin(), means.end());
+        EXPECT_EQ(means.front(), 0.f);
+        EXPECT_FLOAT_EQ(means.back(), 0.25 * 0.25 + 0.75 * 0.75);
+        if (degree == 2)
+          {
+            EXPECT_EQ(std::count(means.begin(), means.end(), 0.5f), 3);
+          }
+        for (const float value : arrays["smoothed_von_mises_stress"].values)
+          EXPECT_NEAR(value, 0., 1e-6);
         const auto values = arrays["step_displacement"].values;
         const auto places = arrays["position"].values;
         EXPECT_EQ(arrays["step_displacement"].n_components, 3u);

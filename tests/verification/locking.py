@@ -66,9 +66,9 @@ for title, scene, allowed in (
           force[-1] / force[-3] - 1, 2e-2)
     h = 2 / 15 if title == "fe" else 0.125
     for name, (low, high, usual, largest) in alternating(result, h).items():
-        if name == "nodes":
-            bound(f"bearing, {title}: mean stress smoothed over nodes, what "
-                  "alternates over the range", largest, 5e-2)
+        if name == "smoothed":
+            bound(f"bearing, {title}: smoothed mean stress, what alternates "
+                  "over the range", largest, 5e-2)
         else:
             number(f"bearing, {title}: mean stress of {name}, root of the mean "
                    "square of what alternates over the range", usual, 2)

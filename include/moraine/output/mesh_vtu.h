@@ -5,6 +5,7 @@
 #define moraine_output_mesh_vtu_h
 
 #include <moraine/mesh/grid_space.h>
+#include <moraine/output/smoothed_stress.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -23,8 +24,10 @@ namespace moraine
   };
 
   /**
-   * Write the active cells with vectors at their nodes as one VTU file,
-   * whatever the number of ranks. Collective. Cells are drawn where the nodes
+   * Write the active cells with vectors at their nodes and the smoothed stress
+   * of points, its von Mises stress and its mean as one VTU file, whatever the
+   * number of ranks. A vertex that no point is around has the mean stress of
+   * the other ones of the cell. Collective. Cells are drawn where the nodes
    * are, so a mesh that follows the material is drawn deformed. Q2 cells are
    * drawn as 2^dim smaller ones. The file appears at @p path only when it is
    * complete.
@@ -35,6 +38,7 @@ namespace moraine
   void
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
+                 const SmoothedStress<dim>         &stress,
                  const std::string                 &path,
                  const double                       time,
                  const unsigned int                 step);

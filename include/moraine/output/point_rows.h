@@ -19,10 +19,13 @@ namespace moraine
   void
   declare_point_rows(const PointFields &fields, VtuFile<patch_dim, dim> &file);
 
-  /** The numbers of a point in the order of declare_point_rows(). */
+  /** The numbers of point @p p in the order of declare_point_rows();
+   * @p smoothed_mean_stress has one for each point. */
   template <int dim>
   std::vector<double>
-  point_rows(const PointSet<dim> &points, const unsigned int p);
+  point_rows(const PointSet<dim>       &points,
+             const std::vector<double> &smoothed_mean_stress,
+             const unsigned int         p);
 
   /** The numbers of the local points, ordered by id. */
   template <int dim>

@@ -24,6 +24,7 @@ namespace moraine
    * | id               | number of the point                                |
    * | von_mises_stress | @f$\sqrt{3/2\, s:s}@f$, @f$s@f$ the deviator       |
    * | mean_stress      | @f$(\sigma_{xx}+\sigma_{yy}+\sigma_{zz})/3@f$      |
+   * | smoothed_mean_stress | that of smoothed_mean_stress()                 |
    *
    * Points are ordered by id within the part of each rank. Numbers are stored
    * in single precision; ids above 16 777 216 are rounded.
