@@ -12,8 +12,7 @@ finished = run("tests/bad-input/base.prm", {
 
 
 def plot(*words, environment=None):
-    process = subprocess.run(["/usr/bin/python3", str(root / "source/run/plot.py"),
-                              *map(str, words)],
+    process = subprocess.run([str(program), "plot", *map(str, words)],
                              capture_output=True, text=True, cwd=folder,
                              env={**os.environ, **(environment or {})})
     return process.returncode, plain(process.stdout + process.stderr).strip()
