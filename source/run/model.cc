@@ -117,7 +117,7 @@ namespace moraine
       body_names.push_back(body.name);
     materials = make_materials(scene, bodies, *mesh);
     make_points(scene);
-    state = std::make_unique<State<dim>>(*space,
+    state                          = std::make_unique<State<dim>>(*space,
                                          *points,
                                          *basis,
                                          materials,
@@ -125,7 +125,10 @@ namespace moraine
                                          scene.method.strain_measure(),
                                          scene.method.weights(),
                                          scene.method.volumetric());
-    if (const double fill = scene.method.aggregate_below; fill > 0)
+    const std::vector<double> fill = fill_of_bodies(scene, bodies);
+    if (std::any_of(fill.begin(), fill.end(), [](const double f) {
+          return f > 0;
+        }))
       state->aggregate_below(fill, scene.method.has_ghost_term());
     boundaries           = make_boundaries(scene);
     grid_conditions      = make_grid_conditions(scene, *mesh);

@@ -32,6 +32,12 @@ namespace moraine
                       "with it, whatever the cells of the mesh are. If left "
                       "out, each cell is divided (section 'Method').",
                       patterns::positive_integers(0, dim));
+    prm.add_parameter("Aggregate below",
+                      aggregate_below,
+                      "That of section 'Method' for cells with points of this "
+                      "body, if it is another one. Of bodies in one cell the "
+                      "least counts.",
+                      Patterns::List(Patterns::Double(0., 1.), 0, 1));
     prm.add_parameter("Initial velocity",
                       initial_velocity,
                       "In dynamics: of its points at the start, an expression "

@@ -119,6 +119,22 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<double>
+  fill_of_bodies(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies)
+  {
+    std::vector<double> fill;
+    for (const Body<dim> &body : bodies)
+      for (const auto &[name, parameters] : scene.bodies)
+        if (name == body.name)
+          fill.push_back(parameters.aggregate_below.empty() ?
+                           scene.method.aggregate_below :
+                           parameters.aggregate_below[0]);
+    return fill;
+  }
+
+
+
+  template <int dim>
   std::vector<RayleighFactors>
   make_damping(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies)
   {
@@ -186,21 +202,23 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                     \
-  template NamedShapes<dim>         body_shapes(const Scene<dim> &);         \
-  template std::set<std::string>    operands_of(const Scene<dim> &);         \
-  template std::vector<std::string> simulated_bodies(const Scene<dim> &);    \
-  template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);         \
-  template std::vector<std::shared_ptr<const Material>> make_materials(      \
-    const Scene<dim> &,                                                      \
-    const std::vector<Body<dim>> &,                                          \
-    const BackgroundMesh<dim> &);                                            \
-  template std::vector<RayleighFactors> make_damping(                        \
-    const Scene<dim> &, const std::vector<Body<dim>> &);                     \
-  template bool         Scene<dim>::changes_bodies() const;                  \
-  template bool         Scene<dim>::comes_later(const std::string &) const;  \
-  template bool         Scene<dim>::are_together(const std::string &,        \
-                                         const std::string &) const; \
+#define INSTANTIATE(dim)                                                                \
+  template NamedShapes<dim>         body_shapes(const Scene<dim> &);                    \
+  template std::set<std::string>    operands_of(const Scene<dim> &);                    \
+  template std::vector<std::string> simulated_bodies(const Scene<dim> &);               \
+  template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);                    \
+  template std::vector<std::shared_ptr<const Material>> make_materials(                 \
+    const Scene<dim> &,                                                                 \
+    const std::vector<Body<dim>> &,                                                     \
+    const BackgroundMesh<dim> &);                                                       \
+  template std::vector<double>          fill_of_bodies(const Scene<dim> &,              \
+                                                       const std::vector<Body<dim>> &); \
+  template std::vector<RayleighFactors> make_damping(                                   \
+    const Scene<dim> &, const std::vector<Body<dim>> &);                                \
+  template bool         Scene<dim>::changes_bodies() const;                             \
+  template bool         Scene<dim>::comes_later(const std::string &) const;             \
+  template bool         Scene<dim>::are_together(const std::string &,                   \
+                                         const std::string &) const;            \
   template unsigned int Scene<dim>::first_stage_with(const std::string &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)

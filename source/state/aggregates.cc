@@ -142,12 +142,11 @@ namespace moraine
 
 
   template <int dim>
-  Aggregates<dim>::Aggregates(const double fill, const bool group_cells)
-    : fill(fill)
+  Aggregates<dim>::Aggregates(const std::vector<double> &fill_of_bodies,
+                              const bool                 group_cells)
+    : fill_of_bodies(fill_of_bodies)
     , with_groups(group_cells)
-  {
-    Assert(fill > 0 && fill <= 1, ExcInternalError());
-  }
+  {}
 
 
 
@@ -193,10 +192,16 @@ namespace moraine
   {
     const auto         &tria = space.mesh().triangulation();
     std::vector<double> filled(tria.n_active_cells(), 0.);
+    std::vector<double> fill(filled.size(), 1.);
     for (const auto &in_cell : points.cells())
       for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-        filled[in_cell.cell->active_cell_index()] += volume(p);
+        {
+          const unsigned int c = in_cell.cell->active_cell_index();
+          filled[c] += volume(p);
+          fill[c] = std::min(fill[c], fill_of_bodies[points.body(p)]);
+        }
     Utilities::MPI::sum(filled, space.communicator(), filled);
+    Utilities::MPI::min(fill, space.communicator(), fill);
     for (const auto &cell : tria.active_cell_iterators())
       if (space.is_active(cell))
         filled[cell->active_cell_index()] /= cell->measure();
@@ -210,8 +215,8 @@ namespace moraine
           const unsigned int c    = cell->active_cell_index();
           const double       part = (1 + 1e-9) * filled[c];
           parts[c] =
-            part >= fill ||
-                part >= threshold_of(space, cell, filled, in_bulk, fill) ?
+            part >= fill[c] ||
+                part >= threshold_of(space, cell, filled, in_bulk, fill[c]) ?
               Part::filled :
               Part::cut;
         }

@@ -147,7 +147,7 @@ namespace
     void
     aggregate(const double fill)
     {
-      state->aggregate_below(fill);
+      state->aggregate_below({fill});
       state->points_changed();
       begin_step(0);
     }
@@ -156,7 +156,7 @@ namespace
     void
     hold(const double fill, const double factor)
     {
-      state->aggregate_below(fill, /* give_way = */ true);
+      state->aggregate_below({fill}, /* give_way = */ true);
       system->add(std::make_unique<GhostStiffness<dim>>(factor));
       state->points_changed();
       begin_step(0);

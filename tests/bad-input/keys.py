@@ -46,6 +46,8 @@ for name, settings in (
     refused(f"cell means, {name}", settings={**MEAN, **settings})
 refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
 refused("part of a cell in words", settings={"Method/Aggregate below": "half"})
+refused("more than a full cell, of a body",
+        settings={"Bodies/block/Aggregate below": 1.5})
 GHOST = {"Method/Cut cells": "ghost"}
 for name, settings in (
         ("unknown cure", {"Method/Cut cells": "ghosts"}),

@@ -36,7 +36,7 @@ namespace
   {
     explicit TiedScene(const double fill)
       : SmallScene<dim>(false, 2)
-      , aggregates(fill)
+      , aggregates({fill})
     {
       const auto active = cells_of_points(this->points, this->mesh);
       this->space.set_active_cells(active);
@@ -167,7 +167,8 @@ namespace
 
   /** Ties of boxes in cells of size 1, nodes without root. */
   std::pair<unsigned int, unsigned int>
-  ties_of(const std::vector<std::pair<Point<2>, Point<2>>> &boxes)
+  ties_of(const std::vector<std::pair<Point<2>, Point<2>>> &boxes,
+          const std::vector<double>                        &fill = {0.5, 0.5})
   {
     BackgroundMesh<2>    mesh(unit_cells<2>(4), MPI_COMM_WORLD);
     GridSpace<2>         space(mesh, 1);
@@ -179,7 +180,7 @@ namespace
     seed_bodies(bodies, CellSeeder<2>(2, PointLayout::equal), points);
     const auto active = cells_of_points(points, mesh);
     space.set_active_cells(active);
-    Aggregates<2> aggregates(0.5);
+    Aggregates<2> aggregates(fill);
     aggregates.tie_nodes(
       space,
       points,
@@ -208,6 +209,20 @@ namespace
     // What is one and a half cells thick is bulk.
     EXPECT_EQ(ties_of({{{0., 0.85}, {4., 2.}}}), std::make_pair(0u, 0u));
     EXPECT_EQ(ties_of({{{0., 0.85}, {4., 2.5}}}), std::make_pair(5u, 0u));
+  }
+
+  TEST(Aggregates, BodiesHaveThresholdsOfTheirOwn)
+  {
+    // Two bodies one on the other fill rows by 0.15, 0.2 + 0.8, 1 and 0.3.
+    const std::vector<std::pair<Point<2>, Point<2>>> boxes{
+      {{0., 0.85}, {4., 1.2}}, {{0., 1.2}, {4., 3.3}}};
+    EXPECT_EQ(ties_of(boxes), std::make_pair(10u, 0u));
+    EXPECT_EQ(ties_of(boxes, {0.1, 0.5}), std::make_pair(5u, 0u));
+    EXPECT_EQ(ties_of(boxes, {0.1, 0.}), std::make_pair(0u, 0u));
+    // Of the bodies in a cell the least one counts.
+    const std::vector<std::pair<Point<2>, Point<2>>> both{
+      {{0., 0.85}, {4., 3.1}}, {{0., 3.1}, {4., 3.3}}};
+    EXPECT_EQ(ties_of(both, {0.1, 0.5}), std::make_pair(0u, 0u));
   }
 
 
@@ -282,7 +297,7 @@ namespace
                      points);
     const auto active = cells_of_points(points, mesh);
     space.set_active_cells(active);
-    Aggregates<dim> aggregates(0.5, true);
+    Aggregates<dim> aggregates({0.5}, true);
     const auto      tie = [&] {
       return aggregates.tie_nodes(
         space,

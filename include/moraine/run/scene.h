@@ -44,6 +44,7 @@ namespace moraine
     std::string               material;
     ShapeParameters<dim>      shape;
     std::vector<unsigned int> point_grid;
+    std::vector<double>       aggregate_below; ///< none or one
     std::string               initial_velocity;
     InitialStressParameters   initial_stress;
     DampingParameters         damping;

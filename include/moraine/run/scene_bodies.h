@@ -50,6 +50,12 @@ namespace moraine
                  const std::vector<Body<dim>> &bodies,
                  const BackgroundMesh<dim>    &mesh);
 
+  /** Of which part that is filled on the nodes of a cell are free, for each
+   * body: its own or that of the method. */
+  template <int dim>
+  std::vector<double>
+  fill_of_bodies(const Scene<dim> &scene, const std::vector<Body<dim>> &bodies);
+
   /** The damping of each body. */
   template <int dim>
   std::vector<RayleighFactors>

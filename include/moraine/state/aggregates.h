@@ -57,9 +57,11 @@ namespace moraine
       }
     };
 
-    /** @p fill of a cell is enough for its nodes to be free, 0 < fill <= 1;
-     * roots_of_cells() may be asked for if @p group_cells. */
-    explicit Aggregates(const double fill, const bool group_cells = false);
+    /** @p fill_of_bodies, 0 <= fill <= 1, has for each body which part of a
+     * cell has to be filled for its nodes to be free: the least one of the
+     * bodies in it; roots_of_cells() may be asked for if @p group_cells. */
+    explicit Aggregates(const std::vector<double> &fill_of_bodies,
+                        const bool                 group_cells = false);
 
     /**
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
@@ -170,7 +172,7 @@ namespace moraine
       return std::find(parts.begin(), parts.end(), Part::cut) != parts.end();
     }
 
-    const double              fill;
+    const std::vector<double> fill_of_bodies;
     const bool                with_groups;
     std::vector<Part>         parts; ///< of all cells, the same on all ranks
     std::vector<Tie>          tied;

@@ -80,13 +80,15 @@ namespace moraine
       return cell_means.has_value();
     }
 
-    /** Before the first step: tie nodes without a cell of which points fill at
-     * least the part @p fill, 0 < @p fill <= 1, to the nearest one. Ties that
-     * @p give_way are those of a GhostTerm, others lines of constraints. */
+    /** Before the first step: tie nodes without a cell of which points fill
+     * enough, @p fill_of_bodies as Aggregates says, to the nearest one. Ties
+     * that @p give_way are those of a GhostTerm, others lines of constraints.
+     */
     void
-    aggregate_below(const double fill, const bool give_way = false)
+    aggregate_below(const std::vector<double> &fill_of_bodies,
+                    const bool                 give_way = false)
     {
-      cell_aggregates.emplace(fill, cell_means.has_value());
+      cell_aggregates.emplace(fill_of_bodies, cell_means.has_value());
       ties_give_way = give_way;
     }
 
