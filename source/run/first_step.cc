@@ -9,6 +9,7 @@
 #include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
 #include <moraine/run/scene_conditions.h>
@@ -174,14 +175,7 @@ namespace moraine
         {
           if (!contains(stage.loads, traction.name))
             continue;
-          unsigned int n_faces = 0;
-          for (const auto &cell :
-               model.mesh->triangulation().active_cell_iterators())
-            if (cell->at_boundary() && model.space->is_active(cell))
-              for (const auto &face : cell->face_iterators())
-                n_faces +=
-                  face->at_boundary() && face->boundary_id() == traction.side;
-          if (n_faces == 0)
+          if (n_faces_of(traction, model) == 0)
             throw InputError(
               "section 'Loads/" + traction.name +
               "': found a side of the mesh without a body beside "

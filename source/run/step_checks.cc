@@ -151,7 +151,34 @@ namespace moraine
     : scene(scene)
     , model(model)
     , energy(round_off_of_energy(model), remedies_of(scene.method))
+    , holds(scene, model)
   {}
+
+
+
+  template <int dim>
+  void
+  StepChecks<dim>::stage_begins(const bool bodies_change)
+  {
+    holds.stage_begins();
+    if (!bodies_change)
+      return;
+    n_parts.clear();
+    energy.bodies_change();
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  StepChecks<dim>::of_begun_step(const StageParameters &stage, const double t)
+  {
+    std::vector<std::string> found = holds.look(stage, t);
+    const std::string        apart = separation();
+    if (!apart.empty())
+      found.push_back(apart);
+    return found;
+  }
 
 
 
@@ -379,6 +406,7 @@ namespace moraine
     archive.write("checks/share_of_energy_made", share_made);
     archive.write("checks/told_of_energy", told_of_energy ? 1u : 0u);
     energy.write(archive);
+    holds.write(archive);
   }
 
 
@@ -401,6 +429,7 @@ namespace moraine
     share_made     = archive.number("checks/share_of_energy_made");
     told_of_energy = archive.integer("checks/told_of_energy") != 0;
     energy.read(archive);
+    holds.read(archive);
   }
 
 

@@ -129,9 +129,9 @@ namespace moraine
     else if (!first_step)
       model.system->begin_step(time_control.time(),
                                [this]() { model.linear_solver->clear(); });
-    const std::string separation = checks.separation();
-    if (!separation.empty())
-      warn(separation);
+    for (const std::string &warning :
+         checks.of_begun_step(scene.stages[stage].second, time_control.time()))
+      warn(warning);
     for (unsigned int n_rejections = 0;;)
       {
         time_control.next();
@@ -176,8 +176,7 @@ namespace moraine
       if (!contains(parameters.bodies, body))
         text << ", without " << body;
     tell(text.str());
-    if (parameters.bodies != before.bodies)
-      checks.bodies_change();
+    checks.stage_begins(parameters.bodies != before.bodies);
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction);

@@ -5,6 +5,7 @@
 #define moraine_run_step_checks_h
 
 #include <moraine/run/energy_watch.h>
+#include <moraine/run/hold_watch.h>
 #include <moraine/run/model.h>
 #include <moraine/time/time_control.h>
 
@@ -25,20 +26,18 @@ namespace moraine
   public:
     StepChecks(const Scene<dim> &scene, const Model<dim> &model);
 
-    /** Bodies come or go: what hangs together is counted anew. */
+    /** @p bodies_change: they come or go, so that what hangs together is
+     * counted anew. */
     void
-    bodies_change()
-    {
-      n_parts.clear();
-      energy.bodies_change();
-    }
+    stage_begins(const bool bodies_change);
 
     /**
-     * That a body came apart before the step that begins; empty if none did.
-     * @throws ComputationError unless the scene wants to go on.
+     * What is to be told of the step of @p stage that has begun at @p t: that a
+     * body came apart before, and what HoldWatch finds.
+     * @throws ComputationError if the run cannot go on or should not.
      */
-    std::string
-    separation();
+    std::vector<std::string>
+    of_begun_step(const StageParameters &stage, const double t);
 
     /**
      * What is to be told of the step that @p time has accepted, with the
@@ -66,6 +65,11 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
+    /** That a body came apart; empty if none did. @throws ComputationError
+     * unless the scene wants to go on. */
+    std::string
+    separation();
+
     std::string
     missed_boundary(const double               t,
                     const BoundaryReport<dim> &report,
@@ -90,6 +94,7 @@ namespace moraine
     std::set<unsigned int>    stretched; ///< bodies told of
     std::set<unsigned int>    far;       ///< the same, as they moved far
     EnergyWatch               energy;
+    HoldWatch<dim>            holds;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

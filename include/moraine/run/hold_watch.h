@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_hold_watch_h
+#define moraine_run_hold_watch_h
+
+#include <moraine/run/model.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Looks whether what acts keeps the material that it acts on. Nodes, sides
+   * of the mesh and surfaces with a 'Displacement' stay where they are while
+   * they move material, or what pushes on a side does; material that has left
+   * their cells is not held any more, and nothing else of a run shows it.
+   */
+  template <int dim>
+  class HoldWatch : public StatePart
+  {
+  public:
+    HoldWatch(const Scene<dim> &scene, const Model<dim> &model);
+
+    /** What acts may be another: what it holds is counted anew. */
+    void
+    stage_begins();
+
+    /**
+     * In a step of @p stage that has begun at @p t: what is to be told, each
+     * once. Collective.
+     * @throws ComputationError if something that moves or pushes material had
+     * some and has none any more.
+     */
+    std::vector<std::string>
+    look(const StageParameters &stage, const double t);
+
+    /** Data sets "checks/holds/...": what was held at most, what was told. */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+  private:
+    /** Find anew what grid conditions hold and side tractions push. */
+    void
+    count(const StageParameters &stage, const double t);
+
+    /** That a condition has pushed material off its nodes; or "". */
+    std::string
+    pushed_off(const unsigned int     condition,
+               const StageParameters &stage,
+               const double           t);
+
+    /** Compare @p n pieces of what is held with the most so far.
+     * @param section of the input that says what acts
+     * @param remedy what helps if it must not lose the material; empty if it
+     * may */
+    std::string
+    compare(const std::string &section,
+            const unsigned int n,
+            const double       t,
+            const std::string &remedy);
+
+    const Scene<dim>                   &scene;
+    const Model<dim>                   &model;
+    std::vector<GridCondition<dim>>     conditions; ///< that act
+    PrescribedNodes<dim>                prescribed; ///< by them
+    std::vector<unsigned int>           n_nodes;    ///< of each
+    std::vector<unsigned int>           n_faces;    ///< of each side traction
+    bool                                counted = false;
+    std::map<std::string, unsigned int> most; ///< pieces, by section
+    std::set<std::string>               told;
+  };
+
+
+
+  /** Faces of active cells on the side of a traction. Collective. */
+  template <int dim>
+  unsigned int
+  n_faces_of(const SideTraction<dim> &traction, const Model<dim> &model);
+} // namespace moraine
+
+#endif

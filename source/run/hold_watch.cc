@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/hold_watch.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of a cell: by then the force on a pressed column is 3 % too small. */
+    constexpr double told_push = 0.25;
+
+    const std::string of_nodes =
+      "nodes that 'Mesh motion' moves go along, and so "
+      "does a boundary with 'Translation'";
+    const std::string of_surfaces =
+      "its surface stays while 'Displacement' moves the material; "
+      "'Translation' moves both";
+    const std::string of_sides = "'surface traction' goes with the material";
+  } // namespace
+
+
+
+  template <int dim>
+  unsigned int
+  n_faces_of(const SideTraction<dim> &traction, const Model<dim> &model)
+  {
+    unsigned int n = 0;
+    for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
+      if (cell->at_boundary() && model.space->is_active(cell))
+        for (const auto &face : cell->face_iterators())
+          n += face->at_boundary() && face->boundary_id() == traction.side;
+    return n;
+  }
+
+
+
+  template <int dim>
+  HoldWatch<dim>::HoldWatch(const Scene<dim> &scene, const Model<dim> &model)
+    : scene(scene)
+    , model(model)
+  {}
+
+
+
+  template <int dim>
+  void
+  HoldWatch<dim>::stage_begins()
+  {
+    counted = false;
+    most.clear();
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  HoldWatch<dim>::look(const StageParameters &stage, const double t)
+  {
+    if (!counted || model.system->coupling_changed())
+      count(stage, t);
+    const MPI_Comm           communicator = model.space->communicator();
+    std::vector<std::string> found;
+    for (const auto &boundary : model.boundaries)
+      if (contains(stage.boundaries, boundary.name()) &&
+          !contains(stage.absorbing, boundary.name()))
+        for (const auto &[name, parameters] : scene.boundaries)
+          if (name == boundary.name())
+            found.push_back(
+              compare("Boundaries/" + name,
+                      boundary.n_points(communicator),
+                      t,
+                      parameters.displacement.empty() ? "" : of_surfaces));
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      {
+        found.push_back(pushed_off(c, stage, t));
+        const std::string section = "Grid conditions/" + conditions[c].name;
+        found.push_back(compare(
+          section, n_nodes[c], t, told.count(section) > 0 ? of_nodes : ""));
+      }
+    for (unsigned int l = 0; l < n_faces.size(); ++l)
+      found.push_back(
+        compare("Loads/" + model.loads.side_tractions[l].name,
+                n_faces[l],
+                t,
+                contains(stage.loads, model.loads.side_tractions[l].name) ?
+                  of_sides :
+                  ""));
+    found.erase(std::remove(found.begin(), found.end(), ""), found.end());
+    return found;
+  }
+
+
+
+  template <int dim>
+  void
+  HoldWatch<dim>::count(const StageParameters &stage, const double t)
+  {
+    counted = true;
+    conditions.clear();
+    for (const auto &condition : model.grid_conditions)
+      if (contains(stage.grid_conditions, condition.name) &&
+          !contains(stage.absorbing, condition.name))
+        conditions.push_back(condition);
+    prescribed = find_prescribed_nodes(conditions, *model.space, t);
+    n_nodes.assign(conditions.size(), 0);
+    for (const auto &entry : prescribed.entries)
+      ++n_nodes[entry.condition];
+    Utilities::MPI::sum(n_nodes, model.space->communicator(), n_nodes);
+    n_faces.clear();
+    for (const auto &traction : model.loads.side_tractions)
+      n_faces.push_back(
+        contains(stage.loads, traction.name) ? n_faces_of(traction, model) : 0);
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::pushed_off(const unsigned int     c,
+                             const StageParameters &stage,
+                             const double           t)
+  {
+    const GridCondition<dim> &condition = conditions[c];
+    const std::string         section   = "Grid conditions/" + condition.name;
+    if (model.state->mesh_after_step() != MeshAfterStep::reset ||
+        model.mesh_motion.moves() || told.count(section) > 0)
+      return "";
+    // Along a side of a box other material comes.
+    const bool of_box  = condition.side && model.mesh->box_grid();
+    double     largest = 0;
+    for (const auto &entry : prescribed.entries)
+      if (entry.condition == c &&
+          (!of_box || entry.component == *condition.side / 2))
+        largest =
+          std::max(largest,
+                   std::abs(
+                     condition.increment(model.space->node_position(entry.node),
+                                         stage.time.start_time,
+                                         t)[entry.component]));
+    largest = Utilities::MPI::max(largest, model.space->communicator()) /
+              model.mesh->cell_size();
+    if (!(largest > told_push))
+      return "";
+    told.insert(section);
+    std::ostringstream text;
+    text << "grid condition '" << condition.name << "': by t = " << t
+         << " it has pushed material by " << std::setprecision(2) << largest
+         << " cell sizes, and its nodes stay: the force comes out too small, "
+            "the more the further; "
+         << of_nodes;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::compare(const std::string &section,
+                          const unsigned int n,
+                          const double       t,
+                          const std::string &remedy)
+  {
+    const unsigned int before = most[section];
+    most[section]             = std::max(before, n);
+    if (n >= before || remedy.empty())
+      return "";
+    std::ostringstream text;
+    text << "section '" << section << "': ";
+    if (n == 0)
+      {
+        text << "by t = " << t << " no material is left where it acts; "
+             << remedy;
+        throw ComputationError(text.str());
+      }
+    if (remedy != of_sides || !told.insert(section).second)
+      return "";
+    text << "by t = " << t << " only " << n << " of " << before
+         << " faces of cells are beside material and pushed on; " << remedy;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  void
+  HoldWatch<dim>::write(Archive &archive) const
+  {
+    std::ostringstream held, said;
+    for (const auto &[section, n] : most)
+      held << n << ' ' << section << '\n';
+    for (const std::string &section : told)
+      said << section << '\n';
+    archive.write_text("checks/holds/most", held.str());
+    archive.write_text("checks/holds/told", said.str());
+  }
+
+
+
+  template <int dim>
+  void
+  HoldWatch<dim>::read(const Archive &archive)
+  {
+    std::istringstream held(archive.text("checks/holds/most")),
+      said(archive.text("checks/holds/told"));
+    most.clear();
+    told.clear();
+    counted        = false;
+    unsigned int n = 0;
+    for (std::string section;
+         held >> n && std::getline(held >> std::ws, section);)
+      most[section] = n;
+    for (std::string section; std::getline(said, section);)
+      told.insert(section);
+  }
+
+
+
+  template unsigned int
+  n_faces_of(const SideTraction<2> &, const Model<2> &);
+  template unsigned int
+  n_faces_of(const SideTraction<3> &, const Model<3> &);
+  template class HoldWatch<2>;
+  template class HoldWatch<3>;
+} // namespace moraine
