@@ -26,6 +26,7 @@ namespace moraine
   namespace
   {
     const std::string factor_path = "Strength reduction/Factor";
+    const std::string stay        = "Method/Mesh after step = keep";
 
 
 
@@ -35,6 +36,7 @@ namespace moraine
       std::string                 title;
       StrengthReductionParameters parameters;
       bool                        points_move;
+      bool                        may_stay; ///< points, as nothing is said
     };
 
 
@@ -45,7 +47,11 @@ namespace moraine
       const auto of = [](const auto &scene) {
         return SceneOfSafety{scene.title,
                              scene.strength_reduction,
-                             scene.method.after_step() != MeshAfterStep::keep};
+                             scene.method.after_step() != MeshAfterStep::keep,
+                             scene.method.mesh_after_step == "default" &&
+                               scene.method.strain_measure() ==
+                                 StrainMeasure::small &&
+                               !scene.is_dynamic()};
       };
       return dimension_of(input) == 2 ? of(Scene<2>(input)) :
                                         of(Scene<3>(input));
@@ -126,8 +132,10 @@ namespace moraine
     , console(console)
     , cases(study_cases(input))
   {
-    for (const StudyCase &study_case : cases)
-      read_scene(study_case.input);
+    // Soil that has slid into another shape would stand in it.
+    for (StudyCase &study_case : cases)
+      if (read_scene(study_case.input).may_stay)
+        study_case.input.apply_override(stay);
     if (OutputDirectory::holds_results(folder, communicator))
       throw InputError("the output directory '" + folder +
                        "' holds results of a run; choose another one with "
@@ -164,11 +172,12 @@ namespace moraine
   SafetyStudy::Result
   SafetyStudy::search(const StudyCase &study_case)
   {
-    const StrengthReductionParameters parameters =
-      read_scene(study_case.input).parameters;
-    Result result;
-    result.label      = study_case.label;
-    const auto end_as = [&](const std::string &status,
+    const SceneOfSafety                scene = read_scene(study_case.input);
+    const StrengthReductionParameters &parameters = scene.parameters;
+    Result                             result;
+    result.label       = study_case.label;
+    result.points_move = scene.points_move;
+    const auto end_as  = [&](const std::string &status,
                             const std::string &message) {
       result.status  = status;
       result.message = message;
@@ -236,8 +245,9 @@ namespace moraine
   void
   SafetyStudy::print_head(const StudyCase &study_case)
   {
-    const auto [title, parameters, points_move] = read_scene(study_case.input);
-    console << (title.empty() ? "" : title + "\n")
+    const SceneOfSafety                scene = read_scene(study_case.input);
+    const StrengthReductionParameters &parameters = scene.parameters;
+    console << (scene.title.empty() ? "" : scene.title + "\n")
             << (study_case.label.empty() ? "" : "  " + study_case.label + "\n")
             << "  shear strength of "
             << (parameters.materials.empty() ? "all materials" :
@@ -245,11 +255,11 @@ namespace moraine
             << " over F; F from " << parameters.lower_factor << " to "
             << parameters.upper_factor << ", to within " << parameters.tolerance
             << '\n'
-            << (points_move ?
+            << (scene.points_move ?
                   "  note: points move with the soil, and soil that failed may "
                   "come to rest in another\n        shape and count as "
                   "standing; 'Mesh after step = keep' finds where it begins\n" :
-                  "")
+                  "  points stay where they are ('Mesh after step = keep')\n")
             << '\n'
             << "       F  result                steps  rejected  Newton  "
                "seconds\n";
@@ -278,6 +288,7 @@ namespace moraine
                 << "\n  how it failed: " << failure->summary.message
                 << "\n  to see it: moraine run " << input.name() << " --set \""
                 << factor_path << " = " << exactly(*result.failed)
+                << (result.points_move ? "" : "\" --set \"" + stay)
                 << "\" --output " << folder << "/failed\n\n";
       }
     console.stream() << std::flush;

@@ -47,7 +47,8 @@ namespace moraine
       "Lower factor",
       lower_factor,
       "Of 'moraine study' with 'Kind = factor of safety': a factor at which the "
-      "scene finds equilibrium up to its end time.",
+      "scene finds equilibrium up to its end time. At small strain its points "
+      "stay where they are unless 'Mesh after step' says otherwise.",
       patterns::positive());
     prm.add_parameter("Upper factor",
                       upper_factor,

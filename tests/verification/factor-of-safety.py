@@ -107,6 +107,18 @@ for case in others.cases:
     text(case["case"], f"stood at {case['stood_at']}, failed at "
          f"{case['failed_at']}")
 
+# Points that nobody says to move stay: soil that slid would stand again.
+moving = study({"Method/Mesh after step": "{{keep|default|reset}}",
+                "Mesh/Cell size": 2, "Time/Steps": 20,
+                "Strength reduction/Upper factor": 2,
+                "Strength reduction/Tolerance": 0.05}, expect=1)
+for case in moving.cases:
+    text(case["case"], f"{case['status']}, stood at {case.get('stood_at')}, "
+         f"failed at {case.get('failed_at')}")
+for line in moving.output.splitlines():
+    if "points move" in line or "points stay" in line:
+        text("  said", line.strip())
+
 for name, settings in (
         ("lower fails", {"Strength reduction/Lower factor": 1.4}),
         ("upper stands", {"Strength reduction/Upper factor": 1.2})):

@@ -81,6 +81,7 @@ namespace moraine
       std::string        status = "ok";
       std::string        message;
       std::vector<Trial> trials;
+      bool               points_move = false;
 
       /** The largest factor that it stood, the smallest at which it failed. */
       std::optional<double> stood, failed;
