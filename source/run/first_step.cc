@@ -9,6 +9,7 @@
 #include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/held_stress.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
@@ -405,7 +406,12 @@ namespace moraine
         return text.str() + "in equilibrium to round-off";
       text << std::setprecision(100 * share < 10 ? 2 : 3) << 100 * share
            << " % of the forces are out of balance";
-      if (!stage.boundaries.empty())
+      if (std::any_of(model.boundaries.begin(),
+                      model.boundaries.end(),
+                      [&stage](const auto &boundary) {
+                        return contains(stage.boundaries, boundary.name()) &&
+                               !boundary.enforcement().carries_multiplier;
+                      }))
         text << " (surfaces that cut cells begin to hold with the first step)";
       if (share > told_share_of_forces)
         text << (stage.time.integrator.dynamic() ?
@@ -467,7 +473,10 @@ namespace moraine
     if (exact.displacement || exact.stress)
       error_norms(*model.points, exact, scene.end_time(), false);
     if (begins_with_stress(scene, 0))
-      notes.push_back(describe_balance(stage, model));
+      {
+        hold_stress_at_start(stage, {}, model);
+        notes.push_back(describe_balance(stage, model));
+      }
     if (stage.time.integrator.dynamic())
       start_motion(scene, stage, model);
     else
@@ -517,6 +526,7 @@ namespace moraine
     check_loads(stage, model);
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
+    hold_stress_at_start(stage, before.boundaries, model);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/held_stress.h>
+
+#include <moraine/core/words.h>
+
+#include <array>
+#include <vector>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of the square of a cell's size: points that are spread by less along a
+     * direction say nothing of how stress changes along it. */
+    constexpr double least_spread = 1e-3;
+
+
+
+    /** Stress in a cell as a linear function of place. */
+    template <int dim>
+    class LinearStress
+    {
+    public:
+      LinearStress(const PointSet<dim>                      &points,
+                   const typename PointSet<dim>::CellPoints &in_cell)
+      {
+        double volume = 0;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          {
+            const double v = points.volume(p);
+            volume += v;
+            place += v * points.position(p);
+            mean += v * stress(points, p);
+          }
+        place /= volume;
+        mean /= volume;
+        SymmetricTensor<2, dim> spread;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          {
+            const Tensor<1, dim> away = points.position(p) - place;
+            spread +=
+              points.volume(p) / volume * symmetrize(outer_product(away, away));
+          }
+        const double h = in_cell.cell->minimum_vertex_distance();
+        for (const auto &[square, direction] : eigenvectors(spread))
+          if (square > least_spread * h * h)
+            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+              {
+                const double away = (points.position(p) - place) * direction;
+                const double part = points.volume(p) / volume * away / square;
+                for (unsigned int d = 0; d < dim; ++d)
+                  gradient[d] +=
+                    part * direction[d] * (stress(points, p) - mean);
+              }
+      }
+
+      SymmetricTensor<2, dim>
+      at(const Point<dim> &x) const
+      {
+        SymmetricTensor<2, dim> value = mean;
+        for (unsigned int d = 0; d < dim; ++d)
+          value += (x[d] - place[d]) * gradient[d];
+        return value;
+      }
+
+    private:
+      /** Its components in the space of the mesh. */
+      static SymmetricTensor<2, dim>
+      stress(const PointSet<dim> &points, const unsigned int p)
+      {
+        const SymmetricTensor<2, 3> sigma =
+          points.stress_field()(points.values(p));
+        SymmetricTensor<2, dim> in_plane;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = i; j < dim; ++j)
+            in_plane[i][j] = sigma[i][j];
+        return in_plane;
+      }
+
+      Point<dim>                               place; ///< of the mean
+      SymmetricTensor<2, dim>                  mean;
+      std::array<SymmetricTensor<2, dim>, dim> gradient;
+    };
+
+
+
+    /** @f$M \sigma n@f$ at the points of a boundary. */
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    tractions_on(const ImplicitBoundary<dim> &boundary,
+                 const PointSet<dim>         &points)
+    {
+      std::vector<Tensor<1, dim>> tractions(boundary.points().size());
+      std::vector<std::vector<unsigned int>> places(
+        points.mesh().triangulation().n_active_cells());
+      for (unsigned int q = 0; q < tractions.size(); ++q)
+        places[boundary.points()[q].cell].push_back(q);
+      for (const auto &in_cell : points.cells())
+        {
+          const auto &here = places[in_cell.cell->active_cell_index()];
+          if (here.empty())
+            continue;
+          const LinearStress<dim> stress(points, in_cell);
+          for (const unsigned int q : here)
+            {
+              const BoundaryPoint<dim> &point = boundary.points()[q];
+              tractions[q] = boundary.projection(point.normal) *
+                             (stress.at(point.x) * point.normal);
+            }
+        }
+      return tractions;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  hold_stress_at_start(const StageParameters          &stage,
+                       const std::vector<std::string> &before,
+                       Model<dim>                     &model)
+  {
+    const double t = stage.time.start_time;
+    for (ImplicitBoundary<dim> &boundary : model.boundaries)
+      {
+        if (!contains(stage.boundaries, boundary.name()) ||
+            contains(before, boundary.name()) ||
+            contains(stage.absorbing, boundary.name()) ||
+            !boundary.enforcement().carries_multiplier)
+          continue;
+        const double share = model.system->unbalanced_share();
+        const auto   hold  = [&](const auto &tractions) {
+          boundary.prepare(tractions,
+                           std::vector<Tensor<1, dim>>(tractions.size()));
+          boundary.keep();
+          model.system->begin_step(t);
+        };
+        hold(tractions_on(boundary, *model.points));
+        if (!(model.system->unbalanced_share() < share))
+          hold(std::vector<Tensor<1, dim>>(boundary.points().size()));
+      }
+  }
+
+
+
+  template void
+  hold_stress_at_start(const StageParameters &,
+                       const std::vector<std::string> &,
+                       Model<2> &);
+  template void
+  hold_stress_at_start(const StageParameters &,
+                       const std::vector<std::string> &,
+                       Model<3> &);
+} // namespace moraine
