@@ -1,0 +1,123 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What moves or pushes material and has lost it ends the run; nodes that stay while
+they push material are told of. Nothing is said where the material is kept."""
+
+import json
+
+SCENE = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 1, 2
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = GIMP
+  set Strain = finite
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection soil
+    set Lower corner = 0, 0
+    set Upper corner = 1, 2
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side       = left
+    set Components = x
+  end
+  subsection right
+    set Side       = right
+    set Components = x
+  end
+  subsection base
+    set Side       = bottom
+    set Components = y
+  end
+  {condition}
+end
+{more}
+subsection Output
+  set Points           = false
+  set Mesh             = false
+  set Checkpoint every = {checkpoint}
+end
+subsection Time
+  set Steps = 12
+end
+"""
+scene = folder / "column.prm"
+PRESSED = """subsection top
+    set Side         = top
+    set Components   = y
+    set Displacement = 0; -0.6*t
+  end"""
+WALL = """subsection Boundaries
+  subsection top
+    set Body         = soil
+    set Part         = top
+    set Constraint   = roller
+    set {key} = 0; -0.6*t
+  end
+end"""
+LOAD = """subsection Loads
+  subsection load
+    set Type  = {type}
+    {where}
+    set Value = 0; -400*t
+  end
+end"""
+
+
+def write(condition="", more="", checkpoint="never"):
+    scene.write_text(SCENE.format(condition=condition, more=more,
+                                  checkpoint=checkpoint))
+
+
+def show(name, settings=None, expect=1):
+    result = run(scene, settings, expect=expect)
+    for warning in result.summary.get("warnings", []):
+        text(f"{name}: told", warning)
+    text(f"{name}: ended", result.summary.get("message", "as it should"))
+    return result
+
+
+write(PRESSED)
+for method in ("GIMP", "material point", "CPDI1"):
+    # Domains that are stretched still touch the nodes.
+    show(f"nodes, {method}", {"Method/Method": method},
+         expect=0 if method == "CPDI1" else 1)
+STRETCH = {"Mesh motion/Stretch between": "base, top"}
+for name, settings in (("nodes, FE", {"Method/Method": "finite element"}),
+                       ("nodes that go along", STRETCH),
+                       ("nodes, pressed a little",
+                        {"Grid conditions/top/Displacement": "0; -0.05*t"})):
+    show(name, settings, expect=0)
+
+write(more=WALL.format(key="Displacement"))
+show("surface, Displacement")
+write(more=WALL.format(key="Translation"))
+show("surface, Translation", expect=0)
+
+write(more=LOAD.format(type="side traction", where="set Side = top"))
+show("load on a side")
+show("load on a side, FE", {"Method/Method": "finite element"}, expect=0)
+write(more=LOAD.format(type="surface traction",
+                       where="set Points = 1 2; 0 2"))
+show("load on a surface", expect=0)
+
+# What was told, and what was held, goes on after a checkpoint.
+write(PRESSED, checkpoint="1 steps")
+whole = show("nodes, with checkpoints")
+before = dict(whole.summary)
+run(whole.folder, command="resume", extra=("--from", "7"), expect=1)
+after = json.loads((whole.folder / "summary.json").read_text())
+text("resumed: ended alike", after["message"] == before["message"])
+text("resumed: told", after.get("warnings", []) == before["warnings"])

@@ -1,0 +1,115 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A boundary that cuts cells begins with the stress beside it: ground at rest on it
+stays at rest, and one that takes over from nodes holds what they held."""
+
+HEIGHT, WEIGHT = 2, 20
+SCENE = """
+subsection Mesh
+  set Lower corner = 0, -0.5
+  set Upper corner = 4, 3
+  set Cell size    = 0.25
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 1e4
+    set Poisson ratio = 0.3
+    set Density       = 2
+  end
+end
+subsection Bodies
+  subsection ground
+    set Lower corner = 0, {bottom}
+    set Upper corner = 4, {top}
+    set Initial stress = {stress}
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side       = left
+    set Components = x
+  end
+  subsection right
+    set Side       = right
+    set Components = x
+  end
+  {nodes}
+end
+subsection Boundaries
+  subsection base
+    set Body = ground
+    set Part = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10
+  end
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+subsection Probes
+  subsection low
+    set Location   = 2.05, {low}
+    set Quantities = stress, displacement, position
+  end
+  subsection surface
+    set Location   = 2.05, {surface}
+    set Quantities = displacement, position
+  end
+end
+{end}
+"""
+scene = folder / "ground.prm"
+
+
+def write(bottom, low, stress="geostatic", nodes="", end=""):
+    scene.write_text(SCENE.format(
+        bottom=bottom, top=bottom + HEIGHT, stress=stress, nodes=nodes, end=end,
+        low=bottom + low, surface=bottom + HEIGHT - 0.02))
+
+
+settlement = (1 + 0.3) * (1 - 0.6) / (1 - 0.3) / 1e4 * WEIGHT * HEIGHT**2 / 2
+for bottom, rest in ((0.1, 1e-12), (0.2, 1e-2)):
+    write(bottom, 0.02)
+    for method in ("material point", "GIMP", "finite element"):
+        for how in ("skew Nitsche", "symmetric Nitsche", "augmented Lagrangian"):
+            result = run(scene, {"Method/Method": method,
+                                 "Boundaries/base/Enforcement": how})
+            last = result.history()[-1]
+            name = f"base at {bottom}, {method}, {how}"
+            bound(f"{name}: stress of the lowest point over the exact one - 1",
+                  last["sigma_yy at low"] /
+                  (WEIGHT * (last["y at low"] - bottom - HEIGHT)) - 1, rest)
+            bound(f"{name}: surface, over the settlement by gravity",
+                  last["u_y at surface"] / settlement, rest)
+            bound(f"{name}: reaction over the weight - 1",
+                  last["reaction_y of base"] / (4 * WEIGHT * HEIGHT) - 1, 1e-9)
+
+# Nodes of a side hold at first, then the surface in the same place.
+write(-0.5, 0.06, "", "subsection nodes\n set Side = bottom\n end", """
+subsection Stages
+  subsection nodes
+    set Boundaries = none
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection surface
+    set Boundaries      = base
+    set Grid conditions = left, right
+    subsection Time
+      set End time = 2
+      set Steps    = 2
+    end
+  end
+end""")
+for method in ("material point", "finite element"):
+    rows = run(scene, {"Method/Method": method}).history()
+    for name in ("sigma_yy at low", "u_y at surface"):
+        bound(f"swap, {method}: {name}, over that before - 1",
+              rows[-1][name] / rows[0][name] - 1, 0.01)
