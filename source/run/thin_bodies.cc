@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace moraine
@@ -53,6 +54,31 @@ namespace moraine
 
 
 
+    /** Of the volume of a soft body: what does not give way is told of. */
+    constexpr double told_share_of_soft = 0.05;
+
+
+
+    /** What share of the soft body is in cells that the stiff one has a part
+     * of. @param volumes of cells */
+    double
+    share_beside(const std::vector<double> &stiff,
+                 const std::vector<double> &soft,
+                 const std::vector<double> &volumes)
+    {
+      double beside = 0, all = 0;
+      for (unsigned int c = 0; c < stiff.size(); ++c)
+        {
+          const double volume = soft[c] * volumes[c];
+          all += volume;
+          if (stiff[c] > least_share)
+            beside += volume;
+        }
+      return beside / all;
+    }
+
+
+
     /** The number of cells that the stiff body fills in part beside the soft
      * one. */
     unsigned int
@@ -64,6 +90,41 @@ namespace moraine
              soft[c] > least_share;
       return n;
     }
+
+
+
+    /** That a stiff body fills @p n cells by less than half beside a soft one,
+     * of which @p share is in cells of both. */
+    void
+    tell_of_shared_cells(const std::string        &stiff,
+                         const std::string        &soft,
+                         const unsigned int        n,
+                         const double              share,
+                         std::vector<std::string> &notes)
+    {
+      std::ostringstream text;
+      if (n > 0)
+        {
+          text << stiff << ": fills " << n
+               << " cells by less than half, which '" << soft
+               << "', much softer, has a share of; they become as stiff as '"
+               << stiff
+               << "', and limit loads too high: let it end on mesh lines, or "
+                  "take smaller cells";
+          notes.push_back(text.str());
+          text.str("");
+        }
+      if (share > told_share_of_soft)
+        {
+          text
+            << soft << ": " << std::lround(100 * share)
+            << " % of its volume is in cells that '" << stiff
+            << "', much stiffer, has a share of, and hardly gives way there; "
+               "settlements come out too small by about as much: let it end "
+               "on mesh lines, or take smaller cells";
+          notes.push_back(text.str());
+        }
+    }
   } // namespace
 
 
@@ -74,7 +135,10 @@ namespace moraine
                       const std::vector<std::string> &known,
                       std::vector<std::string>       &notes)
   {
-    const auto parts = filled_parts(model);
+    const auto          parts = filled_parts(model);
+    std::vector<double> volumes;
+    for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
+      volumes.push_back(cell->measure());
     for (unsigned int b = 0; b < parts.size(); ++b)
       {
         if (!model.present[b])
@@ -94,19 +158,11 @@ namespace moraine
           if (model.present[a] &&
               (is_new || !contains(known, model.body_names[a])) &&
               mu > contrast * model.materials[a]->elastic_stiffness().mu)
-            if (const unsigned int n = n_shared(parts[b], parts[a]))
-              {
-                std::ostringstream text;
-                text << name << ": fills " << n
-                     << " cells by less than half, which '"
-                     << model.body_names[a]
-                     << "', much softer, has a share of; they become as stiff "
-                        "as '"
-                     << name
-                     << "', and limit loads too high: let it end on mesh "
-                        "lines, or take smaller cells";
-                notes.push_back(text.str());
-              }
+            tell_of_shared_cells(name,
+                                 model.body_names[a],
+                                 n_shared(parts[b], parts[a]),
+                                 share_beside(parts[b], parts[a], volumes),
+                                 notes);
       }
   }
 
