@@ -13,6 +13,7 @@
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
+#include <moraine/run/near_bodies.h>
 #include <moraine/run/scene_conditions.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>
@@ -464,6 +465,7 @@ namespace moraine
     check_loads(stage, model);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_thin_bodies(model, {}, notes);
+    tell_of_near_bodies(model, {}, notes);
     check_sides_of_boundaries(model, notes);
     check_flux_of_boundaries(scene, model, notes);
     model.probes->check_places(
@@ -525,6 +527,7 @@ namespace moraine
     check_prescribed_motion(stage, model, notes);
     check_loads(stage, model);
     tell_of_thin_bodies(model, before.bodies, notes);
+    tell_of_near_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
     hold_stress_at_start(stage, before.boundaries, model);
     if (begins_with_stress(scene, k))
