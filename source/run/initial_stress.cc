@@ -129,8 +129,7 @@ namespace moraine
         , start_time(stage.time.start_time)
         , n_bodies(model.body_names.size())
       {
-        const NamedShapes<dim>         shapes = body_shapes(scene);
-        std::vector<ShapePointer<dim>> active;
+        const NamedShapes<dim> shapes = body_shapes(scene);
         for (unsigned int b = 0; b < n_bodies; ++b)
           {
             const std::string &name = model.body_names[b];
@@ -169,25 +168,29 @@ namespace moraine
       SymmetricTensor<2, 3>
       operator()(const Point<dim> &x) const
       {
-        const Tensor<1, dim> g = gravity(body, x);
-        if (!(g.norm() > 0) || !(model.materials[body]->density() > 0))
+        const Tensor<1, dim> g = direction(x);
+        std::vector<double>  weights;
+        bool                 any = false;
+        for (unsigned int b = 0; b < n_bodies; ++b)
+          {
+            weights.push_back(g * gravity(b, x) *
+                              model.materials[b]->density());
+            any = any || (active[b] && (weights[b] != 0 || surcharge[b]));
+          }
+        if (!any || !(g.norm() > 0))
           {
             std::ostringstream text;
             text << place(section, "Initial stress")
-                 << ": found 'geostatic' in a body without weight at t = "
+                 << ": found 'geostatic' where no body has weight at t = "
                  << start_time
-                 << ", allowed: a load of type gravity that acts on it then, "
-                    "and a material with a 'Density'";
+                 << ", allowed: a load of type gravity that acts then, and a "
+                    "material with a 'Density' in a body it acts on";
             throw InputError(text.str());
           }
-        const Tensor<1, dim> up = -g / g.norm();
-        std::vector<double>  weights;
-        for (unsigned int b = 0; b < n_bodies; ++b)
-          weights.push_back(-(up * gravity(b, x)) *
-                            model.materials[b]->density());
-        const auto   column = overburden->above(x, body, up, weights);
-        const auto  &load   = surcharge[column.top];
-        const double vertical =
+        const Tensor<1, dim> up     = -g;
+        const auto           column = overburden->above(x, body, up, weights);
+        const auto          &load   = surcharge[column.top];
+        const double         vertical =
           column.pressure + (load ? load->value(column.surface) : 0.);
         SymmetricTensor<2, 3> stress;
         for (unsigned int d = 0; d < 3; ++d)
@@ -223,6 +226,18 @@ namespace moraine
         return g;
       }
 
+      /** Of gravity, of unit length: that of this body or, if it acts only on
+       * others, that of all loads; zero if there is none. */
+      Tensor<1, dim>
+      direction(const Point<dim> &x) const
+      {
+        Tensor<1, dim> g = gravity(body, x);
+        if (!(g.norm() > 0))
+          for (const BodyForce<dim> *force : gravities)
+            g += force->value(x, start_time);
+        return g.norm() > 0 ? g / g.norm() : g;
+      }
+
       double
       horizontal_share(const Point<dim> &x) const
       {
@@ -243,6 +258,7 @@ namespace moraine
       const unsigned int                  body;
       const double                        start_time;
       const unsigned int                  n_bodies;
+      std::vector<ShapePointer<dim>>      active; ///< null if not there
       std::unique_ptr<Overburden<dim>>    overburden;
       std::vector<Number>                 surcharge; ///< of bodies
       Number                              K0;

@@ -29,6 +29,9 @@ refused("surcharge of stress that is given", LAYERS, {
 refused("geostatic without gravity", LAYERS, {
     "Loads/weight/Type": "body force"})
 refused("geostatic before gravity", LAYERS, {"Loads/weight/Curve": "t"})
+refused("geostatic without density or surcharge", LAYERS, {
+    "Materials/clay/Density": 0, "Materials/sand/Density": 0,
+    "Bodies/above/Surcharge": ""})
 refused("too few components", LAYERS, {
     "Bodies/below/Initial stress": "-1; -1", "Bodies/below/K0": ""})
 refused("geostatic of a point file", "prm/verification/patch-random.prm", {

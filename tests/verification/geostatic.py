@@ -28,6 +28,25 @@ for name, settings in methods.items():
         bound(which + "stress, relative error", result.errors["l2_sigma"], 1e-12)
 
 
+def at_rest(which, settings, sand, clay):
+    """A body without weight carries what lies on it."""
+    exact = f"(y > 6 ? 0.5 * ({sand}) : 0.7 * ({clay}))"
+    result = run(SCENE, {**settings, "Exact solution/Stress":
+                         f"-{exact}; -(y > 6 ? {sand} : {clay}); -{exact}; 0"})
+    bound(which + ": displacement of the surface",
+          max(abs(row["u_y at surface"]) for row in result.history()), 1e-13)
+    bound(which + ": stress, relative error", result.errors["l2_sigma"], 1e-12)
+
+
+at_rest("gravity on the sand alone", {"Loads/weight/Bodies": "above"},
+        "20 + 20*(10-y)", "100")
+at_rest("clay without density", {"Loads/weight/Bodies": "above",
+                                 "Materials/clay/Density": 0},
+        "20 + 20*(10-y)", "100")
+at_rest("gravity on the clay alone", {"Loads/weight/Bodies": "below"},
+        "20", "20 + 18*(6-y)")
+
+
 def balance(result):
     [line] = [line for line in result.output.splitlines()
               if "initial stress" in line]
