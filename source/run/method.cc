@@ -445,9 +445,10 @@ namespace moraine
       fictitious_stiffness,
       "Stiffness of the part of cells that points leave empty, as a fraction "
       "of the material's. It acts on the increment of a step and holds nodes "
-      "that too few points touch. 0: none, until a matrix is singular or a "
-      "step is rejected twice in a row; then the first that is enough of "
-      "1e-10, 1e-8, 1e-6 and 1e-4 from that step on, and the run says so.",
+      "that too few points touch. 0: none, until a matrix is singular, "
+      "multigrid fails where a shorter step has the same matrix, or a step is "
+      "rejected twice in a row; then the first that is enough of 1e-10, 1e-8, "
+      "1e-6 and 1e-4 from that step on, and the run says so.",
       patterns::non_negative());
   }
 

@@ -402,26 +402,28 @@ namespace moraine
   {
     for (RunObserver<dim> *observer : observers)
       observer->step_rejected(time_control.trial_time(), reason);
+    const bool in_vain = shorter_is_no_cure(report);
     // At finite strain the stress of a point makes a matrix regular where it
     // should be singular, and nodes run away however short the step.
     const bool supported =
       model.state->mesh_after_step() == MeshAfterStep::reset &&
-      n_rejections == rejections_before_support &&
+      (in_vain || n_rejections == rejections_before_support) &&
       (hold_empty_parts(reason) ||
-       (!report.converged() && take_back_support()));
+       (!in_vain && !report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)
       {
         time_control.take_back_cuts();
         n_rejections = 0;
       }
-    if (supported || repeats)
+    if (supported || (repeats && !in_vain))
       return;
     const bool path_may_end =
       report.status == NewtonStatus::diverged ||
       report.status == NewtonStatus::too_many_iterations;
     throw ComputationError(
       time_control.message() +
+      (in_vain ? " A shorter step has the same matrix." : "") +
       (scene.newton.limit_points == "stop" && path_may_end &&
            !time_control.follows_path() ?
          " If a path of equilibria ends here, 'Limit points = "
@@ -433,15 +435,26 @@ namespace moraine
 
 
   template <int dim>
+  bool
+  StepDriver<dim>::shorter_is_no_cure(const NewtonReport &report) const
+  {
+    return report.ran_out_of_linear_iterations && report.iterations == 0 &&
+           model.state->is_linear() &&
+           !scene.stages[stage].second.time.integrator.dynamic();
+  }
+
+
+
+  template <int dim>
   std::string
   StepDriver<dim>::reason_to_reject(const NewtonReport &report,
                                     const LA::Vector   &x)
   {
-    if (report.status == NewtonStatus::linear_solver_failed &&
-        method.fictitious_stiffness == 0 && !support)
+    if (report.status == NewtonStatus::linear_solver_failed)
       return report.message +
-             " (nodes that too few points touch can be the cause; "
-             "'Fictitious stiffness = 1e-6' in section 'Method' holds them)";
+             cause_of_unsolved(model,
+                               report.ran_out_of_linear_iterations,
+                               method.fictitious_stiffness > 0 || support);
     if (report.status == NewtonStatus::diverged ||
         report.status == NewtonStatus::too_many_iterations)
       return report.message + place_of_imbalance(*model.space,

@@ -3,6 +3,8 @@
 
 #include <moraine/run/step_failure.h>
 
+#include <moraine/assembly/fictitious_stiffness.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -69,6 +71,41 @@ namespace moraine
       sum    = Utilities::MPI::sum(sum, space.communicator());
       return volume > 0 ? std::min(sum / volume, 1.) : 1.;
     }
+
+
+
+    /** Multigrid takes the more iterations the closer to 0.5; from here on that
+     * is told. */
+    constexpr double large_poisson_ratio = 0.45;
+
+
+
+    /** The body that is there whose volume changes least, if it hardly does. */
+    template <int dim>
+    std::string
+    stiff_volume(const Model<dim> &model)
+    {
+      double      largest = large_poisson_ratio;
+      std::string body;
+      for (unsigned int b = 0; b < model.body_names.size(); ++b)
+        if (model.present[b])
+          {
+            const LameConstants C  = model.materials[b]->elastic_stiffness();
+            const double        nu = 0.5 * C.lambda / (C.lambda + C.mu);
+            if (nu > largest)
+              {
+                largest = nu;
+                body    = model.body_names[b];
+              }
+          }
+      if (body.empty())
+        return "";
+      std::ostringstream text;
+      text << "the volume of body '" << body
+           << "' hardly changes, Poisson ratio = " << largest
+           << ", for which multigrid takes many iterations; ";
+      return text.str();
+    }
   } // namespace
 
 
@@ -103,6 +140,31 @@ namespace moraine
          << std::lround(100 * filled_part(space, points, dof))
          << " % of the cells";
     return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  cause_of_unsolved(const Model<dim> &model,
+                    const bool        ran_out_of_iterations,
+                    const bool        empty_parts_have_stiffness)
+  {
+    FictitiousStiffness<dim> empty_parts(0.);
+    empty_parts.begin_step(model.system->step_context());
+    const bool any_free_node =
+      !empty_parts_have_stiffness &&
+      empty_parts.any_empty_part(model.system->step_context());
+    std::string text;
+    if (ran_out_of_iterations)
+      text = stiff_volume(model) +
+             "'Solver = direct' or more 'Maximum linear iterations' in section "
+             "'Solver' can help";
+    if (any_free_node)
+      text += std::string(text.empty() ? "" : "; ") +
+              "nodes that too few points touch can be the cause; "
+              "'Fictitious stiffness = 1e-6' in section 'Method' holds them";
+    return text.empty() ? "" : " (" + text + ")";
   }
 
 
@@ -163,6 +225,9 @@ namespace moraine
   template std::string place_of_imbalance(const GridSpace<dim> &, \
                                           const PointSet<dim> &,  \
                                           const LA::Vector &);    \
+  template std::string cause_of_unsolved(const Model<dim> &,      \
+                                         const bool,              \
+                                         const bool);             \
   template std::string point_that_leaves(const Model<dim> &,      \
                                          const TimeControl &,     \
                                          const LA::Vector &);

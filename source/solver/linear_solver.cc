@@ -327,6 +327,8 @@ namespace moraine
       {
         report.message = report.solver + " did not converge in " +
                          std::to_string(control.last_step()) + " iterations";
+        report.ran_out_of_iterations =
+          control.last_step() >= control.max_steps();
       }
     report.iterations = control.last_step();
     choice.spend(report.iterations);

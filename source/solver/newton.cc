@@ -240,6 +240,7 @@ namespace moraine
                             measure.weights());
       report.linear_solver = linear.solver;
       report.linear_iterations += linear.iterations;
+      report.ran_out_of_linear_iterations = linear.ran_out_of_iterations;
       if (!linear.converged)
         return stop(NewtonStatus::linear_solver_failed,
                     linear.solver + ": " + linear.message);

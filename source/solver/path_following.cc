@@ -139,6 +139,7 @@ namespace moraine
       const LinearReport linear = linear_solver.solve(dx, rhs);
       report.linear_solver      = linear.solver;
       linear_iterations += linear.iterations;
+      report.ran_out_of_linear_iterations = linear.ran_out_of_iterations;
       if (!linear.converged)
         return stop(NewtonStatus::linear_solver_failed,
                     linear.solver + ": " + linear.message);

@@ -62,6 +62,24 @@ show("the same, written at the end only", run(
     scene, {"Boundaries/left/Translation": "0; -0.8*t",
             "Loads/weight/Value": "0; 0", "Output/Write": "end"}, expect=1))
 
+# Iterations that do not suffice, in full cells and in cells that the block cuts.
+few = {"Solver/Solver": "amg-cg", "Solver/Maximum linear iterations": 2,
+       "Loads/weight/Value": "0; -1e-3*t", "Mesh/Cell size": 0.125,
+       "Mesh/Lower corner": "0.5, 0.5", "Mesh/Upper corner": "4.5, 4.5",
+       "Method/Method": "finite element"}
+cut = {"Method/Method": "material point", "Mesh/Cell size": 0.11,
+       "Mesh/Lower corner": "0, 0", "Mesh/Upper corner": "5.5, 5.5"}
+stiff = {"Materials/soil/Poisson ratio": 0.49}
+for name, settings in (("too few iterations", {}),
+                       ("volume that hardly changes", stiff),
+                       ("the same in cut cells", {**stiff, **cut})):
+    result = run(scene, {**few, **settings}, expect=1)
+    text(f"multigrid, {name}", message(result.output))
+    text("  rejected steps", result.summary["rejected_steps"])
+    text("  free nodes named, too", "'Solver' can help; nodes that too few "
+         "points touch can be the cause; 'Fictitious stiffness = 1e-6' in "
+         "section 'Method' holds them" in result.output)
+
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"
 words = [str(program), "run", str(root / scene), "--output", str(out),

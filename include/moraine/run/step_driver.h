@@ -161,6 +161,11 @@ namespace moraine
     double
     allowed_growth(const LA::Vector &x) const;
 
+    /** Whether the iteration for the first matrix of a step failed that a
+     * shorter step has, too. */
+    bool
+    shorter_is_no_cure(const NewtonReport &report) const;
+
     /** Why the solution @p x of a step cannot be accepted; empty if it can. */
     std::string
     reason_to_reject(const NewtonReport &report, const LA::Vector &x);

@@ -25,6 +25,21 @@ namespace moraine
                      const LA::Vector     &residual);
 
   /**
+   * What may have kept the linear solver from solving for a step, with the keys
+   * that help: " (... can be the cause; ...)". Empty if nothing is known.
+   * Collective.
+   *
+   * @param model where the step failed
+   * @param ran_out_of_iterations whether an iterative solver did
+   * @param empty_parts_have_stiffness whether nodes there are held already
+   */
+  template <int dim>
+  std::string
+  cause_of_unsolved(const Model<dim> &model,
+                    const bool        ran_out_of_iterations,
+                    const bool        empty_parts_have_stiffness);
+
+  /**
    * Name the point that the trial displacements @p x push out of the mesh, and
    * the step; empty if none. Collective.
    */

@@ -18,6 +18,9 @@ namespace moraine
     /** Iterations of CG or GMRES; for a direct solver 0. */
     unsigned int iterations = 0;
 
+    /** Whether CG or GMRES would have needed more iterations than allowed. */
+    bool ran_out_of_iterations = false;
+
     /** Norm of b - A x over norm of b, recomputed from the solution. */
     double relative_residual = 0.;
 

@@ -72,6 +72,9 @@ namespace moraine
 
     unsigned int linear_iterations = 0;
 
+    /** Of the linear solver, which is why it failed. */
+    bool ran_out_of_linear_iterations = false;
+
     unsigned int augmentations = 0;
 
     /** Of the last tangent, if the linear solver is to estimate it. */
