@@ -9,6 +9,7 @@
 #include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/boundary_notes.h>
 #include <moraine/run/held_stress.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
@@ -187,90 +188,6 @@ namespace moraine
 
 
 
-    /**
-     * The body must lie on the inner side of a surface. Where there is none, a
-     * constraint makes little sense, and the flux of Nitsche's method is that
-     * of no material.
-     */
-    template <int dim>
-    void
-    check_sides_of_boundaries(const Model<dim>         &model,
-                              std::vector<std::string> &notes)
-    {
-      const auto in_a_body = [&model](const Point<dim> &x) {
-        for (unsigned int b = 0; b < model.bodies.size(); ++b)
-          if (model.present[b] && model.bodies[b].shape->contains(x))
-            return true;
-        return false;
-      };
-      if (std::any_of(model.bodies.begin(),
-                      model.bodies.end(),
-                      [](const auto &body) { return !body.shape; }))
-        return;
-      for (const auto &boundary : model.boundaries)
-        {
-          std::vector<double> area(3, 0.); // inside, behind, all
-          for (const auto &point : boundary.points())
-            {
-              const Tensor<1, dim> step = 1e-3 * point.h * point.normal;
-              area[0] += in_a_body(point.x - step) ? point.JxW : 0.;
-              area[1] += in_a_body(point.x + step) ? point.JxW : 0.;
-              area[2] += point.JxW;
-            }
-          Utilities::MPI::sum(area, model.space->communicator(), area);
-          const std::string where = "Boundaries/" + boundary.name();
-          if (area[0] == 0 && area[1] > 0)
-            throw InputError(
-              "section '" + where +
-              "': found the body behind the surface, allowed: a surface whose "
-              "normal points out of the body (in 2D the body is on the left of a "
-              "line's points; reverse them)");
-          if (area[0] == 0)
-            notes.push_back(boundary.name() +
-                            ": no body is beside it at the start");
-          else if (area[0] < 0.99 * area[2])
-            notes.push_back(
-              boundary.name() + ": " +
-              std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
-              " % of its surface in the body's cells has no body on its inner "
-              "side; end it with the body" +
-              (boundary.enforcement().w_free > 0 ?
-                 ", or choose 'Enforcement = augmented Lagrangian'" :
-                 ""));
-        }
-    }
-
-
-
-    template <int dim>
-    void
-    check_flux_of_boundaries(const Scene<dim>         &scene,
-                             const Model<dim>         &model,
-                             std::vector<std::string> &notes)
-    {
-      const bool finite =
-        model.state->strain_measure() == StrainMeasure::finite;
-      const bool any_yields =
-        std::any_of(scene.materials.begin(),
-                    scene.materials.end(),
-                    [](const auto &named) { return named.second.yields(); });
-      for (const auto &boundary : model.boundaries)
-        if (boundary.enforcement().w_constrained > 0 && (finite || any_yields))
-          notes.push_back(
-            boundary.name() + ": its flux is elastic" +
-            (finite ?
-               " and of the increment of a step; 'Enforcement = "
-               "augmented Lagrangian' holds at any strain" :
-               ", and beside material that yields its reaction and limit "
-               "loads are off by some per cent; 'Enforcement = "
-               "augmented Lagrangian' has no flux"));
-    }
-  } // namespace
-
-
-
-  namespace
-  {
     /** Aim at the end of the first step of a stage: nodes that are held get
      * the velocity and the acceleration that conditions prescribe. */
     template <int dim>
@@ -466,8 +383,7 @@ namespace moraine
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_thin_bodies(model, {}, notes);
     tell_of_near_bodies(model, {}, notes);
-    check_sides_of_boundaries(model, notes);
-    check_flux_of_boundaries(scene, model, notes);
+    tell_of_boundaries(scene, model, notes);
     model.probes->check_places(
       grid_evaluation<dim>(*model.space, model.state->nodal_increments()),
       model.points->exchanged());
@@ -530,6 +446,7 @@ namespace moraine
     tell_of_near_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
     hold_stress_at_start(stage, before.boundaries, model);
+    tell_of_gaps(stage, before, model, notes);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/boundary_notes.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of a cell: from there on boundaries that begin are told to be away from
+     * the material. */
+    constexpr double told_gap = 0.1;
+
+
+
+    /**
+     * The body must lie on the inner side of a surface. Where there is none, a
+     * constraint makes little sense, and the flux of Nitsche's method is that
+     * of no material.
+     */
+    template <int dim>
+    void
+    check_sides_of_boundaries(const StageParameters    &stage,
+                              const Model<dim>         &model,
+                              std::vector<std::string> &notes)
+    {
+      const auto in_a_body = [&model](const Point<dim> &x) {
+        for (unsigned int b = 0; b < model.bodies.size(); ++b)
+          if (model.present[b] && model.bodies[b].shape->contains(x))
+            return true;
+        return false;
+      };
+      if (std::any_of(model.bodies.begin(),
+                      model.bodies.end(),
+                      [](const auto &body) { return !body.shape; }))
+        return;
+      for (const auto &boundary : model.boundaries)
+        {
+          if (!contains(stage.boundaries, boundary.name()))
+            continue;
+          std::vector<double> area(3, 0.); // inside, behind, all
+          for (const auto &point : boundary.points())
+            {
+              const Tensor<1, dim> step = 1e-3 * point.h * point.normal;
+              area[0] += in_a_body(point.x - step) ? point.JxW : 0.;
+              area[1] += in_a_body(point.x + step) ? point.JxW : 0.;
+              area[2] += point.JxW;
+            }
+          Utilities::MPI::sum(area, model.space->communicator(), area);
+          const std::string where = "Boundaries/" + boundary.name();
+          if (area[0] == 0 && area[1] > 0)
+            throw InputError(
+              "section '" + where +
+              "': found the body behind the surface, allowed: a surface whose "
+              "normal points out of the body (in 2D the body is on the left of a "
+              "line's points; reverse them)");
+          if (area[0] == 0)
+            notes.push_back(boundary.name() +
+                            ": no body is beside it at the start");
+          else if (area[0] < 0.99 * area[2])
+            notes.push_back(
+              boundary.name() + ": " +
+              std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
+              " % of its surface in the body's cells has no body on its inner "
+              "side; end it with the body" +
+              (boundary.enforcement().w_free > 0 ?
+                 ", or choose 'Enforcement = augmented Lagrangian'" :
+                 ""));
+        }
+    }
+
+
+
+    /** How far the material of its cells is from a boundary, less half the size
+     * of points, in the mean over its surface. Collective. */
+    template <int dim>
+    double
+    gap_before(const ImplicitBoundary<dim> &boundary,
+               const PointSet<dim>         &points)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> points_of(
+        points.mesh().triangulation().n_active_cells());
+      for (const auto &in_cell : points.cells())
+        points_of[in_cell.cell->active_cell_index()] = {in_cell.first,
+                                                        in_cell.last};
+      std::vector<double> sums(2, 0.);
+      for (const auto &place : boundary.points())
+        {
+          const auto [first, last] = points_of[place.cell];
+          double gap               = place.h;
+          for (unsigned int p = first; p < last; ++p)
+            gap = std::min(gap,
+                           (place.x - points.position(p)) * place.normal -
+                             0.5 * std::pow(points.volume(p), 1. / dim));
+          sums[0] += std::max(gap, 0.) * place.JxW;
+          sums[1] += place.JxW;
+        }
+      Utilities::MPI::sum(sums,
+                          points.mesh().triangulation().get_communicator(),
+                          sums);
+      return sums[1] > 0 ? sums[0] / sums[1] : 0.;
+    }
+
+
+
+    template <int dim>
+    void
+    check_flux_of_boundaries(const Scene<dim>         &scene,
+                             const Model<dim>         &model,
+                             std::vector<std::string> &notes)
+    {
+      const bool finite =
+        model.state->strain_measure() == StrainMeasure::finite;
+      const bool any_yields =
+        std::any_of(scene.materials.begin(),
+                    scene.materials.end(),
+                    [](const auto &named) { return named.second.yields(); });
+      for (const auto &boundary : model.boundaries)
+        if (boundary.enforcement().w_constrained > 0 && (finite || any_yields))
+          notes.push_back(
+            boundary.name() + ": its flux is elastic" +
+            (finite ?
+               " and of the increment of a step; 'Enforcement = "
+               "augmented Lagrangian' holds at any strain" :
+               ", and beside material that yields its reaction and limit "
+               "loads are off by some per cent; 'Enforcement = "
+               "augmented Lagrangian' has no flux"));
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  tell_of_boundaries(const Scene<dim>         &scene,
+                     const Model<dim>         &model,
+                     std::vector<std::string> &notes)
+  {
+    check_sides_of_boundaries(scene.stages.front().second, model, notes);
+    check_flux_of_boundaries(scene, model, notes);
+  }
+
+
+
+  template <int dim>
+  void
+  tell_of_gaps(const StageParameters    &stage,
+               const StageParameters    &before,
+               const Model<dim>         &model,
+               std::vector<std::string> &notes)
+  {
+    for (const auto &boundary : model.boundaries)
+      {
+        if (!contains(stage.boundaries, boundary.name()) ||
+            contains(before.boundaries, boundary.name()))
+          continue;
+        const double gap = gap_before(boundary, *model.points);
+        if (!(gap > told_gap * model.mesh->cell_size()))
+          continue;
+        std::ostringstream text;
+        text << boundary.name() << ": as it begins, the material is "
+             << std::setprecision(2) << gap
+             << " away from it, and is held across the gap as if it filled "
+                "it; draw the surface where the material is by then";
+        notes.push_back(text.str());
+      }
+  }
+
+
+
+#define INSTANTIATE(dim)                                        \
+  template void tell_of_boundaries(const Scene<dim> &,          \
+                                   const Model<dim> &,          \
+                                   std::vector<std::string> &); \
+  template void tell_of_gaps(const StageParameters &,           \
+                             const StageParameters &,           \
+                             const Model<dim> &,                \
+                             std::vector<std::string> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
