@@ -1,0 +1,131 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What the cells of a scene are too coarse for is told before it runs: bodies drawn
+apart that stick together, a soft layer in cells that a stiff one shares, thin bodies
+of any stage; and a surface that begins away from ground that has settled."""
+
+SCENE = """
+subsection Mesh
+  set Lower corner = -1, 0
+  set Upper corner = 4, 4
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Materials
+  subsection firm
+    set Young modulus = 1e5
+    set Poisson ratio = 0.3
+    set Density       = 2
+  end
+  subsection soft
+    set Young modulus = 1e3
+    set Poisson ratio = 0.3
+    set Density       = 2
+  end
+end
+subsection Bodies
+  {bodies}
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10
+  end
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+{more}
+"""
+BODY = """subsection {name}
+    set Material     = {material}
+    set Lower corner = {lower}
+    set Upper corner = {upper}
+  end
+  """
+scene = folder / "scene.prm"
+
+
+def show(title, bodies, more="", command="check"):
+    scene.write_text(SCENE.format(more=more, bodies="".join(
+        BODY.format(name=name, material=material, lower=lower, upper=upper)
+        for name, material, lower, upper in bodies)))
+    result = run(scene, command=command)
+    notes = [line.strip() for line in result.output.splitlines()
+             if line.strip().startswith("note")]
+    for note in notes:
+        text(title, note)
+    if not notes:
+        text(title, "nothing")
+
+
+def columns(gap):
+    return [("left", "firm", "0, 0", "1.1, 2.1"),
+            ("right", "firm", f"{1.1 + gap}, 0", f"{2.1 + gap}, 2.1")]
+
+
+for gap in (0, 0.05, 0.3, 0.55):
+    show(f"columns {gap} apart", columns(gap))
+
+
+def layers(top_of_seam):
+    return [("below", "firm", "0, 0", "3, 1"),
+            ("seam", "soft", "0, 1", f"3, {top_of_seam}"),
+            ("above", "firm", f"0, {top_of_seam}", "3, 3.5")]
+
+
+for top in (2, 1.9, 2.35):
+    show(f"seam up to {top}", layers(top))
+
+STAGES = """
+subsection Stages
+  subsection ground
+    set Bodies = below
+  end
+  subsection strut
+    set Bodies = below, strut
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+"""
+show("strut of a later stage", [("below", "soft", "0, 0", "3, 2"),
+                                ("strut", "firm", "1, 2", "1.3, 3.5")], STAGES,
+     command="run")
+
+PLATE = """
+subsection Boundaries
+  subsection plate
+    set Points       = 3 2; 0 2
+    set Constraint   = roller
+    set Displacement = 0; -0.001*(t-1)
+  end
+end
+subsection Stages
+  subsection weight
+    set Boundaries = none
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection plate
+    set Boundaries = plate
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+"""
+for material in ("firm", "soft"):
+    show(f"plate on settled ground, {material}",
+         [("ground", material, "0, 0", "3, 2")], PLATE, command="run")
