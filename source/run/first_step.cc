@@ -159,11 +159,33 @@ namespace moraine
 
 
 
+    /** Which cells material fills to less than nine tenths, on all ranks. */
+    template <int dim>
+    std::vector<bool>
+    partly_filled_cells(const Model<dim> &model)
+    {
+      const auto         &tria = model.mesh->triangulation();
+      std::vector<double> filled(tria.n_active_cells(), 0.);
+      for (const auto &in_cell : model.points->cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          filled[in_cell.cell->active_cell_index()] += model.points->volume(p);
+      Utilities::MPI::sum(filled, tria.get_communicator(), filled);
+      std::vector<bool> partly(filled.size());
+      for (const auto &cell : tria.active_cell_iterators())
+        partly[cell->active_cell_index()] =
+          filled[cell->active_cell_index()] < 0.9 * cell->measure();
+      return partly;
+    }
+
+
+
     /** A weight of nothing is a mistake, not a load; so is a push on nothing.
-     */
+     * A side is pushed by whole faces of cells. */
     template <int dim>
     void
-    check_loads(const StageParameters &stage, const Model<dim> &model)
+    check_loads(const StageParameters    &stage,
+                const Model<dim>         &model,
+                std::vector<std::string> &notes)
     {
       for (const auto &force : model.loads.body_forces)
         for (unsigned int b = 0; b < model.bodies.size(); ++b)
@@ -178,11 +200,21 @@ namespace moraine
         {
           if (!contains(stage.loads, traction.name))
             continue;
-          if (n_faces_of(traction, model) == 0)
+          const unsigned int n_faces = n_faces_of(traction, model);
+          if (n_faces == 0)
             throw InputError(
               "section 'Loads/" + traction.name +
               "': found a side of the mesh without a body beside "
               "it, allowed: a side that a body touches");
+          const unsigned int n_partly =
+            n_faces_of(traction, model, partly_filled_cells(model));
+          if (n_partly > 0)
+            notes.push_back(
+              traction.name + ": " + std::to_string(n_partly) + " of the " +
+              std::to_string(n_faces) +
+              " faces of cells that it pushes on belong to cells that material "
+              "fills in part, and are pushed on as a whole; 'surface traction' "
+              "acts on the rim of a body");
         }
     }
 
@@ -379,7 +411,7 @@ namespace moraine
     std::vector<std::string> notes;
     check_prescribed_motion(stage, model, notes);
     check_displacements_at_start(scene, model);
-    check_loads(stage, model);
+    check_loads(stage, model, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_thin_bodies(model, {}, notes);
     tell_of_near_bodies(model, {}, notes);
@@ -441,7 +473,7 @@ namespace moraine
       }
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, model, notes);
-    check_loads(stage, model);
+    check_loads(stage, model, notes);
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);

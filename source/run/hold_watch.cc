@@ -35,11 +35,14 @@ namespace moraine
 
   template <int dim>
   unsigned int
-  n_faces_of(const SideTraction<dim> &traction, const Model<dim> &model)
+  n_faces_of(const SideTraction<dim> &traction,
+             const Model<dim>        &model,
+             const std::vector<bool> &counts)
   {
     unsigned int n = 0;
     for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
-      if (cell->at_boundary() && model.space->is_active(cell))
+      if (cell->at_boundary() && model.space->is_active(cell) &&
+          (counts.empty() || counts[cell->active_cell_index()]))
         for (const auto &face : cell->face_iterators())
           n += face->at_boundary() && face->boundary_id() == traction.side;
     return n;
@@ -229,9 +232,13 @@ namespace moraine
 
 
   template unsigned int
-  n_faces_of(const SideTraction<2> &, const Model<2> &);
+  n_faces_of(const SideTraction<2> &,
+             const Model<2> &,
+             const std::vector<bool> &);
   template unsigned int
-  n_faces_of(const SideTraction<3> &, const Model<3> &);
+  n_faces_of(const SideTraction<3> &,
+             const Model<3> &,
+             const std::vector<bool> &);
   template class HoldWatch<2>;
   template class HoldWatch<3>;
 } // namespace moraine

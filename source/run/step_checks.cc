@@ -26,6 +26,10 @@ namespace moraine
     constexpr double told_share_of_motion = 0.02;
     constexpr double told_share_of_cell   = 1e-3;
 
+    /** Of the size of a body: parts that move by more against each other have
+     * turned by 20 degrees, or stretched by a third. */
+    constexpr double told_difference = 0.35;
+
     /** Energy that the integrator made is told of from this part of the largest
      * on. */
     constexpr double told_share_of_energy = 0.01;
@@ -317,10 +321,11 @@ namespace moraine
   {
     const unsigned int n_bodies = model.body_names.size();
     if (model.state->strain_measure() != StrainMeasure::small ||
-        scene.is_dynamic() || far.size() == n_bodies)
+        far.size() == n_bodies)
       return "";
-    // Coordinates at the start, and with the other sign, and the motion.
-    constexpr unsigned int n = 2 * dim + 1;
+    // Coordinates at the start, and with the other sign, the same of motions,
+    // and their size.
+    constexpr unsigned int n = 4 * dim + 1;
     std::vector<double>    largest(n * n_bodies,
                                 std::numeric_limits<double>::lowest());
     const PointSet<dim>   &points = *model.points;
@@ -332,10 +337,12 @@ namespace moraine
         double              *of     = largest.data() + n * points.body(p);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            of[2 * d]     = std::max(of[2 * d], start[d]);
-            of[2 * d + 1] = std::max(of[2 * d + 1], -start[d]);
+            of[2 * d]             = std::max(of[2 * d], start[d]);
+            of[2 * d + 1]         = std::max(of[2 * d + 1], -start[d]);
+            of[2 * (dim + d)]     = std::max(of[2 * (dim + d)], motion[d]);
+            of[2 * (dim + d) + 1] = std::max(of[2 * (dim + d) + 1], -motion[d]);
           }
-        of[2 * dim] = std::max(of[2 * dim], motion.norm());
+        of[4 * dim] = std::max(of[4 * dim], motion.norm());
       }
     Utilities::MPI::max(largest,
                         model.mesh->triangulation().get_communicator(),
@@ -343,15 +350,22 @@ namespace moraine
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
         const double *of   = largest.data() + n * b;
-        double        size = 0;
+        double        size = 0, differ = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          size = std::max(size, of[2 * d] + of[2 * d + 1]);
-        if (!(of[2 * dim] > size) || !far.insert(b).second)
+          {
+            size = std::max(size, of[2 * d] + of[2 * d + 1]);
+            differ =
+              std::max(differ, of[2 * (dim + d)] + of[2 * (dim + d) + 1]);
+          }
+        const bool moved = of[4 * dim] > size && !scene.is_dynamic();
+        if (!(moved || differ > told_difference * size) ||
+            !far.insert(b).second)
           continue;
         std::ostringstream text;
         text << "body '" << model.body_names[b] << "': by t = " << t
-             << " it has moved by " << std::setprecision(3)
-             << of[2 * dim] / size
+             << (moved ? " it has moved by " :
+                         " parts of it have moved against each other by ")
+             << std::setprecision(3) << (moved ? of[4 * dim] : differ) / size
              << " times its size, and small strain knows of no lengths and "
                 "directions that change; 'Strain = finite' does";
         return text.str();

@@ -165,7 +165,8 @@ for name, corner, second, stiffness, pull in (
         ("a stiff wall to 2.4 of a cell", "2.4, 4", SECOND.format(x=2.4), 100, 0.1),
         ("one that ends with it", "2.5, 4", SECOND.format(x=2.5), 100, 0.1),
         ("one not much stiffer", "2.4, 4", SECOND.format(x=2.4), 5, 0.1),
-        ("pulled by 0.9 of its size", "4, 4", "", 1, 3.6),
+        ("stretched by 0.3 of its size", "4, 4", "", 1, 1.2),
+        ("stretched by 0.4", "4, 4", "", 1, 1.6),
         ("pulled by 1.1", "4, 4", "", 1, 4.4)):
     scene = folder / "block.prm"
     scene.write_text(BLOCK.format(

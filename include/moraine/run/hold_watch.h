@@ -79,10 +79,15 @@ namespace moraine
 
 
 
-  /** Faces of active cells on the side of a traction. Collective. */
+  /** Faces of active cells on the side of a traction, of all ranks.
+   * @param traction of which faces are counted
+   * @param model with the mesh
+   * @param counts which cells count, by active_cell_index(); all if empty */
   template <int dim>
   unsigned int
-  n_faces_of(const SideTraction<dim> &traction, const Model<dim> &model);
+  n_faces_of(const SideTraction<dim> &traction,
+             const Model<dim>        &model,
+             const std::vector<bool> &counts = {});
 } // namespace moraine
 
 #endif

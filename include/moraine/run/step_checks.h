@@ -79,8 +79,9 @@ namespace moraine
     std::string
     points_apart(const double t);
 
-    /** That the material of a body moved by more than its size, for all that
-     * small strain knows of it. */
+    /** That the material of a body moved by more than its size, or parts of it
+     * by much of it against each other, for all that small strain knows of it.
+     * In dynamics what flies as a whole is right. */
     std::string
     moved_far(const double t);
 
