@@ -67,7 +67,9 @@ namespace moraine
       context.state.mesh_after_step() == MeshAfterStep::reset;
     if (context.couplings_changed || moves_through_mesh ||
         !boundary.has_cells())
-      boundary.find_cells(context.state.grid(), context.search_tolerance);
+      boundary.find_cells(context.state.grid(),
+                          context.search_tolerance,
+                          context.t_start);
     if (context.cells_moved || moves_through_mesh)
       find_local_places(context);
     return false;

@@ -38,17 +38,15 @@ namespace moraine
 
   template <int dim>
   AbsorbingBoundary<dim>::AbsorbingBoundary(const std::string  &name,
-                                            std::vector<Place>  places,
+                                            const Finder       &find_places,
                                             const AbsorbingLaw &law,
                                             const Velocity     &incident,
                                             const bool          on_side)
     : boundary_name(name)
+    , find_places(find_places)
     , absorbing_law(law)
     , incident(incident)
     , on_side(on_side)
-    , carried(std::move(places))
-    , extensions(carried.places().size())
-    , held(carried.places().size())
   {}
 
 
@@ -56,8 +54,11 @@ namespace moraine
   template <int dim>
   void
   AbsorbingBoundary<dim>::find_cells(const GridSpace<dim> &space,
-                                     const double          search_tolerance)
+                                     const double          search_tolerance,
+                                     const double          t)
   {
+    if (!placed)
+      carried = CarriedPlaces<dim>(find_places(space, t));
     const auto without = carried.find_cells(space, search_tolerance);
     if (!on_side && !without.empty())
       {
@@ -70,8 +71,12 @@ namespace moraine
             throw ComputationError(message.str());
           }
         carried.remove(without);
-        extensions.resize(places().size());
-        held.resize(places().size());
+      }
+    if (!placed)
+      {
+        carried.catch_up(space);
+        extensions.assign(places().size(), {});
+        held.assign(places().size(), {});
       }
     n_with_cell = places().size() - (on_side ? without.size() : 0);
     placed = found = true;

@@ -101,6 +101,29 @@ namespace moraine
 
   template <int dim>
   void
+  CarriedPlaces<dim>::catch_up(const GridSpace<dim> &space)
+  {
+    if (!space.nodes_moved())
+      return;
+    std::vector<double> moves(dim * now.size(), 0.);
+    for (unsigned int k = 0; k < now.size(); ++k)
+      if (now[k].active_cell_index != GridSpace<dim>::no_cell)
+        {
+          const Tensor<1, dim> move =
+            move_of_nodes_at(space, now[k].active_cell_index, now[k].in_mesh);
+          for (unsigned int d = 0; d < dim; ++d)
+            moves[dim * k + d] = move[d];
+        }
+    Utilities::MPI::sum(moves, space.communicator(), moves);
+    for (unsigned int k = 0; k < now.size(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        now[k].x[d] += moves[dim * k + d];
+  }
+
+
+
+  template <int dim>
+  void
   CarriedPlaces<dim>::remove(const std::vector<unsigned int> &numbers)
   {
     for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)

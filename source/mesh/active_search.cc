@@ -77,6 +77,28 @@ namespace moraine
                                         N,
                                         grad_N);
     }
+
+
+
+    template <int dim, int degree>
+    Tensor<1, dim>
+    move_at(const GridSpace<dim> &space,
+            const unsigned int    cell,
+            const Point<dim>     &x)
+    {
+      constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
+      const unsigned int    *nodes = space.cell_nodes(cell);
+      Point<dim>             X[n];
+      for (unsigned int a = 0; a < n; ++a)
+        X[a] = space.node_position(nodes[a]) - space.node_move(nodes[a]);
+      double N[n];
+      CellShapes<dim, degree>::values(CellShapes<dim, degree>::inverse(x, X),
+                                      N);
+      Tensor<1, dim> move;
+      for (unsigned int a = 0; a < n; ++a)
+        move += N[a] * space.node_move(nodes[a]);
+      return move;
+    }
   } // namespace
 
 
@@ -139,6 +161,18 @@ namespace moraine
 
 
 
+  template <int dim>
+  Tensor<1, dim>
+  move_of_nodes_at(const GridSpace<dim> &space,
+                   const unsigned int    active_cell_index,
+                   const Point<dim>     &X)
+  {
+    return space.degree() == 1 ? move_at<dim, 1>(space, active_cell_index, X) :
+                                 move_at<dim, 2>(space, active_cell_index, X);
+  }
+
+
+
 #define INSTANTIATE(dim)                                                      \
   template GridSpace<dim>::CellIterator nearest_active_cell(                  \
     const GridSpace<dim> &,                                                   \
@@ -151,7 +185,10 @@ namespace moraine
                                   const unsigned int,                         \
                                   const Point<dim> &,                         \
                                   double *,                                   \
-                                  Tensor<1, dim> *);
+                                  Tensor<1, dim> *);                          \
+  template Tensor<1, dim> move_of_nodes_at(const GridSpace<dim> &,            \
+                                           const unsigned int,                \
+                                           const Point<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

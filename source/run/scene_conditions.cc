@@ -196,6 +196,71 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** When the boundary @p name begins to act. */
+    template <int dim>
+    double
+    first_time_of(const std::string &name, const Scene<dim> &scene)
+    {
+      for (const auto &[stage_name, stage] : scene.stages)
+        if (contains(stage.boundaries, name))
+          return stage.time.start_time;
+      return scene.start_time();
+    }
+
+
+
+    /**
+     * Places of a surface where its motion has brought it. A mesh that does not
+     * let material through is cut where the surface stood at first; if its
+     * nodes move they take the places along, and the motion the normals.
+     */
+    template <int dim>
+    typename AbsorbingBoundary<dim>::Finder
+    finder_on(const SurfacePointer<dim> &surface,
+              const RigidMotion<dim>    &motion,
+              const double               first_time,
+              const MeshAfterStep        mesh_after_step)
+    {
+      return [=](const GridSpace<dim> &space, const double t) {
+        const Placement<dim> at_first = motion.pose(first_time),
+                             now      = motion.pose(t);
+        if (mesh_after_step == MeshAfterStep::reset)
+          return places_on(MovedSurface<dim>(surface, now), space.mesh());
+        auto places =
+          places_on(MovedSurface<dim>(surface, at_first), space.mesh());
+        if (mesh_after_step == MeshAfterStep::follow_material)
+          for (auto &place : places)
+            place.normal = now.rotate(at_first.inverse().rotate(place.normal));
+        return places;
+      };
+    }
+
+
+
+    /** Places of a side of the mesh, those in @p region if there is one. */
+    template <int dim>
+    typename AbsorbingBoundary<dim>::Finder
+    finder_on_side(const types::boundary_id               side,
+                   const std::optional<BoundingBox<dim>> &region)
+    {
+      return [=](const GridSpace<dim> &space, const double) {
+        auto places = places_on_side(space.mesh(), side);
+        if (region)
+          places.erase(std::remove_if(places.begin(),
+                                      places.end(),
+                                      [&](const auto &place) {
+                                        return !region->point_inside(place.x);
+                                      }),
+                       places.end());
+        return places;
+      };
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<AbsorbingBoundary<dim>>
   make_absorbing_boundaries(const Scene<dim>          &scene,
@@ -209,8 +274,11 @@ namespace moraine
           const std::string section = "Boundaries/" + name;
           absorbing.emplace_back(
             name,
-            places_on(*make_surface<dim>(parameters.surface, shapes, section),
-                      mesh),
+            finder_on<dim>(
+              make_surface<dim>(parameters.surface, shapes, section),
+              parameters.motion.make_motion(section),
+              first_time_of(name, scene),
+              scene.method.after_step()),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             false);
@@ -219,21 +287,14 @@ namespace moraine
       if (parameters.constraint == "absorbing" || scene.absorbs_later(name))
         {
           const std::string section = "Grid conditions/" + name;
-          auto              places  = places_on_side(
-            mesh, mesh.boundary_id(parameters.side, place(section, "Side")));
-          if (const auto region = region_of(parameters, section))
-            places.erase(std::remove_if(places.begin(),
-                                        places.end(),
-                                        [&](const auto &place) {
-                                          return !region->point_inside(place.x);
-                                        }),
-                         places.end());
-          absorbing.emplace_back(name,
-                                 std::move(places),
-                                 parameters.absorbing.law(section),
-                                 incident_velocity<dim>(parameters.absorbing,
-                                                        section),
-                                 true);
+          absorbing.emplace_back(
+            name,
+            finder_on_side<dim>(mesh.boundary_id(parameters.side,
+                                                 place(section, "Side")),
+                                region_of(parameters, section)),
+            parameters.absorbing.law(section),
+            incident_velocity<dim>(parameters.absorbing, section),
+            true);
         }
     return absorbing;
   }

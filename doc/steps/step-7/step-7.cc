@@ -141,15 +141,18 @@ make_loads(const BackgroundMesh<dim> &mesh)
 // said about $\rho c$: it is that of the material beside the line. The body is
 // on the left of the line, as for implicit boundaries.
 AbsorbingBoundary<dim>
-make_absorbing_base(const BackgroundMesh<dim> &mesh)
+make_absorbing_base()
 {
-  const auto line =
+  const SurfacePointer<dim> line =
     make_flat_face<dim>({Point<dim>(0, 0), Point<dim>(width, 0)});
-  return AbsorbingBoundary<dim>("base",
-                                places_on<dim>(*line, mesh),
-                                AbsorbingLaw(),
-                                /* no incident wave */ {},
-                                /* on_side = */ false);
+  return AbsorbingBoundary<dim>(
+    "base",
+    [line](const GridSpace<dim> &space, const double) {
+      return places_on<dim>(*line, space.mesh());
+    },
+    AbsorbingLaw(),
+    /* no incident wave */ {},
+    /* on_side = */ false);
 }
 
 
@@ -268,7 +271,7 @@ run(const Base base)
   const auto                         supports = make_supports(base, mesh);
   Loads<dim>                         loads    = make_loads(mesh);
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  AbsorbingBoundary<dim>             dashpots = make_absorbing_base(mesh);
+  AbsorbingBoundary<dim>             dashpots = make_absorbing_base();
   Terms<dim>                         terms    = make_terms(no_boundaries,
                                 supports,
                                 loads,

@@ -87,7 +87,10 @@ make_compliant_rock(const BackgroundMesh<dim> &mesh)
   law.medium = rock;
   return AbsorbingBoundary<dim>(
     "rock",
-    places_on_side(mesh, mesh.boundary_id("bottom", "step-8")),
+    [side = mesh.boundary_id("bottom", "step-8")](const GridSpace<dim> &space,
+                                                  const double) {
+      return places_on_side(space.mesh(), side);
+    },
     law,
     [](const Point<dim> &, const double t) {
       return Tensor<1, dim>(Point<dim>(incident_velocity(t), 0));

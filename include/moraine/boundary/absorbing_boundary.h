@@ -104,6 +104,10 @@ namespace moraine
   {
   public:
     using Place = typename CarriedPlaces<dim>::Place;
+    /** The places, where they are at time t in the mesh as it was built; the
+     * same on all ranks. */
+    using Finder =
+      std::function<std::vector<Place>(const GridSpace<dim> &, const double)>;
     /** Velocity of a wave that comes from outside, at (x, t). */
     using Velocity =
       std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
@@ -117,20 +121,27 @@ namespace moraine
       bool turns        = false; ///< areas and normals follow too
     };
 
-    /** @p on_side: the places are of a side of the mesh. */
+    /** @p find_places is asked when the boundary begins to act. @p on_side: the
+     * places are of a side of the mesh. */
     AbsorbingBoundary(const std::string  &name,
-                      std::vector<Place>  places,
+                      const Finder       &find_places,
                       const AbsorbingLaw &law,
                       const Velocity     &incident,
                       const bool          on_side);
 
     /**
-     * Find the cells of the places. Those of a surface that are on no material
-     * at first are left out; those of a side count when material comes.
+     * Find the cells of the places, and the places themselves the first time.
+     * Those of a surface that are on no material at first are left out; those
+     * of a side count when material comes.
+     * @param space the grid
+     * @param search_tolerance how far from its cell material reaches
+     * @param t time at which the step starts
      * @throws ComputationError if a place has lost the material later.
      */
     void
-    find_cells(const GridSpace<dim> &space, const double search_tolerance);
+    find_cells(const GridSpace<dim> &space,
+               const double          search_tolerance,
+               const double          t);
 
     bool
     has_cells() const
@@ -231,10 +242,11 @@ namespace moraine
     }
 
     const std::string                   boundary_name;
+    const Finder                        find_places;
     const AbsorbingLaw                  absorbing_law;
     const Velocity                      incident;
     const bool                          on_side;
-    CarriedPlaces<dim>                  carried;
+    CarriedPlaces<dim>                  carried{{}};
     bool                                found  = false; ///< cells, since read()
     bool                                placed = false; ///< once
     unsigned int                        n_with_cell = 0;

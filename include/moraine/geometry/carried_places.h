@@ -50,6 +50,11 @@ namespace moraine
     std::vector<unsigned int>
     find_cells(const GridSpace<dim> &space, const double search_tolerance);
 
+    /** Let places with cells, which are where they were in the mesh as it was
+     * built, be where its nodes carried them so far. Collective. */
+    void
+    catch_up(const GridSpace<dim> &space);
+
     /** Leave out places by their numbers, ascending. */
     void
     remove(const std::vector<unsigned int> &numbers);

@@ -39,6 +39,16 @@ namespace moraine
                   const dealii::Point<dim> &x,
                   double                   *N,
                   dealii::Tensor<1, dim>   *grad_N);
+
+  /**
+   * How far the nodes of an active cell this rank knows carried the place @p X
+   * of the mesh as it was built, which may be outside of the cell.
+   */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  move_of_nodes_at(const GridSpace<dim>     &space,
+                   const unsigned int        active_cell_index,
+                   const dealii::Point<dim> &X);
 } // namespace moraine
 
 #endif

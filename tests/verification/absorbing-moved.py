@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A base that was placed by its motion and then absorbs does so where it stands:
+a block at rest under gravity stays at rest, whatever has brought its base there,
+also when the run goes on from the middle of it."""
+
+SCENE = """
+subsection Mesh
+  set Lower corner = -0.5, -0.5
+  set Upper corner = 5, 3.5
+  set Cell size = 0.25
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 10000
+    set Poisson ratio = 0.3
+    set Density = 2
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0.1
+    set Upper corner = 4, 2.1
+    set Rotation angle = 12
+    set Translation = 0, 0.2
+  end
+end
+subsection Boundaries
+  subsection base
+    set Points = 0 0.1; 4 0.1
+    set Rotation angle = 12
+    set Translation = 0; 0.2
+  end
+end
+subsection Loads
+  subsection weight
+    set Type = gravity
+    set Value = 0; -10
+  end
+end
+subsection Stages
+  subsection rest
+    subsection Time
+      set Steps = 2
+    end
+  end
+  subsection absorbing
+    subsection Time
+      set Integrator = Newmark
+      set End time = 1.5
+      set Steps = 20
+    end
+    set Absorbing = base
+  end
+end
+subsection Output
+  set Write = end
+end
+subsection Probes
+  subsection top
+    set Location = 2.5, 2.3
+    set Kind = interpolated
+  end
+end
+"""
+scene = folder / "base.prm"
+scene.write_text(SCENE)
+
+
+def drift(name, result):
+    """Of the settlement and the reaction since the block came to rest."""
+    rows = result.history()
+    rest, last = rows[1], rows[-1]
+    bound(f"{name}: drift", last["u_y at top"] / rest["u_y at top"] - 1, 0.01)
+    bound("  reaction", last["reaction_y of base"] / 160 - 1, 0.01)
+
+
+drawn = {"Boundaries/base/Rotation angle": "", "Boundaries/base/Translation": "",
+         "Boundaries/base/Points": "-0.0207911690817759 0.2978147600733806; "
+                                   "3.8917992331534 1.1294615231018"}
+# Elements take their base along, points leave it to where it then stands.
+moving = {"Boundaries/base/Rotation angle": "12 + 0.02*min(t, 1)",
+          "Boundaries/base/Translation": "0; 0.2 - 0.05*min(t, 1)"}
+for name, settings in (("drawn", drawn), ("placed", {}), ("moved", moving)):
+    drift(name, run(scene, settings))
+    drift(f"{name}, elements",
+          run(scene, {**settings, "Method/Method": "finite element"}))
+
+# Resumed before and after the base begins to absorb.
+def kept(steps, end):
+    return {**moving, "Output/Checkpoint every": "1 step",
+            "Stages/absorbing/Time/Steps": steps,
+            "Stages/absorbing/Time/End time": end}
+
+
+def history(result):
+    return (result.folder / "history.csv").read_bytes()
+
+
+whole = run(scene, kept(8, 1.5), on_ranks=1)
+for step in (2, 3):
+    halted = run(scene, kept(1, 1.0625), on_ranks=1)
+    run(halted.folder, {"Stages/absorbing/Time/Steps": 8,
+                        "Stages/absorbing/Time/End time": 1.5},
+        command="resume", extra=("--from", step), on_ranks=1)
+    text(f"resumed after step {step}",
+         "the same bits" if history(halted) == history(whole) else "NO")
