@@ -87,27 +87,6 @@ namespace moraine
 
 
 
-    /** What lies beyond a face of a cell, by no more than @p thickness. */
-    template <int dim>
-    CellVertices<dim>
-    layer_beyond(const unsigned int       face,
-                 const CellVertices<dim> &cell,
-                 const double             thickness)
-    {
-      const unsigned int across = 1u << (face / 2);
-      CellVertices<dim>  layer  = cell;
-      for (unsigned int v = 0; v < cell.size(); ++v)
-        if (((v & across) != 0) == (face % 2 == 1))
-          {
-            const Tensor<1, dim> edge = cell[v] - cell[v ^ across];
-            layer[v ^ across]         = cell[v];
-            layer[v] += thickness / edge.norm() * edge;
-          }
-      return layer;
-    }
-
-
-
     template <int dim>
     BoundingBox<dim>
     box_of(const CellVertices<dim> &vertices)

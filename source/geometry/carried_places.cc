@@ -13,9 +13,13 @@
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <deal.II/numerics/rtree.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace moraine
 {
@@ -28,9 +32,48 @@ namespace moraine
 
 
 
-    /** The cell around @p x, or around the point of the box of the mesh nearest
-     * to it if that is not farther away than @p tolerance: material at the edge
-     * may reach over it. */
+    /** Beyond the mesh by this many cell sizes a place still is at it: cells
+     * are chords of what is curved, and places have round-off. */
+    constexpr double reach_of_mesh = 0.1;
+
+    /** Of the angle between a surface and the side of a mesh that stands for
+     * it; others cross it. */
+    constexpr double cosine_along_side = 0.9;
+
+
+
+    /** The cell of the mesh nearest to @p x, if it is not farther away than @p
+     * tolerance. */
+    template <int dim>
+    typename GridSpace<dim>::CellIterator
+    nearest_cell(const BackgroundMesh<dim> &mesh,
+                 const Point<dim>          &x,
+                 const double               tolerance)
+    {
+      namespace bgi = boost::geometry::index;
+      BoundingBox<dim> around(std::make_pair(x, x));
+      around.extend(tolerance);
+      typename GridSpace<dim>::CellIterator nearest =
+        mesh.triangulation().end();
+      double least = tolerance;
+      for (const auto &[box, cell] :
+           mesh.search_cache().get_cell_bounding_boxes_rtree() |
+             bgi::adaptors::queried(bgi::intersects(around)))
+        {
+          const double distance = distance_to_cell<dim>(cell, x);
+          if (distance <= least)
+            {
+              least   = distance;
+              nearest = cell;
+            }
+        }
+      return nearest;
+    }
+
+
+
+    /** The cell around @p x, or the nearest one if that is not farther away
+     * than @p tolerance: material at the edge may reach over it. */
     template <int dim>
     typename GridSpace<dim>::CellIterator
     cell_around(const GridSpace<dim>                        &space,
@@ -38,21 +81,53 @@ namespace moraine
                 const double                                 tolerance,
                 const typename GridSpace<dim>::CellIterator &hint)
     {
-      const auto &cache = space.mesh().search_cache();
-      const auto  found =
-        GridTools::find_active_cell_around_point(cache, x, hint).first;
-      if (found.state() == IteratorState::valid)
-        return found;
-      const auto box =
-        GridTools::compute_bounding_box(space.mesh().triangulation());
-      Point<dim> inside = x;
+      const BackgroundMesh<dim> &mesh = space.mesh();
+      const auto                 found =
+        GridTools::find_active_cell_around_point(mesh.search_cache(), x, hint)
+          .first;
+      return found.state() == IteratorState::valid ?
+               found :
+               nearest_cell(mesh,
+                            x,
+                            std::max(tolerance,
+                                     1.001 * reach_of_mesh * mesh.cell_size()));
+    }
+
+
+
+    template <int dim>
+    Tensor<1, dim>
+    normal_of_face(const unsigned int face, const CellVertices<dim> &cell)
+    {
+      const unsigned int          across = 1u << (face / 2);
+      std::vector<Tensor<1, dim>> edges;
+      const unsigned int          v = face % 2 == 1 ? across : 0;
       for (unsigned int d = 0; d < dim; ++d)
-        inside[d] =
-          std::min(std::max(x[d], box.lower_bound(d)), box.upper_bound(d));
-      return inside != x && inside.distance(x) <= tolerance ?
-               GridTools::find_active_cell_around_point(cache, inside, hint)
-                 .first :
-               found;
+        if ((1u << d) != across)
+          edges.push_back(cell[v | (1u << d)] - cell[v]);
+      Tensor<1, dim> normal;
+      if constexpr (dim == 2)
+        normal = cross_product_2d(edges[0]);
+      else
+        normal = cross_product_3d(edges[0], edges[1]);
+      return normal / normal.norm();
+    }
+
+
+
+    template <int dim>
+    bool
+    are_apart(const BoundingBox<dim>  &box,
+              const CellVertices<dim> &vertices,
+              const double             round_off)
+    {
+      const BoundingBox<dim> other(
+        std::vector<Point<dim>>(vertices.begin(), vertices.end()));
+      for (unsigned int d = 0; d < dim; ++d)
+        if (box.lower_bound(d) > other.upper_bound(d) + round_off ||
+            other.lower_bound(d) > box.upper_bound(d) + round_off)
+          return true;
+      return false;
     }
   } // namespace
 
@@ -274,25 +349,68 @@ namespace moraine
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
   {
-    std::vector<SurfacePoint<dim>> pieces;
-    const BoundingBox<dim>         box = surface.bounding_box();
+    std::vector<SurfacePoint<dim>> pieces, beyond;
+    const double                   round_off = 1e-9 * mesh.cell_size();
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
-        const BoundingBox<dim> cell_box = cell->bounding_box();
-        bool                   apart    = false;
-        for (unsigned int d = 0; d < dim; ++d)
-          apart = apart ||
-                  box.lower_bound(d) >
-                    cell_box.upper_bound(d) + 1e-9 * mesh.cell_size() ||
-                  cell_box.lower_bound(d) >
-                    box.upper_bound(d) + 1e-9 * mesh.cell_size();
-        if (!apart)
-          surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+        const CellVertices<dim> vertices = vertices_of<dim>(cell);
+        if (!are_apart(surface.bounding_box(), vertices, round_off))
+          surface.pieces(vertices, n_gauss_points, pieces);
+        for (const unsigned int f : cell->face_indices())
+          {
+            if (!cell->face(f)->at_boundary())
+              continue;
+            const CellVertices<dim> layer =
+              layer_beyond<dim>(f, vertices, reach_of_mesh * mesh.cell_size());
+            if (are_apart(surface.bounding_box(), layer, round_off))
+              continue;
+            beyond.clear();
+            surface.pieces(layer, n_gauss_points, beyond);
+            const Tensor<1, dim> along = normal_of_face(f, vertices);
+            for (const auto &piece : beyond)
+              if (std::abs(piece.normal * along) > cosine_along_side)
+                pieces.push_back(piece);
+          }
       }
     std::vector<typename CarriedPlaces<dim>::Place> places;
     for (const auto &piece : pieces)
       places.push_back({piece.x, piece.JxW, piece.normal});
     return places;
+  }
+
+
+
+  template <int dim>
+  double
+  share_outside(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
+  {
+    constexpr double most_cells = dim == 2 ? 100 : 20; // in each direction
+    const double     h          = mesh.cell_size();
+    BoundingBox<dim> box        = surface.bounding_box();
+    if (!is_finite(box))
+      return 0.;
+    // Not by round numbers, so that no face of a cell lies in the surface.
+    box.extend(0.3137 * h);
+    std::vector<unsigned int> n(dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = std::ceil(std::clamp(box.side_length(d) / h, 1., most_cells));
+    Triangulation<dim> cells;
+    GridGenerator::subdivided_hyper_rectangle(cells,
+                                              n,
+                                              box.get_boundary_points().first,
+                                              box.get_boundary_points().second);
+    std::vector<SurfacePoint<dim>> pieces;
+    for (const auto &cell : cells.active_cell_iterators())
+      surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+    double outside = 0, all = 0;
+    for (const auto &piece : pieces)
+      {
+        all += piece.JxW;
+        if (nearest_cell(mesh, piece.x, reach_of_mesh * h).state() !=
+            IteratorState::valid)
+          outside += piece.JxW;
+      }
+    return all > 0 ? outside / all : 0.;
   }
 
 
@@ -329,6 +447,8 @@ namespace moraine
   template class CarriedPlaces<dim>;                                       \
   template std::vector<typename CarriedPlaces<dim>::Place> places_on(      \
     const Surface<dim> &, const BackgroundMesh<dim> &);                    \
+  template double share_outside(const Surface<dim> &,                      \
+                                const BackgroundMesh<dim> &);              \
   template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
     const BackgroundMesh<dim> &, const types::boundary_id);
   INSTANTIATE(2)

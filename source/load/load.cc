@@ -18,10 +18,12 @@ namespace moraine
   template <int dim>
   CarriedLoad<dim>::CarriedLoad(const std::string         &name,
                                 const VectorFunction<dim> &value,
-                                std::vector<Place>         places)
+                                std::vector<Place>         places,
+                                const double               share_outside)
     : load_name(name)
     , function(value)
     , carried(std::move(places))
+    , outside(share_outside)
   {}
 
 
@@ -31,6 +33,11 @@ namespace moraine
   CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
                                const double          search_tolerance)
   {
+    if (places().empty())
+      throw ObjectError("load",
+                        load_name,
+                        "found a surface outside the mesh, allowed: one on or "
+                        "in a body");
     const auto without = carried.find_cells(space, search_tolerance);
     if (!without.empty())
       {

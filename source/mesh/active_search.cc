@@ -146,6 +146,26 @@ namespace moraine
 
 
   template <int dim>
+  CellVertices<dim>
+  layer_beyond(const unsigned int       face,
+               const CellVertices<dim> &cell,
+               const double             thickness)
+  {
+    const unsigned int across = 1u << (face / 2);
+    CellVertices<dim>  layer  = cell;
+    for (unsigned int v = 0; v < cell.size(); ++v)
+      if (((v & across) != 0) == (face % 2 == 1))
+        {
+          const Tensor<1, dim> edge = cell[v] - cell[v ^ across];
+          layer[v ^ across]         = cell[v];
+          layer[v] += thickness / edge.norm() * edge;
+        }
+    return layer;
+  }
+
+
+
+  template <int dim>
   void
   evaluate_shapes(const GridSpace<dim> &space,
                   const unsigned int    active_cell_index,
@@ -179,6 +199,9 @@ namespace moraine
     const GridSpace<dim>::CellIterator &,                                     \
     const Point<dim> &,                                                       \
     const double);                                                            \
+  template CellVertices<dim> layer_beyond(const unsigned int,                 \
+                                          const CellVertices<dim> &,          \
+                                          const double);                      \
   template double distance_to_cell<dim>(const GridSpace<dim>::CellIterator &, \
                                         const Point<dim> &);                  \
   template void   evaluate_shapes(const GridSpace<dim> &,                     \

@@ -220,6 +220,24 @@ namespace moraine
 
 
 
+    /** A mesh may end at an axis of symmetry, but nothing is dropped without a
+     * word. */
+    template <int dim>
+    void
+    tell_of_loads_outside(const Model<dim>         &model,
+                          std::vector<std::string> &notes)
+    {
+      for (const auto &load : model.loads.carried)
+        if (load.share_outside() > 0.01)
+          notes.push_back(
+            "load " + load.name() + ": " +
+            std::to_string(std::lround(100 * load.share_outside())) +
+            " % of its surface is outside the mesh, where it does "
+            "not act");
+    }
+
+
+
     /** Aim at the end of the first step of a stage: nodes that are held get
      * the velocity and the acceleration that conditions prescribe. */
     template <int dim>
@@ -412,6 +430,7 @@ namespace moraine
     check_prescribed_motion(stage, model, notes);
     check_displacements_at_start(scene, model);
     check_loads(stage, model, notes);
+    tell_of_loads_outside(model, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_thin_bodies(model, {}, notes);
     tell_of_near_bodies(model, {}, notes);

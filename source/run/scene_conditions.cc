@@ -361,11 +361,14 @@ namespace moraine
              mesh.boundary_id(parameters.side, place(section, "Side")),
              value});
         else if (parameters.type == "surface traction")
-          loads.carried.emplace_back(
-            name,
-            value,
-            places_on(*make_surface<dim>(parameters.surface, shapes, section),
-                      mesh));
+          {
+            const SurfacePointer<dim> surface =
+              make_surface<dim>(parameters.surface, shapes, section);
+            loads.carried.emplace_back(name,
+                                       value,
+                                       places_on(*surface, mesh),
+                                       share_outside(*surface, mesh));
+          }
         else
           {
             const Point<dim> at =

@@ -50,6 +50,10 @@ refused("force on points that are split", {
     "Loads/weight/Location": "4, 4"})
 refused("traction on a side away from the body", {
     "Loads/weight/Type": "side traction", "Loads/weight/Side": "top"})
+refused("traction on a surface outside the mesh", {
+    "Loads/weight/Type": "surface traction", "Loads/weight/Points": "4 9; 1 9"})
+refused("traction on a surface away from the body", {
+    "Loads/weight/Type": "surface traction", "Loads/weight/Points": "7 1; 7 4"})
 refused("probe away from the body", {"Probes/tip/Location": "7.5, 7.5"})
 refused("interpolated probe beside the body", {
     "Probes/tip/Location": "6, 1", "Probes/tip/Kind": "interpolated",

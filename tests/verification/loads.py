@@ -75,3 +75,58 @@ bound("line in cells, moved side: r_u", result.errors["r_u"], 1e-12)
 bound("line in cells, moved side: l2_sigma", result.errors["l2_sigma"], 1e-12)
 bound("line in cells, moved side: base reaction - 480",
       result.reactions["base"][1] - 480, 1e-8)
+
+# A surface that ends the mesh, drawn either way and off by round-off, and an arc
+# whose chords end the mesh.
+at_side = {**without(["push", "nail", "drag", "weight", "side"]),
+           "Loads/top/Value": "0; -8", "Mesh/Upper corner": "60, 60"}
+for points in ("60 60; 0 60", "0 60; 60 60", "60 60+1e-12; 0 60+1e-12"):
+    result = run(SCENE, {**at_side, "Loads/top/Points": points})
+    bound(f"side of the mesh, {points}: base reaction - 480",
+          result.reactions["base"][1] - 480, 1e-8)
+half = run(SCENE, {**at_side, "Loads/top/Points": "60 90; 30 60; 0 60"})
+bound("half of it outside the mesh: base reaction - 240",
+      half.reactions["base"][1] - 240, 1e-8)
+text("  note", "load top: 56 % of its surface is outside" in half.output)
+
+ARC = """
+subsection Mesh
+  set Type = generator
+  set Generator = hyper_shell
+  set Arguments = 0, 0 : 5 : 10 : 12 : true
+  set Refinements = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection solid
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection ring
+    set Shape = mesh
+  end
+end
+subsection Grid conditions
+  subsection inside
+    set Side = 0
+  end
+end
+subsection Loads
+  subsection pull
+    set Type = surface traction
+    set Surface = circle
+    set Centre = 0, 0
+    set Radius = 10
+    set Body side = inside
+    set Value = 1; 0
+  end
+end
+"""
+scene = folder / "arc.prm"
+scene.write_text(ARC)
+bound("arc: reaction over its length + 1",
+      run(scene).reactions["inside"][0] / 62.8319 + 1, 0.01)

@@ -101,10 +101,25 @@ namespace moraine
     std::vector<Place> next; ///< if the trial is accepted
   };
 
-  /** The places of a surface in a mesh, the same on all ranks. */
+  /**
+   * The places of a surface in a mesh, the same on all ranks. What runs along a
+   * side of the mesh, and beyond it by no more than a tenth of a cell, is in
+   * it.
+   */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
+
+  /**
+   * The part of the area of a surface that is outside of a mesh by more than a
+   * tenth of a cell, roughly; 0 for one without ends.
+   *
+   * @param surface any
+   * @param mesh the whole of it
+   */
+  template <int dim>
+  double
+  share_outside(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
 
   /** The places of a side of a mesh, the same on all ranks. */
   template <int dim>

@@ -55,14 +55,16 @@ namespace moraine
   public:
     using Place = typename CarriedPlaces<dim>::Place;
 
+    /** @p share_outside: the part of its surface that is outside the mesh. */
     CarriedLoad(const std::string         &name,
                 const VectorFunction<dim> &value,
-                std::vector<Place>         places);
+                std::vector<Place>         places,
+                const double               share_outside = 0.);
 
     /**
      * Find the cells of the places.
-     * @throws InputError naming the load if a place is not on the material the
-     * first time, ComputationError later.
+     * @throws InputError naming the load if there are none or one is not on the
+     * material the first time, ComputationError later.
      */
     void
     find_cells(const GridSpace<dim> &space, const double search_tolerance);
@@ -106,6 +108,13 @@ namespace moraine
       return load_name;
     }
 
+    /** The part of its surface that is outside the mesh. */
+    double
+    share_outside() const
+    {
+      return outside;
+    }
+
     /** Whether it is one force at one place. */
     bool
     is_single() const
@@ -117,6 +126,7 @@ namespace moraine
     const std::string         load_name;
     const VectorFunction<dim> function;
     CarriedPlaces<dim>        carried;
+    double                    outside;
     bool                      placed = false;
   };
 

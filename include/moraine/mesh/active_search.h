@@ -28,6 +28,13 @@ namespace moraine
   distance_to_cell(const typename GridSpace<dim>::CellIterator &cell,
                    const dealii::Point<dim>                    &x);
 
+  /** What lies beyond a face of a cell, by no more than @p thickness. */
+  template <int dim>
+  CellVertices<dim>
+  layer_beyond(const unsigned int       face,
+               const CellVertices<dim> &cell,
+               const double             thickness);
+
   /**
    * Shape functions of an active cell this rank knows at the place @p x, also
    * outside of the cell. Arrays hold space.nodes_per_cell() entries.
