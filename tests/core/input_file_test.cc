@@ -82,6 +82,12 @@ namespace
                            "end\n";
 } // namespace
 
+TEST(InputFile, SkipsAByteOrderMark)
+{
+  const std::string text = "\xef\xbb\xbf" + good;
+  EXPECT_EQ(parse(InputFile::from_text("f.prm", text)).method, "MPM");
+}
+
 TEST(InputFile, ReadsAGoodFile)
 {
   const InputFile file  = InputFile::from_text("f.prm", good);
