@@ -162,9 +162,12 @@ namespace moraine
 
   template <int dim>
   void
-  StepChecks<dim>::stage_begins(const bool bodies_change)
+  StepChecks<dim>::stage_begins(const bool bodies_change,
+                                const bool motion_starts)
   {
     holds.stage_begins();
+    if (motion_starts)
+      energy.motion_starts();
     if (!bodies_change)
       return;
     n_parts.clear();
@@ -230,7 +233,8 @@ namespace moraine
     found.push_back(moved_far(t));
     if (!time.between_parts())
       found.push_back(energy_made(t));
-    if (model.motion)
+    // Works are of dynamics alone.
+    if (model.system->step_context().motion)
       {
         double work_of_motions = 0;
         for (const BoundaryReport<dim> &report : reports)

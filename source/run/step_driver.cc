@@ -176,7 +176,9 @@ namespace moraine
       if (!contains(parameters.bodies, body))
         text << ", without " << body;
     tell(text.str());
-    checks.stage_begins(parameters.bodies != before.bodies);
+    checks.stage_begins(parameters.bodies != before.bodies,
+                        parameters.time.integrator.dynamic() &&
+                          !before.time.integrator.dynamic());
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction);

@@ -110,6 +110,23 @@ namespace moraine
 
 
 
+  /** Boundaries that moved in a stage before this motion did so in works that
+   * are counted no more. */
+  TEST(EnergyWatch, motion_starts_with_what_is_stored)
+  {
+    EnergyWatch watch(0);
+    watch.count(works_of(1, -100), -100, 1);
+    EXPECT_EQ(watch.warning(), "");
+    watch.motion_starts();
+    watch.count(works_of(0), 0, 2);
+    EXPECT_EQ(watch.warning(), "");
+    EXPECT_EQ(watch.failure(), "");
+    watch.count(works_of(401), 0, 3);
+    EXPECT_TRUE(says(watch, "no more than 4;"));
+  }
+
+
+
   TEST(EnergyWatch, says_who_made_the_energy)
   {
     EnergyWatch integrator(0), transfer(0);

@@ -34,10 +34,18 @@ namespace moraine
     explicit EnergyWatch(const double       round_off,
                          const std::string &remedies = "");
 
-    /** Take the sums of @p works up to time @p t and, of the step that ended
-     * there, @p work_of_motions, by boundaries in their prescribed motion. */
+    /** Take the sums of @p works in dynamics up to time @p t and, of the step
+     * that ended there, @p work_of_motions, by boundaries in their prescribed
+     * motion. */
     void
     count(const Works &works, const double work_of_motions, const double t);
+
+    /** Works are counted anew from here: what was done before is stored. */
+    void
+    motion_starts()
+    {
+      given = moved = 0;
+    }
 
     /** Bodies come with energy, or go. */
     void

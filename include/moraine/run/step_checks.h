@@ -27,9 +27,9 @@ namespace moraine
     StepChecks(const Scene<dim> &scene, const Model<dim> &model);
 
     /** @p bodies_change: they come or go, so that what hangs together is
-     * counted anew. */
+     * counted anew. @p motion_starts: so that works are. */
     void
-    stage_begins(const bool bodies_change);
+    stage_begins(const bool bodies_change, const bool motion_starts);
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
