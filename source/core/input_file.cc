@@ -269,11 +269,7 @@ namespace moraine
     InputFile file;
     file.file_name = name;
 
-    // Some editors begin UTF-8 with a byte order mark, which nobody sees.
-    const std::string  mark = "\xef\xbb\xbf";
-    std::istringstream stream(text.compare(0, mark.size(), mark) == 0 ?
-                                text.substr(mark.size()) :
-                                text);
+    std::istringstream stream(without_mark(text));
     std::string        line;
     bool               continued = false;
     for (unsigned int number = 1; std::getline(stream, line); ++number)

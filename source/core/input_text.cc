@@ -58,6 +58,16 @@ namespace moraine
 
 
 
+  std::string
+  without_mark(const std::string &text)
+  {
+    const std::string mark = "\xef\xbb\xbf";
+    return text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size()) :
+                                                     text;
+  }
+
+
+
   void
   check_text(const std::string &statement, const std::string &origin)
   {

@@ -12,6 +12,7 @@
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
+#include <moraine/run/scene_mesh_motion.h>
 
 #include <algorithm>
 #include <cmath>

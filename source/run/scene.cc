@@ -18,39 +18,6 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  void
-  BodyParameters<dim>::add_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Material",
-                      material,
-                      "Name of its material; may be left out if there is one "
-                      "only, or if other bodies are combined from it.");
-    prm.add_parameter("Point grid",
-                      point_grid,
-                      "Of a box: its points are the middles of this many equal "
-                      "parts in each direction of the box, turned and moved "
-                      "with it, whatever the cells of the mesh are. If left "
-                      "out, each cell is divided (section 'Method').",
-                      patterns::positive_integers(0, dim));
-    prm.add_parameter("Aggregate below",
-                      aggregate_below,
-                      "That of section 'Method' for cells with points of this "
-                      "body, if it is another one. Of bodies in one cell the "
-                      "least counts.",
-                      Patterns::List(Patterns::Double(0., 1.), 0, 1));
-    prm.add_parameter("Initial velocity",
-                      initial_velocity,
-                      "In dynamics: of its points at the start, an expression "
-                      "of x for each component, separated by semicolons (t is "
-                      "'Start time' in it). If left out, the body is at rest.");
-    initial_stress.add_parameters(prm, dim);
-    damping.add_parameters(prm);
-    shape.add_parameters(prm);
-  }
-
-
-
-  template <int dim>
   Point<dim>
   point_from(const std::vector<double> &numbers, const std::string &place)
   {
@@ -582,8 +549,6 @@ namespace moraine
 
 
 
-  template struct BodyParameters<2>;
-  template struct BodyParameters<3>;
   template Point<2>
   point_from(const std::vector<double> &, const std::string &);
   template Point<3>

@@ -10,6 +10,11 @@
 
 namespace moraine
 {
+  /** The @p text of a file without the byte order mark that some editors begin
+   * UTF-8 with, and which nobody sees. */
+  std::string
+  without_mark(const std::string &text);
+
   /**
    * A line of an input file from which comments are cut off.
    * @throw InputError, beginning with @p origin, for bytes that are no text in

@@ -5,7 +5,6 @@
 #define moraine_run_scene_conditions_h
 
 #include <moraine/boundary/absorbing_boundary.h>
-#include <moraine/boundary/mesh_motion.h>
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
@@ -47,26 +46,6 @@ namespace moraine
                                        const dealii::Point<dim> &x)>
   initial_velocity(const Scene<dim>               &scene,
                    const std::vector<std::string> &body_names);
-
-  /** Section `Mesh motion`; none if it is empty. */
-  template <int dim>
-  MeshMotion<dim>
-  make_mesh_motion(const Scene<dim>                         &scene,
-                   const BackgroundMesh<dim>                &mesh,
-                   const std::vector<ImplicitBoundary<dim>> &boundaries,
-                   const std::vector<GridCondition<dim>>    &conditions);
-
-  /**
-   * That no side of the mesh leaves material behind that a grid condition holds
-   * there: normal to the side, the mesh and the condition move alike.
-   * @throws InputError naming the condition.
-   */
-  template <int dim>
-  void
-  check_mesh_motion(const MeshMotion<dim>                 &motion,
-                    const TimeParameters                  &time,
-                    const BackgroundMesh<dim>             &mesh,
-                    const std::vector<GridCondition<dim>> &conditions);
 } // namespace moraine
 
 #endif
