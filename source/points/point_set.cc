@@ -198,6 +198,21 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<double>
+  PointSet<dim>::volumes_in_cells() const
+  {
+    const auto         &tria = background.triangulation();
+    std::vector<double> volumes(tria.n_active_cells(), 0.);
+    for (const CellPoints &in_cell : cell_points)
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        volumes[in_cell.cell->active_cell_index()] += volume(p);
+    Utilities::MPI::sum(volumes, tria.get_communicator(), volumes);
+    return volumes;
+  }
+
+
+
+  template <int dim>
   typename PointSet<dim>::CellIterator
   PointSet<dim>::cell_of(const unsigned int p) const
   {

@@ -164,14 +164,10 @@ namespace moraine
     std::vector<bool>
     partly_filled_cells(const Model<dim> &model)
     {
-      const auto         &tria = model.mesh->triangulation();
-      std::vector<double> filled(tria.n_active_cells(), 0.);
-      for (const auto &in_cell : model.points->cells())
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          filled[in_cell.cell->active_cell_index()] += model.points->volume(p);
-      Utilities::MPI::sum(filled, tria.get_communicator(), filled);
-      std::vector<bool> partly(filled.size());
-      for (const auto &cell : tria.active_cell_iterators())
+      const std::vector<double> filled = model.points->volumes_in_cells();
+      std::vector<bool>         partly(filled.size());
+      for (const auto &cell :
+           model.mesh->triangulation().active_cell_iterators())
         partly[cell->active_cell_index()] =
           filled[cell->active_cell_index()] < 0.9 * cell->measure();
       return partly;

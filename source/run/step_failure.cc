@@ -53,13 +53,10 @@ namespace moraine
                 const PointSet<dim>           &points,
                 const types::global_dof_index &node_dof)
     {
-      const auto         &tria = space.mesh().triangulation();
-      std::vector<double> filled(tria.n_active_cells(), 0.);
-      for (const auto &in_cell : points.cells())
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          filled[in_cell.cell->active_cell_index()] += points.volume(p);
-      double volume = 0, sum = 0;
-      for (const auto &cell : tria.active_cell_iterators())
+      const std::vector<double> filled = points.volumes_in_cells();
+      double                    volume = 0, sum = 0;
+      for (const auto &cell :
+           space.mesh().triangulation().active_cell_iterators())
         if (cell->is_locally_owned() && space.is_active(cell))
           for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
             if (space.node_dof(space.cell_nodes(cell)[a]) == node_dof)

@@ -162,6 +162,11 @@ namespace moraine
       return cell_points;
     }
 
+    /** What the points of all ranks fill of each cell, by active_cell_index().
+     * Collective. */
+    std::vector<double>
+    volumes_in_cells() const;
+
     /** The cell the point was in when cells were searched last. */
     CellIterator
     cell_of(const unsigned int p) const;
