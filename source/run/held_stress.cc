@@ -4,8 +4,8 @@
 #include <moraine/run/held_stress.h>
 
 #include <moraine/core/words.h>
+#include <moraine/points/linear_fit.h>
 
-#include <array>
 #include <vector>
 
 namespace moraine
@@ -20,71 +20,28 @@ namespace moraine
 
 
 
-    /** Stress in a cell as a linear function of place. */
+    /** Stress in a cell, its components in the space of the mesh. Places are
+     * seen from the middle of the cell, which may be far from the origin. */
     template <int dim>
-    class LinearStress
+    LinearFit<dim, SymmetricTensor<2, dim>>
+    fit_stress(const PointSet<dim>                      &points,
+               const typename PointSet<dim>::CellPoints &in_cell)
     {
-    public:
-      LinearStress(const PointSet<dim>                      &points,
-                   const typename PointSet<dim>::CellPoints &in_cell)
-      {
-        double volume = 0;
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          {
-            const double v = points.volume(p);
-            volume += v;
-            place += v * points.position(p);
-            mean += v * stress(points, p);
-          }
-        place /= volume;
-        mean /= volume;
-        SymmetricTensor<2, dim> spread;
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          {
-            const Tensor<1, dim> away = points.position(p) - place;
-            spread +=
-              points.volume(p) / volume * symmetrize(outer_product(away, away));
-          }
-        const double h = in_cell.cell->minimum_vertex_distance();
-        for (const auto &[square, direction] : eigenvectors(spread))
-          if (square > least_spread * h * h)
-            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-              {
-                const double away = (points.position(p) - place) * direction;
-                const double part = points.volume(p) / volume * away / square;
-                for (unsigned int d = 0; d < dim; ++d)
-                  gradient[d] +=
-                    part * direction[d] * (stress(points, p) - mean);
-              }
-      }
-
-      SymmetricTensor<2, dim>
-      at(const Point<dim> &x) const
-      {
-        SymmetricTensor<2, dim> value = mean;
-        for (unsigned int d = 0; d < dim; ++d)
-          value += (x[d] - place[d]) * gradient[d];
-        return value;
-      }
-
-    private:
-      /** Its components in the space of the mesh. */
-      static SymmetricTensor<2, dim>
-      stress(const PointSet<dim> &points, const unsigned int p)
-      {
-        const SymmetricTensor<2, 3> sigma =
-          points.stress_field()(points.values(p));
-        SymmetricTensor<2, dim> in_plane;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = i; j < dim; ++j)
-            in_plane[i][j] = sigma[i][j];
-        return in_plane;
-      }
-
-      Point<dim>                               place; ///< of the mean
-      SymmetricTensor<2, dim>                  mean;
-      std::array<SymmetricTensor<2, dim>, dim> gradient;
-    };
+      const Point<dim> middle = in_cell.cell->center();
+      const double     h      = in_cell.cell->minimum_vertex_distance();
+      return {points,
+              in_cell,
+              [&](const unsigned int p) { return points.position(p) - middle; },
+              [&](const unsigned int p) {
+                const auto sigma = points.stress_field()(points.values(p));
+                SymmetricTensor<2, dim> in_space;
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = i; j < dim; ++j)
+                    in_space[i][j] = sigma[i][j];
+                return in_space;
+              },
+              least_spread * h * h};
+    }
 
 
 
@@ -104,12 +61,13 @@ namespace moraine
           const auto &here = places[in_cell.cell->active_cell_index()];
           if (here.empty())
             continue;
-          const LinearStress<dim> stress(points, in_cell);
+          const auto stress = fit_stress(points, in_cell);
           for (const unsigned int q : here)
             {
               const BoundaryPoint<dim> &point = boundary.points()[q];
-              tractions[q] = boundary.projection(point.normal) *
-                             (stress.at(point.x) * point.normal);
+              tractions[q] =
+                boundary.projection(point.normal) *
+                (stress.at(point.x - in_cell.cell->center()) * point.normal);
             }
         }
       return tractions;

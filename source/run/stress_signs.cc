@@ -3,6 +3,8 @@
 
 #include <moraine/run/stress_signs.h>
 
+#include <moraine/points/linear_fit.h>
+
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
@@ -71,48 +73,30 @@ namespace moraine
 
 
     template <int dim>
-    double
-    mean_stress(const PointSet<dim> &points, const unsigned int p)
-    {
-      return trace(points.stress_field()(points.values(p))) / 3;
-    }
-
-
-
-    template <int dim>
     Fit<dim>
     fit_mean_stress(const PointSet<dim>                      &points,
                     const typename PointSet<dim>::CellPoints &in_cell)
     {
-      Fit<dim>       fit;
-      Tensor<1, dim> place;
-      double         stress = 0;
       for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-        {
-          if (points.body(p) != points.body(in_cell.first))
-            return {};
-          const double v = points.volume(p);
-          fit.volume += v;
-          place += v * (points.reference_position(p) - Fit<dim>::unit_middle());
-          stress += v * mean_stress(points, p);
-        }
-      place /= fit.volume;
-      stress /= fit.volume;
-      SymmetricTensor<2, dim> spread;
-      Tensor<1, dim>          product;
-      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-        {
-          const double         part = points.volume(p) / fit.volume;
-          const Tensor<1, dim> away =
-            points.reference_position(p) - Fit<dim>::unit_middle() - place;
-          spread += part * symmetrize(outer_product(away, away));
-          product += part * (mean_stress(points, p) - stress) * away;
-        }
-      // deal.II's eigenvalues() take round-off of equal ones for complex.
-      if (eigenvectors(spread)[dim - 1].first < least_spread)
+        if (points.body(p) != points.body(in_cell.first))
+          return {};
+      const LinearFit<dim, double> linear(
+        points,
+        in_cell,
+        [&](const unsigned int p) {
+          return points.reference_position(p) - Fit<dim>::unit_middle();
+        },
+        [&](const unsigned int p) {
+          return trace(points.stress_field()(points.values(p))) / 3;
+        },
+        least_spread);
+      if (!linear.is_complete())
         return {};
-      fit.gradient = invert(spread) * product;
-      fit.middle   = stress - fit.gradient * place;
+      Fit<dim> fit;
+      fit.volume = linear.volume();
+      fit.middle = linear.at(Tensor<1, dim>());
+      for (unsigned int d = 0; d < dim; ++d)
+        fit.gradient[d] = linear.gradient()[d];
       return fit;
     }
 
