@@ -22,6 +22,7 @@ namespace moraine
     /** Of a cell: by then the force on a pressed column is 3 % too small. */
     constexpr double told_push = 0.25;
 
+    /** What helps if the material must not be lost. */
     const std::string of_nodes =
       "nodes that 'Mesh motion' moves go along, and so "
       "does a boundary with 'Translation'";
@@ -80,27 +81,22 @@ namespace moraine
       if (contains(stage.boundaries, boundary.name()) &&
           !contains(stage.absorbing, boundary.name()))
         for (const auto &[name, parameters] : scene.boundaries)
-          if (name == boundary.name())
-            found.push_back(
-              compare("Boundaries/" + name,
-                      boundary.n_points(communicator),
-                      t,
-                      parameters.displacement.empty() ? "" : of_surfaces));
+          if (name == boundary.name() && !parameters.displacement.empty())
+            check_that_some_is_left("Boundaries/" + name,
+                                    boundary.n_points(communicator),
+                                    t,
+                                    of_surfaces);
     for (unsigned int c = 0; c < conditions.size(); ++c)
       {
         found.push_back(pushed_off(c, stage, t));
         const std::string section = "Grid conditions/" + conditions[c].name;
-        found.push_back(compare(
-          section, n_nodes[c], t, told.count(section) > 0 ? of_nodes : ""));
+        if (told.count(section) > 0)
+          check_that_some_is_left(section, n_nodes[c], t, of_nodes);
       }
     for (unsigned int l = 0; l < n_faces.size(); ++l)
-      found.push_back(
-        compare("Loads/" + model.loads.side_tractions[l].name,
-                n_faces[l],
-                t,
-                contains(stage.loads, model.loads.side_tractions[l].name) ?
-                  of_sides :
-                  ""));
+      if (const std::string &name = model.loads.side_tractions[l].name;
+          contains(stage.loads, name))
+        found.push_back(fewer_faces("Loads/" + name, n_faces[l], t));
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;
   }
@@ -111,21 +107,34 @@ namespace moraine
   void
   HoldWatch<dim>::count(const StageParameters &stage, const double t)
   {
-    counted = true;
     conditions.clear();
     for (const auto &condition : model.grid_conditions)
       if (contains(stage.grid_conditions, condition.name) &&
           !contains(stage.absorbing, condition.name))
         conditions.push_back(condition);
-    prescribed = find_prescribed_nodes(conditions, *model.space, t);
+    std::vector<std::vector<HeldPlace>> now(conditions.size());
     n_nodes.assign(conditions.size(), 0);
-    for (const auto &entry : prescribed.entries)
-      ++n_nodes[entry.condition];
+    for (const auto &entry :
+         find_prescribed_nodes(conditions, *model.space, t).entries)
+      {
+        now[entry.condition].push_back(
+          {model.space->node_position(entry.node), entry.component});
+        ++n_nodes[entry.condition];
+      }
     Utilities::MPI::sum(n_nodes, model.space->communicator(), n_nodes);
+    held.resize(conditions.size());
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      {
+        unsigned int &largest = most["Grid conditions/" + conditions[c].name];
+        if (!counted || n_nodes[c] >= largest)
+          held[c] = now[c];
+        largest = std::max(largest, n_nodes[c]);
+      }
     n_faces.clear();
     for (const auto &traction : model.loads.side_tractions)
       n_faces.push_back(
         contains(stage.loads, traction.name) ? n_faces_of(traction, model) : 0);
+    counted = true;
   }
 
 
@@ -144,15 +153,12 @@ namespace moraine
     // Along a side of a box other material comes.
     const bool of_box  = condition.side && model.mesh->box_grid();
     double     largest = 0;
-    for (const auto &entry : prescribed.entries)
-      if (entry.condition == c &&
-          (!of_box || entry.component == *condition.side / 2))
-        largest =
-          std::max(largest,
-                   std::abs(
-                     condition.increment(model.space->node_position(entry.node),
-                                         stage.time.start_time,
-                                         t)[entry.component]));
+    for (const HeldPlace &place : held[c])
+      if (!of_box || place.component == *condition.side / 2)
+        largest = std::max(largest,
+                           std::abs(condition.increment(place.x,
+                                                        stage.time.start_time,
+                                                        t)[place.component]));
     largest = Utilities::MPI::max(largest, model.space->communicator()) /
               model.mesh->cell_size();
     if (!(largest > told_push))
@@ -170,28 +176,38 @@ namespace moraine
 
 
   template <int dim>
-  std::string
-  HoldWatch<dim>::compare(const std::string &section,
-                          const unsigned int n,
-                          const double       t,
-                          const std::string &remedy)
+  unsigned int
+  HoldWatch<dim>::check_that_some_is_left(const std::string &section,
+                                          const unsigned int n,
+                                          const double       t,
+                                          const std::string &remedy)
   {
-    const unsigned int before = most[section];
-    most[section]             = std::max(before, n);
-    if (n >= before || remedy.empty())
+    unsigned int &largest = most[section];
+    largest               = std::max(largest, n);
+    if (n > 0 || largest == 0)
+      return largest;
+    std::ostringstream text;
+    text << "section '" << section << "': by t = " << t
+         << " no material is left where it acts; " << remedy;
+    throw ComputationError(text.str());
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::fewer_faces(const std::string &section,
+                              const unsigned int n,
+                              const double       t)
+  {
+    const unsigned int largest =
+      check_that_some_is_left(section, n, t, of_sides);
+    if (n == largest || !told.insert(section).second)
       return "";
     std::ostringstream text;
-    text << "section '" << section << "': ";
-    if (n == 0)
-      {
-        text << "by t = " << t << " no material is left where it acts; "
-             << remedy;
-        throw ComputationError(text.str());
-      }
-    if (remedy != of_sides || !told.insert(section).second)
-      return "";
-    text << "by t = " << t << " only " << n << " of " << before
-         << " faces of cells are beside material and pushed on; " << remedy;
+    text << "section '" << section << "': by t = " << t << " only " << n
+         << " of " << largest
+         << " faces of cells are beside material and pushed on; " << of_sides;
     return text.str();
   }
 

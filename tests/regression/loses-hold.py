@@ -94,6 +94,8 @@ for method in ("GIMP", "material point", "CPDI1"):
     # Domains that are stretched still touch the nodes.
     show(f"nodes, {method}", {"Method/Method": method},
          expect=0 if method == "CPDI1" else 1)
+# All nodes may be lost in one step.
+show("nodes, two steps", {"Time/Steps": 2})
 STRETCH = {"Mesh motion/Stretch between": "base, top"}
 for name, settings in (("nodes, FE", {"Method/Method": "finite element"}),
                        ("nodes that go along", STRETCH),

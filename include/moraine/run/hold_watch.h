@@ -46,6 +46,13 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
+    /** A component that a condition prescribes at a node. */
+    struct HeldPlace
+    {
+      dealii::Point<dim> x;
+      unsigned int       component;
+    };
+
     /** Find anew what grid conditions hold and side tractions push. */
     void
     count(const StageParameters &stage, const double t);
@@ -56,22 +63,34 @@ namespace moraine
                const StageParameters &stage,
                const double           t);
 
-    /** Compare @p n pieces of what is held with the most so far.
+    /**
+     * Compare @p n pieces of what is held by @p t with the most so far.
      * @param section of the input that says what acts
-     * @param remedy what helps if it must not lose the material; empty if it
-     * may */
-    std::string
-    compare(const std::string &section,
-            const unsigned int n,
-            const double       t,
-            const std::string &remedy);
+     * @param remedy what helps
+     * @return the most
+     * @throws ComputationError if there were some and none is left.
+     */
+    unsigned int
+    check_that_some_is_left(const std::string &section,
+                            const unsigned int n,
+                            const double       t,
+                            const std::string &remedy);
 
-    const Scene<dim>                   &scene;
-    const Model<dim>                   &model;
-    std::vector<GridCondition<dim>>     conditions; ///< that act
-    PrescribedNodes<dim>                prescribed; ///< by them
-    std::vector<unsigned int>           n_nodes;    ///< of each
-    std::vector<unsigned int>           n_faces;    ///< of each side traction
+    /** The same of the faces that a load pushes on; that some are lost, or "".
+     */
+    std::string
+    fewer_faces(const std::string &section,
+                const unsigned int n,
+                const double       t);
+
+    const Scene<dim>               &scene;
+    const Model<dim>               &model;
+    std::vector<GridCondition<dim>> conditions; ///< that act
+    /** Of each, on this rank, when it held most: nodes may all be lost in one
+     * step. */
+    std::vector<std::vector<HeldPlace>> held;
+    std::vector<unsigned int>           n_nodes; ///< of each, by now
+    std::vector<unsigned int>           n_faces; ///< of each side traction
     bool                                counted = false;
     std::map<std::string, unsigned int> most; ///< pieces, by section
     std::set<std::string>               told;
