@@ -362,8 +362,11 @@ namespace moraine
               std::max(differ, of[2 * (dim + d)] + of[2 * (dim + d) + 1]);
           }
         const bool moved = of[4 * dim] > size && !scene.is_dynamic();
-        if (!(moved || differ > told_difference * size) ||
-            !far.insert(b).second)
+        // Who lets nothing move wants what is linear.
+        const bool parted =
+          differ > told_difference * size &&
+          model.state->mesh_after_step() != MeshAfterStep::keep;
+        if (!(moved || parted) || !far.insert(b).second)
           continue;
         std::ostringstream text;
         text << "body '" << model.body_names[b] << "': by t = " << t

@@ -24,6 +24,9 @@ namespace moraine
     /** Of shear moduli: a soft and a stiff body. */
     constexpr double contrast = 10;
 
+    /** Of the volume of a soft body: what does not give way is told of. */
+    constexpr double told_share_of_soft = 0.05;
+
 
 
     /** What part of each active cell every body fills; the same on all ranks.
@@ -51,11 +54,6 @@ namespace moraine
         }
       return parts;
     }
-
-
-
-    /** Of the volume of a soft body: what does not give way is told of. */
-    constexpr double told_share_of_soft = 0.05;
 
 
 

@@ -80,8 +80,8 @@ namespace moraine
     points_apart(const double t);
 
     /** That the material of a body moved by more than its size, or parts of it
-     * by much of it against each other, for all that small strain knows of it.
-     * In dynamics what flies as a whole is right. */
+     * by much of it against each other where they do move, for all that small
+     * strain knows of it. In dynamics what flies as a whole is right. */
     std::string
     moved_far(const double t);
 
