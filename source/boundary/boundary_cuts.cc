@@ -67,13 +67,10 @@ namespace moraine
 
 
 
-    /** The vertices of an active cell where its nodes are now, or were in the
-     * mesh as it was built. */
+    /** The vertices of an active cell where its nodes are now. */
     template <int dim>
     CellVertices<dim>
-    present_vertices(const GridSpace<dim> &space,
-                     const unsigned int    cell,
-                     const bool            as_built = false)
+    present_vertices(const GridSpace<dim> &space, const unsigned int cell)
     {
       const unsigned int *nodes = space.cell_nodes(cell);
       const unsigned int  k     = space.degree();
@@ -84,8 +81,6 @@ namespace moraine
           for (unsigned int d = 0; d < dim; ++d, stride *= k + 1)
             node += ((v >> d) & 1) * k * stride;
           vertices[v] = space.node_position(nodes[node]);
-          if (as_built)
-            vertices[v] -= space.node_move(nodes[node]);
         }
       return vertices;
     }
@@ -186,10 +181,8 @@ namespace moraine
         const BoundaryPoint<dim> &point = boundary_points[q];
         if (means.empty() || means.back().cell != point.cell)
           {
-            first = means.size();
-            // What was along faces stays held at its places when the mesh bends
-            // a little: a mean cannot take over what they carry.
-            vertices = present_vertices(space, point.cell, !motion.turns());
+            first    = means.size();
+            vertices = present_vertices(space, point.cell);
           }
         const bool along = is_along_faces(vertices, point.normal);
         const auto same =
