@@ -295,6 +295,20 @@ namespace moraine
 
 
   template <int dim>
+  double
+  MechanicsSystem<dim>::displacement_scale() const
+  {
+    double scale = state.strain_measure() == StrainMeasure::finite ?
+                     state.grid().mesh().cell_size() :
+                     0.;
+    for (const auto &term : terms)
+      scale = std::max(scale, term->rounded_length());
+    return scale;
+  }
+
+
+
+  template <int dim>
   bool
   MechanicsSystem<dim>::symmetric() const
   {

@@ -93,6 +93,12 @@ namespace moraine
     if (kind.holds_means)
       take_means(space);
     number_points();
+    largest_coordinate = 0;
+    for (const auto &point : boundary_points)
+      largest_coordinate =
+        std::max(largest_coordinate, coordinate_magnitude(point.x));
+    largest_coordinate =
+      Utilities::MPI::max(largest_coordinate, space.communicator());
     take_over_nearest(space.communicator());
     kept_at_points = false;
     placed = has_pieces = true;

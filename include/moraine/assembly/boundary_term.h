@@ -64,6 +64,12 @@ namespace moraine
     symmetric(const StepContext<dim> &context) const override;
 
     double
+    rounded_length() const override
+    {
+      return boundary.rounded_length();
+    }
+
+    double
     violation(const StepContext<dim> &context) const override;
 
     void

@@ -220,12 +220,7 @@ namespace moraine
     }
 
     double
-    displacement_scale() const override
-    {
-      return state.strain_measure() == StrainMeasure::finite ?
-               state.grid().mesh().cell_size() :
-               0.;
-    }
+    displacement_scale() const override;
 
     bool
     symmetric() const override;

@@ -138,6 +138,15 @@ namespace moraine
       return true;
     }
 
+    /** A length that is lost in rounding when it is divided by 1e16, however
+     * small the increments are; zero if there is none. The same on all ranks.
+     */
+    virtual double
+    rounded_length() const
+    {
+      return 0.;
+    }
+
     /** The largest violation on this rank of what augment() enforces. */
     virtual double
     violation(const StepContext<dim> &) const

@@ -267,6 +267,14 @@ namespace moraine
       return limit;
     }
 
+    /** The largest coordinate of a place that is to end on a curve: violations
+     * are sums of these. Else zero. */
+    double
+    rounded_length() const
+    {
+      return kind.projects ? largest_coordinate : 0.;
+    }
+
     /** Number of points over all ranks. Collective. */
     unsigned int
     n_points(const MPI_Comm &communicator) const;
@@ -364,6 +372,7 @@ namespace moraine
     bool                            placed     = false;
     bool                            has_pieces = false;
     Kind                            kind;
+    double                          largest_coordinate = 0; ///< of points
     std::vector<CarriedPlace<dim>>  carried;
     std::vector<CarriedPlace<dim>>  prepared;
     bool                            kept_at_points = false;
