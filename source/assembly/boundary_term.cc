@@ -255,25 +255,25 @@ namespace moraine
 
   template <int dim>
   void
-  BoundaryTerm<dim>::evaluate(const StepContext<dim>      &context,
-                              std::vector<Tensor<1, dim>> &tractions,
-                              std::vector<Tensor<1, dim>> &violations) const
+  BoundaryTerm<dim>::evaluate(const StepContext<dim>            &context,
+                              std::vector<Tensor<1, dim>>       &tractions,
+                              std::vector<ConstraintState<dim>> &states) const
   {
     const auto        &points = boundary.points();
     BoundaryPiece<dim> piece;
     Enforcement        how = boundary.enforcement();
     tractions.resize(points.size());
-    violations.resize(points.size());
+    states.resize(points.size());
     for (unsigned int q = 0; q < points.size();)
       {
         piece.reinit(boundary, context, q);
         adapt_to_cell(context, piece.cell(), how);
         for (; q < piece.end(); ++q)
           {
-            violations[q] = piece.constraint(q).violation;
+            states[q] = piece.constraint(q);
             tractions[q] =
               boundary_traction(points[q],
-                                piece.constraint(q),
+                                states[q],
                                 how,
                                 context.cell_materials.elastic_stiffness(
                                   piece.cell()),
@@ -292,11 +292,12 @@ namespace moraine
   {
     if (!boundary.enforcement().augments)
       return 0.;
-    std::vector<Tensor<1, dim>> tractions, violations;
-    evaluate(context, tractions, violations);
+    std::vector<Tensor<1, dim>>       tractions;
+    std::vector<ConstraintState<dim>> states;
+    evaluate(context, tractions, states);
     double largest = 0;
-    for (const auto &v : violations)
-      largest = std::max(largest, v.norm());
+    for (const auto &state : states)
+      largest = std::max(largest, state.violation.norm());
     return largest;
   }
 
@@ -308,8 +309,9 @@ namespace moraine
   {
     if (!boundary.enforcement().augments)
       return;
-    std::vector<Tensor<1, dim>> multipliers, violations;
-    evaluate(context, multipliers, violations);
+    std::vector<Tensor<1, dim>>       multipliers;
+    std::vector<ConstraintState<dim>> states;
+    evaluate(context, multipliers, states);
     Enforcement no_flux   = boundary.enforcement();
     no_flux.w_constrained = no_flux.w_free = 0;
     for (unsigned int q = 0; q < boundary.points().size(); ++q)
@@ -318,7 +320,7 @@ namespace moraine
         ConstraintState<dim> constraint;
         constraint.normal    = point.normal;
         constraint.push      = point.normal;
-        constraint.violation = violations[q];
+        constraint.violation = states[q].violation;
         constraint.M         = boundary.projection(point.normal);
         multipliers[q] =
           boundary_traction(point,
@@ -383,8 +385,9 @@ namespace moraine
                              const LA::Vector &)
   {
     const MPI_Comm communicator = context.state.grid().communicator();
-    std::vector<Tensor<1, dim>> tractions, violations;
-    evaluate(context, tractions, violations);
+    std::vector<Tensor<1, dim>>       tractions, violations;
+    std::vector<ConstraintState<dim>> states;
+    evaluate(context, tractions, states);
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
     for (unsigned int q = 0; q < tractions.size(); ++q)
       {
@@ -394,10 +397,10 @@ namespace moraine
         prepared.force_magnitude += force.norm();
         prepared.work_of_motion += force * point.prescribed;
         prepared.moment +=
-          boundary.rigid_motion().moment(point.x + point.prescribed,
-                                         force,
-                                         context.t_end);
-        prepared.violation = std::max(prepared.violation, violations[q].norm());
+          boundary.rigid_motion().moment(states[q].place, force, context.t_end);
+        prepared.violation =
+          std::max(prepared.violation, states[q].violation.norm());
+        violations.push_back(states[q].violation);
       }
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);

@@ -218,12 +218,7 @@ namespace moraine
           }
       }
     for (BoundaryPoint<dim> &mean : means)
-      {
-        mean.normal /= mean.normal.norm();
-        // A roller asks how far from the surface its points end.
-        if (kind.projects)
-          mean.x += at_start.level(mean.x) * at_start.normal(mean.x);
-      }
+      mean.normal /= mean.normal.norm();
     boundary_points = std::move(means);
     shapes          = std::move(of_means);
   }

@@ -94,9 +94,12 @@ namespace moraine
       take_means(space);
     number_points();
     largest_coordinate = 0;
-    for (const auto &point : boundary_points)
-      largest_coordinate =
-        std::max(largest_coordinate, coordinate_magnitude(point.x));
+    for (auto &point : boundary_points)
+      {
+        point.level = at_start.level(point.x);
+        largest_coordinate =
+          std::max(largest_coordinate, coordinate_magnitude(point.x));
+      }
     largest_coordinate =
       Utilities::MPI::max(largest_coordinate, space.communicator());
     take_over_nearest(space.communicator());
@@ -227,7 +230,8 @@ namespace moraine
           point.prescribed -
           (at_end.pose().map(at_start.pose().inverse(point.x)) - point.x);
         state.violation =
-          (-at_end.level(x_end) - relative * state.normal) * state.normal;
+          (point.level - at_end.level(x_end) - relative * state.normal) *
+          state.normal;
         state.M = constraint.projection(state.normal);
       }
     else
@@ -236,6 +240,9 @@ namespace moraine
         state.M         = constraint.projection(point.normal);
         state.violation = state.M * (du - point.prescribed);
       }
+    state.place =
+      point.x + (kind.moves_with_points ? (in_the_middle ? 0.5 : 1.) * du :
+                                          point.prescribed);
     state.push = state.normal;
     if (kind.projects && in_the_middle)
       {

@@ -21,3 +21,74 @@ for method in ("GIMP", "material point", "finite element"):
         bound(f"{case}: Newton iterations in two steps",
               result.summary["newton_iterations"], 10)
         bound(f"{case}: l2_u", result.errors["l2_u"], 0.012)
+
+# A shaft in a bearing that does not follow the mesh. Turned at its bore, it has
+# neither stress nor torque; pressed in, what its rim carries is that of Lame's
+# solution for u(12) = 0, u(30) = -0.03.
+SHAFT = """
+subsection Mesh
+  set Lower corner = 67, -43
+  set Upper corner = 137, 27
+  set Cell size    = 5
+end
+subsection Method
+  set Strain = finite
+end
+subsection Materials
+  subsection steel
+    set Young modulus = 210000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection shaft
+    set Shape        = ring
+    set Centre       = 101.3, -7.9
+    set Radius       = 30
+    set Inner radius = 12
+  end
+end
+subsection Boundaries
+  subsection bore
+    set Body            = shaft
+    set Part            = inner
+    set Rotation angle  = if(t > 1, 60 * (t - 1), 0)
+    set Rotation centre = 101.3, -7.9
+  end
+  subsection bearing
+    set Surface         = circle
+    set Centre          = 101.3, -7.9
+    set Radius          = 30
+    set Body side       = inside
+    set Constraint      = roller
+    set Rotation angle  = 0
+    set Rotation centre = 101.3, -7.9
+    {press}
+  end
+end
+subsection Time
+  set End time = 2
+  set Steps    = 8
+end
+"""
+SHRINK = """set Displacement = -0.03 * if(t > 1, 1, t) * (x - 101.3) / sqrt((x - 101.3)^2 + (y + 7.9)^2); -0.03 * if(t > 1, 1, t) * (y + 7.9) / sqrt((x - 101.3)^2 + (y + 7.9)^2)"""
+E, NU, A, B, U = 210000, 0.3, 12, 30, -0.03
+LAME = E / (1 + NU) / (1 - 2 * NU)  # sigma_r = LAME (C + (1 - 2 nu) D / r^2)
+C = U / (B - A * A / B)
+FORCE = -2 * 3.141592653589793 * B * LAME * (C + (1 - 2 * NU) * C * A * A / B**2)
+
+scene = folder / "shaft.prm"
+for method in ("GIMP", "finite element"):
+    scene.write_text(SHAFT.format(press=""))
+    turned = run(scene, {"Method/Method": method})
+    bound(f"shaft, {method}: stress over E",
+          max(abs(s) for (stress,) in turned.points("stress") for s in stress) /
+          E, 1e-11)
+    text(f"shaft, {method}: rejected steps", turned.summary["rejected_steps"])
+    scene.write_text(SHAFT.format(press=SHRINK))
+    last = run(scene, {"Method/Method": method}).history()[-1]
+    force = last["force magnitude of bearing"]
+    bound(f"pressed in, {method}: force on the rim, off by",
+          force / FORCE - 1, 0.01)
+    bound(f"pressed in, {method}: moment over force times radius",
+          last["moment of bearing"] / force / B, 1e-9)

@@ -109,11 +109,11 @@ namespace moraine
     find_depths_of_means(const StepContext<dim>    &context,
                          const std::vector<double> &volumes);
 
-    /** Tension and violation of each point in the trial state. */
+    /** Tension and constraint of each point in the trial state. */
     void
     evaluate(const StepContext<dim>              &context,
              std::vector<dealii::Tensor<1, dim>> &tractions,
-             std::vector<dealii::Tensor<1, dim>> &violations) const;
+             std::vector<ConstraintState<dim>>   &states) const;
 
     /**
      * The largest depth of a point of this rank behind the boundary; with

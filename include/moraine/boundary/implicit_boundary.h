@@ -47,6 +47,7 @@ namespace moraine
   {
     dealii::Point<dim>     x;
     dealii::Tensor<1, dim> normal;     ///< outward, at the start of the step
+    double                 level;      ///< distance behind a curve; of means
     double                 JxW;        ///< length or area
     unsigned int           cell;       ///< active_cell_index()
     unsigned int           number;     ///< among the points of the cell
@@ -75,6 +76,9 @@ namespace moraine
     /** Where a roller pushes: along the normal, or along the mean of both ends
      * of the step, in which a curved wall does no work and has no moment. */
     dealii::Tensor<1, dim> push;
+    /** Where the force on the point acts: at the end of the step, or in the
+     * middle of it as the push. */
+    dealii::Point<dim> place;
   };
 
   /** What a place of a surface carries from step to step. */
@@ -113,8 +117,9 @@ namespace moraine
    * reaches over it.
    *
    * A roller on a curved wall asks that the surface points end on the wall,
-   * @f$\phi_{n+1}(x + \Delta u) = 0@f$, if the points move at all; linear
-   * otherwise.
+   * @f$\phi_{n+1}(x + \Delta u) = \phi_n(x)@f$, if the points move at all;
+   * linear otherwise. The mean of places, which is at the chord, may thus go
+   * around with the body without being pushed.
    */
   template <int dim>
   class ImplicitBoundary : public StatePart
