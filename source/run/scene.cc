@@ -209,8 +209,9 @@ namespace moraine
     prm.add_parameter("Coordinates",
                       coordinates,
                       "Of body force and gravity: whether x, y, z of 'Value' "
-                      "are where the material is (current) or where it was at "
-                      "the start (original).",
+                      "are where the material is at the start of a step "
+                      "(current) or where it was at "
+                      "the start of the run (original).",
                       patterns::selection({"current", "original"}));
     prm.add_parameter("Side", side, "Of side traction: a side of the mesh.");
     prm.add_parameter("Location",

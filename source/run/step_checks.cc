@@ -156,6 +156,7 @@ namespace moraine
     , model(model)
     , energy(round_off_of_energy(model), remedies_of(scene.method))
     , holds(scene, model)
+    , crossings(scene, model)
   {}
 
 
@@ -166,6 +167,7 @@ namespace moraine
                                 const bool motion_starts)
   {
     holds.stage_begins();
+    crossings.stage_begins();
     if (motion_starts)
       energy.motion_starts();
     if (!bodies_change)
@@ -182,8 +184,9 @@ namespace moraine
   {
     std::vector<std::string> found = holds.look(stage, t);
     const std::string        apart = separation();
-    if (!apart.empty())
-      found.push_back(apart);
+    for (const std::string &text : {apart, crossings.look(stage, t)})
+      if (!text.empty())
+        found.push_back(text);
     return found;
   }
 
@@ -428,6 +431,7 @@ namespace moraine
     archive.write("checks/told_of_energy", told_of_energy ? 1u : 0u);
     energy.write(archive);
     holds.write(archive);
+    crossings.write(archive);
   }
 
 
@@ -451,6 +455,7 @@ namespace moraine
     told_of_energy = archive.integer("checks/told_of_energy") != 0;
     energy.read(archive);
     holds.read(archive);
+    crossings.read(archive);
   }
 
 

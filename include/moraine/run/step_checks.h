@@ -4,6 +4,7 @@
 #ifndef moraine_run_step_checks_h
 #define moraine_run_step_checks_h
 
+#include <moraine/run/crossing_watch.h>
 #include <moraine/run/energy_watch.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/model.h>
@@ -33,7 +34,7 @@ namespace moraine
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
-     * body came apart before, and what HoldWatch finds.
+     * body came apart before, and what HoldWatch and CrossingWatch find.
      * @throws ComputationError if the run cannot go on or should not.
      */
     std::vector<std::string>
@@ -96,6 +97,7 @@ namespace moraine
     std::set<unsigned int>    far;       ///< the same, as they moved far
     EnergyWatch               energy;
     HoldWatch<dim>            holds;
+    CrossingWatch<dim>        crossings;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

@@ -1,0 +1,63 @@
+# ranks: 2
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A run says when points without domains leave equilibrium as they move through the
+mesh: a beam bent to a quarter of a circle is half as stiff then. It says nothing where
+domains carry the forces, or where a body without stress turns."""
+
+from math import pi
+
+SCENE = """
+subsection Mesh
+  set Lower corner = -1, -4
+  set Upper corner = 9, 9
+  set Cell size    = 0.25
+end
+subsection Method
+  set Strain = finite
+end
+subsection Materials
+  subsection steel
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection beam
+    set Lower corner = 0, 0
+    set Upper corner = 8, 1
+  end
+end
+subsection Boundaries
+  subsection left
+    set Points = 0 1; 0 0
+  end
+  subsection right
+    set Points          = 8 0; 8 1
+    set Rotation angle  = 90 * t
+    set Rotation centre = 8, 0.5
+    set Translation     = if(t > 0, 8 * sin(pi/2 * t) / (pi/2 * t) - 8, 0); if(t > 0, 8 * (1 - cos(pi/2 * t)) / (pi/2 * t), 0)
+  end
+end
+subsection Time
+  set Steps = 18
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+scene = folder / "beam.prm"
+scene.write_text(SCENE)
+TOLD = "leave equilibrium"
+exact = 1000 / (1 - 0.3**2) / 12 * (pi / 2) / 8  # E I / (1 - nu^2) / radius
+for method in ("finite element", "GIMP", "material point"):
+    result = run(scene, {"Method/Method": method})
+    moment = result.history()[-1]["moment of right"]
+    told = any(TOLD in w for w in result.summary.get("warnings", []))
+    text(f"{method}: told", told)
+    number(f"{method}: moment over that of a beam", moment / exact, 2)
+
+turned = run("prm/large-deformation/rotation-annulus.prm", {"Time/Steps": 6})
+text("a turn without stress: told", TOLD in turned.output)
