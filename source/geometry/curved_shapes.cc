@@ -104,6 +104,26 @@ namespace moraine
                 true};
       }
 
+      std::array<double, dim>
+      turns(const Point<dim> &,
+            const std::array<Tensor<1, dim>, dim> &edges) const override
+      {
+        std::array<double, dim> result;
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] = radial(edges[d]).norm() / radius;
+        return result;
+      }
+
+      void
+      report_unresolved(const Point<dim> &x) const override
+      {
+        std::ostringstream message;
+        message << "found a surface of radius " << radius
+                << ", too small for the cell at (" << x
+                << "), allowed: radii from a twentieth of a cell on";
+        throw InputError(message.str());
+      }
+
     protected:
       VolumeMoments<dim>
       moments_of_part(const ConvexPolytope<dim> &cell,
@@ -171,6 +191,72 @@ namespace moraine
         const double         slope = g.norm();
         const double         phi   = level(x);
         return {slope > 0. ? phi / slope : phi, -unit_or_any<dim>(g), true};
+      }
+
+      std::array<double, dim>
+      turns(const Point<dim>                      &middle,
+            const std::array<Tensor<1, dim>, dim> &edges) const override
+      {
+        double scale = edges[0].norm();
+        for (const auto &edge : edges)
+          scale = std::min(scale, edge.norm());
+        const Point<dim>        x = near_surface(middle, edges, scale);
+        const Tensor<1, dim>    g = gradient(x, scale);
+        std::array<double, dim> result{};
+        if (g.norm() == 0.)
+          return result;
+        double curvature = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            constexpr double     step  = 1e-3;
+            const Tensor<1, dim> shift = step * edges[d];
+            result[d] =
+              (gradient(x + shift, scale) - gradient(x - shift, scale)).norm() /
+              (2. * step * g.norm());
+            curvature = std::max(curvature, result[d] / edges[d].norm());
+          }
+        // a distance does not bend along the normal, but the surface comes back
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] =
+            std::max(result[d], curvature * std::abs(g * edges[d]) / g.norm());
+        return result;
+      }
+
+      void
+      report_unresolved(const Point<dim> &) const override
+      {}
+
+    private:
+      /** A place near φ = 0 by Newton's method, kept within the box with these
+       * edges, outside of which φ need not have values. */
+      Point<dim>
+      near_surface(const Point<dim>                      &middle,
+                   const std::array<Tensor<1, dim>, dim> &edges,
+                   const double                           scale) const
+      {
+        Point<dim>     x = middle;
+        Tensor<1, dim> way;
+        double         last = 1.;
+        for (unsigned int k = 0; k < 4 && last > .1; ++k)
+          {
+            const Tensor<1, dim> g = gradient(x, scale), from = way;
+            Tensor<1, dim>       slope;
+            for (unsigned int d = 0; d < dim; ++d)
+              slope[d] = g * edges[d];
+            const double square = slope.norm_square();
+            const double step   = square > 0. ? level(x) / square : 0.;
+            x                   = middle;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                // where φ has an extremum, anywhere else
+                way[d] = square > 0. ?
+                           std::clamp(way[d] - step * slope[d], -.45, .45) :
+                           .3;
+                x += way[d] * edges[d];
+              }
+            last = (way - from).norm();
+          }
+        return x;
       }
 
     protected:

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "surface_cases.h"
 
 using namespace dealii;
@@ -231,4 +233,165 @@ TEST(ExpressionSurface, OnAFaceBelongsToTheBodySide)
         }
       EXPECT_NEAR(sum, 1., 1e-9);
     }
+}
+
+namespace
+{
+  /** A surface of known area whose normals cancel. */
+  template <int dim>
+  struct Closed
+  {
+    std::string         name;
+    SurfacePointer<dim> surface;
+    double              area;
+  };
+
+  /** Radius minus distance, or its square, from a point or an axis. */
+  std::string
+  round_text(const Point<3>     &c,
+             const Tensor<1, 3> &axis,
+             const double        radius,
+             const bool          distance)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    const auto from_centre = [&](const unsigned int d) {
+      text << "("
+           << "xyz"[d] << "-(" << c[d] << "))";
+    };
+    const auto square = [&]() {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          text << (d > 0 ? "+" : "");
+          from_centre(d);
+          text << "^2";
+        }
+      text << "-(";
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          text << (d > 0 ? "+" : "") << "(" << axis[d] << ")*";
+          from_centre(d);
+        }
+      text << ")^2";
+    };
+    text << radius << (distance ? "-sqrt(" : "^2-(");
+    square();
+    text << ")";
+    return text.str();
+  }
+
+  std::vector<Closed<3>>
+  closed_surfaces(const double radius, Numbers &random)
+  {
+    const Point<3>     c    = random.point<3>(2.9, 4.1);
+    const Tensor<1, 3> axis = random.direction<3>();
+    const Tensor<1, 3> up   = Point<3>::unit_vector(2);
+    const Point<3>     on_line(3., 3., c[2]);
+    const double       ball = 4. * pi * radius * radius, length = 1.6,
+                 discs  = 2. * pi * radius * radius,
+                 side   = 2. * pi * radius * length;
+    const auto cylinder = [&](const Point<3> &p, const Tensor<1, 3> &a) {
+      return make_cylinder(p - .5 * length * a, p + .5 * length * a, radius)
+        ->rim();
+    };
+    const auto      tube = make_cylinder(c - .5 * length * axis,
+                                    c + .5 * length * axis,
+                                    1.5 * radius,
+                                    radius);
+    const Extent<3> between{{{make_half_space<3>(c - .5 * length * axis, -axis),
+                              true,
+                              Extent<3>::Along::inner},
+                             {make_half_space<3>(c + .5 * length * axis, axis),
+                              true,
+                              Extent<3>::Along::inner}}};
+    return {{"sphere", make_ball<3>(c, radius)->rim(), ball},
+            {"sphere about a vertex",
+             make_ball<3>({3., 3., 3.}, radius)->rim(),
+             ball},
+            {"around a sphere", make_ball<3>(c, radius)->rim("", false), ball},
+            {"cylinder", cylinder(c, axis), side + discs},
+            {"upright cylinder", cylinder(c, up), side + discs},
+            {"cylinder about a mesh line", cylinder(on_line, up), side + discs},
+            {"tube", tube->rim(), 2.5 * side + 1.25 * discs},
+            {"inner wall", tube->rim("inner"), side},
+            {"quadratic expression",
+             zero_of<3>(round_text(c, {}, radius, false)),
+             ball},
+            {"distance expression",
+             zero_of<3>(round_text(c, {}, radius, true)),
+             ball},
+            {"cylinder expression",
+             zero_of<3>(round_text(c, axis, radius, false), between),
+             side}};
+  }
+
+  /** Area to 1 %, normals that cancel, all points on the surface. */
+  template <int dim>
+  void
+  expect_closed(const Closed<dim> &closed,
+                const Cells<dim>  &cells,
+                const std::string &message)
+  {
+    Tensor<1, dim> sum;
+    double         area = 0.;
+    for (const auto &p : all_pieces<dim>(*closed.surface, cells, 2))
+      {
+        area += p.JxW;
+        sum += p.JxW * p.normal;
+        EXPECT_NEAR(closed.surface->level(p.x), 0., 1e-3) << message;
+        EXPECT_NEAR(p.normal.norm(), 1., 1e-12) << message;
+      }
+    EXPECT_NEAR(area / closed.area, 1., 1e-2) << message;
+    EXPECT_LT(sum.norm() / closed.area, 1e-2) << message;
+  }
+
+  const double small_and_large[] =
+    {.1, .15, .2, .3, .4, .55, .7, .9, 1.2, 1.5, 1.9, 2.8};
+} // namespace
+
+TEST(SmallSurfaces, AreaAndNormals)
+{
+  // cells of size 1; a surface may enter a cell through one face only
+  Numbers random(5);
+  for (const double distortion : {0., 0.15})
+    {
+      const auto cells = box_cells<3>(7, 7., distortion);
+      for (const double radius : small_and_large)
+        if (radius * 1.5 < 2.9)
+          for (const auto &closed : closed_surfaces(radius, random))
+            expect_closed<3>(closed,
+                             cells,
+                             closed.name + " of radius " +
+                               std::to_string(radius));
+    }
+}
+
+TEST(SmallSurfaces, LengthOfExpressions)
+{
+  Numbers random(6);
+  for (const double distortion : {0., 0.15})
+    {
+      const auto cells = box_cells<2>(7, 7., distortion);
+      for (const double radius : small_and_large)
+        for (const bool distance : {false, true})
+          {
+            const Point<2> c = random.point<2>(2.9, 4.1);
+            const auto     x = std::to_string(c[0]), y = std::to_string(c[1]),
+                       r      = std::to_string(radius);
+            const auto square = "((x-" + x + ")^2+(y-" + y + ")^2)";
+            expect_closed<2>({"circle",
+                              zero_of<2>(distance ? r + "-sqrt" + square :
+                                                    r + "^2-" + square),
+                              2. * pi * radius},
+                             cells,
+                             "circle of radius " + r);
+          }
+    }
+}
+
+TEST(SmallSurfaces, CoarserThanTheLimitIsRefused)
+{
+  const auto cells = box_cells<3>(3, 3., 0.);
+  const auto ball  = make_ball<3>({1.4, 1.3, 1.6}, 0.03)->rim();
+  EXPECT_THROW(all_pieces<3>(*ball, cells, 2), InputError);
 }

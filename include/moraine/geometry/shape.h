@@ -8,6 +8,7 @@
 #include <moraine/geometry/placement.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -452,11 +453,30 @@ namespace moraine
     nearest(const dealii::Point<dim> &x) const = 0;
 
     /**
+     * How far the normal of φ = 0 turns along each of the @p edges of a box
+     * about @p middle [rad]: their lengths over the radius of curvature. An
+     * estimate for expressions, at one place of the surface.
+     */
+    virtual std::array<double, dim>
+    turns(const dealii::Point<dim>                      &middle,
+          const std::array<dealii::Tensor<1, dim>, dim> &edges) const = 0;
+
+    /**
+     * Told that the smallest boxes into which the cell at @p x is halved are
+     * too large for its surface. Throws InputError; expressions, which may have
+     * edges, are taken as they are.
+     */
+    virtual void
+    report_unresolved(const dealii::Point<dim> &x) const = 0;
+
+    /**
      * Cut by dealii::NonMatching::QuadratureGenerator in the reference space of
      * the cell (φ composed with the cell's multilinear map). The number of
-     * points sets its accuracy; it is not exact. Cells across the end of its
-     * extent are cut exactly if that is straight and follows the cell's axes,
-     * else halved four times and their points chosen one by one.
+     * points sets its accuracy; it is not exact. Where the normal turns much
+     * within a cell, it is halved first, five times in each direction at most:
+     * areas are right to 1 % for radii from a tenth of a cell on. Cells across
+     * the end of its extent are cut exactly if that is straight and follows the
+     * cell's axes, else halved four times and their points chosen one by one.
      */
     typename Shape<dim>::Faces
     faces(const std::string &part,
