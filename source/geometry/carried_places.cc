@@ -400,8 +400,16 @@ namespace moraine
                                               box.get_boundary_points().first,
                                               box.get_boundary_points().second);
     std::vector<SurfacePoint<dim>> pieces;
-    for (const auto &cell : cells.active_cell_iterators())
-      surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+    try
+      {
+        for (const auto &cell : cells.active_cell_iterators())
+          surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+      }
+    catch (const InputError &)
+      {
+        // fine enough for cells of the mesh, not for these
+        return 0.;
+      }
     double outside = 0, all = 0;
     for (const auto &piece : pieces)
       {

@@ -135,7 +135,7 @@ namespace moraine
       }
 
       /** Of the normal along an edge of a box. Chosen by the error of areas:
-       * below 0.5 % with two points a direction; twice as much loses whole
+       * below 0.5 % with three points a direction; twice as much loses whole
        * boxes. */
       static constexpr double largest_turn = 0.7;
 

@@ -112,7 +112,8 @@ namespace moraine
 
   /**
    * The part of the area of a surface that is outside of a mesh by more than a
-   * tenth of a cell, roughly; 0 for one without ends.
+   * tenth of a cell, roughly; 0 for one without ends, or if it is too thin for
+   * its length to say.
    *
    * @param surface any
    * @param mesh the whole of it
