@@ -82,10 +82,13 @@ namespace moraine
           !contains(stage.absorbing, boundary.name()))
         for (const auto &[name, parameters] : scene.boundaries)
           if (name == boundary.name() && !parameters.displacement.empty())
-            check_that_some_is_left("Boundaries/" + name,
-                                    boundary.n_points(communicator),
-                                    t,
-                                    of_surfaces);
+            {
+              found.push_back(moved_through(boundary, stage, t));
+              check_that_some_is_left("Boundaries/" + name,
+                                      boundary.n_points(communicator),
+                                      t,
+                                      of_surfaces);
+            }
     for (unsigned int c = 0; c < conditions.size(); ++c)
       {
         found.push_back(pushed_off(c, stage, t));
@@ -170,6 +173,43 @@ namespace moraine
          << " cell sizes, and its nodes stay: the force comes out too small, "
             "the more the further; "
          << of_nodes;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::moved_through(const ImplicitBoundary<dim> &boundary,
+                                const StageParameters       &stage,
+                                const double                 t)
+  {
+    const std::string section = "Boundaries/" + boundary.name();
+    if (model.state->mesh_after_step() == MeshAfterStep::keep ||
+        told.count(section) > 0)
+      return "";
+    // Inwards, outwards.
+    std::vector<double> largest(2, 0.);
+    for (const auto &point : boundary.points())
+      {
+        const double moved =
+          boundary.moved_through(point, stage.time.start_time, t);
+        largest[0] = std::max(largest[0], -moved);
+        largest[1] = std::max(largest[1], moved);
+      }
+    Utilities::MPI::max(largest, model.space->communicator(), largest);
+    const bool   out = largest[1] > largest[0];
+    const double far = largest[out] / model.mesh->cell_size();
+    if (!(far > told_push))
+      return "";
+    told.insert(section);
+    std::ostringstream text;
+    text << "boundary '" << boundary.name() << "': by t = " << t
+         << " it has moved material by " << std::setprecision(2) << far
+         << " cell sizes " << (out ? "out" : "in")
+         << " through its surface, and holds what is there by now instead of "
+            "the rim of the body; "
+         << of_surfaces;
     return text.str();
   }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What moves or pushes material and has lost it ends the run; nodes that stay while
-they push material are told of. Nothing is said where the material is kept."""
+they push material are told of, and surfaces that stay while they move it through. Nothing is said where the material is kept."""
 
 import json
 
@@ -105,6 +105,18 @@ for name, settings in (("nodes, FE", {"Method/Method": "finite element"}),
 
 write(more=WALL.format(key="Displacement"))
 show("surface, Displacement")
+show("surface, Displacement, FE", {"Method/Method": "finite element"})
+show("surface, Displacement out", {"Boundaries/top/Displacement": "0; 0.2*t",
+                                   "Mesh/Upper corner": "1, 2.5"}, expect=0)
+for name, settings in (
+        ("surface, Displacement, a little",
+         {"Boundaries/top/Displacement": "0; -0.05*t"}),
+        ("surface, Displacement along",
+         {"Boundaries/top/Displacement": "0.6*t; 0"}),
+        ("surface, Displacement, nothing moves",
+         {"Method/Method": "finite element", "Method/Strain": "small",
+          "Method/Mesh after step": "keep"})):
+    show(name, settings, expect=0)
 write(more=WALL.format(key="Translation"))
 show("surface, Translation", expect=0)
 

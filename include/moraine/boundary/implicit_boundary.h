@@ -240,6 +240,13 @@ namespace moraine
       return std::abs(at_end.level(x)) > 2 * radius;
     }
 
+    /** What is nearest to @p x on the surface at the start of the step. */
+    NearestPoint<dim>
+    nearest_at_start(const dealii::Point<dim> &x) const
+    {
+      return at_start.nearest(x);
+    }
+
     const std::string &
     name() const
     {
@@ -283,6 +290,25 @@ namespace moraine
     /** Number of points over all ranks. Collective. */
     unsigned int
     n_points(const MPI_Comm &communicator) const;
+
+    /** Whether material may slide along it. */
+    bool
+    is_roller() const
+    {
+      return constraint.kind == Constraint<dim>::roller;
+    }
+
+    /** How far the displacement relative to the surface moves what it holds at
+     * @p point along the normal, from @p t_start to @p t_end. */
+    double
+    moved_through(const BoundaryPoint<dim> &point,
+                  const double              t_start,
+                  const double              t_end) const
+    {
+      return projection(point.normal) *
+             (displacement(point.x, t_end) - displacement(point.x, t_start)) *
+             point.normal;
+    }
 
     /** What it constrains, in words. */
     std::string

@@ -63,6 +63,13 @@ namespace moraine
                const StageParameters &stage,
                const double           t);
 
+    /** The same of a boundary, whose 'Displacement' has moved material through
+     * its surface; or "". */
+    std::string
+    moved_through(const ImplicitBoundary<dim> &boundary,
+                  const StageParameters       &stage,
+                  const double                 t);
+
     /**
      * Compare @p n pieces of what is held by @p t with the most so far.
      * @param section of the input that says what acts
