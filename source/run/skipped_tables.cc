@@ -15,19 +15,16 @@ namespace moraine
   namespace
   {
     /** A row of @p curve that steps of size @p dt from @p start pass over by
-     * more than half of its range, in words; or "". */
+     * more than half of its largest change since then, in words; or "". */
     std::string
     row_between_steps(const TimeCurve &curve,
                       const double     start,
                       const double     end,
                       const double     dt)
     {
-      double low = curve.value(start), high = low;
+      double largest = 0;
       for (const auto &row : curve.rows())
-        {
-          low  = std::min(low, row.second);
-          high = std::max(high, row.second);
-        }
+        largest = std::max(largest, std::abs(row.second - curve.value(start)));
       for (const auto &[t, value] : curve.rows())
         {
           if (!(t > start && t < end))
@@ -36,7 +33,7 @@ namespace moraine
           const double a      = curve.value(before);
           const double b      = curve.value(std::min(before + dt, end));
           if (std::max(value - std::max(a, b), std::min(a, b) - value) >
-              0.5 * (high - low))
+              0.5 * largest)
             {
               std::ostringstream text;
               text << "its table has " << value << " at t = " << t
@@ -57,12 +54,10 @@ namespace moraine
                          const StageParameters    &stage,
                          std::vector<std::string> &notes)
   {
-    const auto check = [&](const std::string &name, const std::string &text) {
-      if (text.empty())
-        return;
-      const TimeParameters &time = stage.time;
-      const std::string     row =
-        row_between_steps(TimeCurve(text, name),
+    const TimeParameters &time = stage.time;
+    const auto check = [&](const std::string &name, const TimeCurve &curve) {
+      const std::string row =
+        row_between_steps(curve,
                           time.start_time,
                           time.end_time,
                           time.largest_step *
@@ -70,12 +65,31 @@ namespace moraine
       if (!row.empty())
         notes.push_back(name + ": " + row + " would see it");
     };
+    const auto check_text = [&](const std::string &name,
+                                const std::string &text) {
+      if (!text.empty())
+        check(name, TimeCurve(text, name));
+    };
+    const auto check_motion = [&](const std::string           &name,
+                                  const MotionParameters<dim> &motion) {
+      if (!motion.translation.empty())
+        for (const TimeCurve &curve :
+             time_curves(motion.translation, name, dim))
+          check("'Translation' of " + name, curve);
+      check_text("'Rotation angle' of " + name, motion.rotation_angle);
+    };
     for (const auto &[name, load] : scene.loads)
       if (contains(stage.loads, name))
-        check("load " + name, load.curve);
+        check_text("load " + name, load.curve);
     for (const auto &[name, boundary] : scene.boundaries)
       if (contains(stage.boundaries, name))
-        check("wave at " + name, boundary.absorbing.incident_curve);
+        {
+          check_text("wave at " + name, boundary.absorbing.incident_curve);
+          check_motion(name, boundary.motion);
+        }
+    for (const auto &[name, condition] : scene.grid_conditions)
+      if (contains(stage.grid_conditions, name))
+        check_motion(name, condition.motion);
   }
 
 

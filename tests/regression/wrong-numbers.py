@@ -113,6 +113,15 @@ for curve in ("0: 0, 0.101: 0, 0.103: 1, 0.105: 0",
         "Loads/pulse/Value": "0; -1", "Loads/pulse/Curve": curve,
         "Time/End time": 0.2, "Time/Steps": 20})
     text(f"pulse {curve}: told of", "load pulse: its table has" in pulse.output)
+# Where both signs come, half of the range is half of that.
+for table in ("0: 0, 0.25: 0.6, 0.75: -0.6, 1: 0", "0: 0, 0.5: 0.6, 1: 0"):
+    for kind, where in (("Boundaries", "Points"), ("Grid conditions", "Side")):
+        moved = run("prm/phuong-2023/column-fixed-fe.prm", {
+            f"{kind}/mover/Translation": f"0; {table}",
+            f"{kind}/mover/{where}": "0.25 20; 0 20" if where == "Points" else "top",
+            "Time/End time": 1, "Time/Steps": 2}, command="check", expect=None)
+        text(f"motion of {kind}, {table}: told of",
+             "'Translation' of mover: its table has" in moved.output)
 
 # What cells are too coarse for, and what small strain is too coarse for.
 BLOCK = """

@@ -13,8 +13,9 @@ namespace moraine
 {
   /**
    * Steps of the largest size may pass over a pulse, and with it over a whole
-   * load: add to @p notes each table over time, of a load or a wave that acts
-   * in @p stage, of which they miss a row by more than half of its range.
+   * load: add to @p notes each table over time, of a load, a wave or a motion
+   * that acts in @p stage, of which they miss a row by more than half of its
+   * largest change since the stage began.
    */
   template <int dim>
   void
