@@ -96,7 +96,6 @@ namespace moraine
   {
     if (held != Held::automatic)
       return held == Held::mean;
-    const bool is_nitsche = carries_multiplier && !augments;
-    return !is_nitsche && degree == 1 && !(curved_roller && in_motion);
+    return !is_nitsche() && degree == 1 && !(curved_roller && in_motion);
   }
 } // namespace moraine

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/numerics/rtree.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -22,6 +24,30 @@ namespace moraine
     /** Of a cell: from there on boundaries that begin are told to be away from
      * the material. */
     constexpr double told_gap = 0.1;
+
+    /** Of a cell: material behind a boundary up to there is round-off of its
+     * points; of its surface: a corner. */
+    constexpr double told_depth = 0.25, told_share_behind = 0.1;
+
+
+
+    /** Where the surface is beside a place that stands for a piece of it: the
+     * mean of a curve lies off it. */
+    template <int dim>
+    SurfacePoint<dim>
+    foot_of(const BoundaryPoint<dim>    &place,
+            const ImplicitBoundary<dim> &boundary)
+    {
+      SurfacePoint<dim> foot = {place.x, place.normal, place.JxW};
+      // Levels of expressions are estimates.
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const NearestPoint<dim> nearest = boundary.nearest_at_start(foot.x);
+          foot.x += nearest.level * nearest.normal;
+          foot.normal = nearest.normal;
+        }
+      return foot;
+    }
 
 
 
@@ -53,9 +79,10 @@ namespace moraine
           std::vector<double> area(3, 0.); // inside, behind, all
           for (const auto &point : boundary.points())
             {
-              const Tensor<1, dim> step = 1e-3 * point.h * point.normal;
-              area[0] += in_a_body(point.x - step) ? point.JxW : 0.;
-              area[1] += in_a_body(point.x + step) ? point.JxW : 0.;
+              const SurfacePoint<dim> foot = foot_of(point, boundary);
+              const Tensor<1, dim>    step = 1e-3 * point.h * foot.normal;
+              area[0] += in_a_body(foot.x - step) ? point.JxW : 0.;
+              area[1] += in_a_body(foot.x + step) ? point.JxW : 0.;
               area[2] += point.JxW;
             }
           Utilities::MPI::sum(area, model.space->communicator(), area);
@@ -69,7 +96,10 @@ namespace moraine
           if (area[0] == 0)
             notes.push_back(boundary.name() +
                             ": no body is beside it at the start");
-          else if (area[0] < 0.99 * area[2])
+          // A roller along which material slides need not end with it.
+          else if (area[0] < 0.99 * area[2] &&
+                   (boundary.enforcement().is_nitsche() ||
+                    !boundary.is_roller()))
             notes.push_back(
               boundary.name() + ": " +
               std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
@@ -115,6 +145,71 @@ namespace moraine
 
 
 
+    /** The material on the outer side of a boundary. */
+    struct Behind
+    {
+      double share = 0; ///< of its surface, that has some next to it
+      double depth = 0; ///< of the bodies that are there, at most
+    };
+
+
+
+    /** Which part of the surface has material of the points behind it, no
+     * further than half a cell, and how deep it is. Collective. */
+    template <int dim>
+    Behind
+    material_behind(const ImplicitBoundary<dim> &boundary,
+                    const Model<dim>            &model)
+    {
+      const PointSet<dim>        &points       = *model.points;
+      const MPI_Comm              communicator = model.space->communicator();
+      const double                h            = model.mesh->cell_size();
+      std::vector<Tensor<1, dim>> feet; ///< of what is next to the surface
+      std::vector<double>         depths(model.bodies.size(), 0.);
+      std::vector<unsigned int>   is_next(model.bodies.size(), 0);
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          const Point<dim>       &x       = points.position(p);
+          const NearestPoint<dim> nearest = boundary.nearest_at_start(x);
+          if (!(nearest.level < 0) || !nearest.in_extent)
+            continue;
+          const double       half = 0.5 * std::pow(points.volume(p), 1. / dim);
+          const unsigned int b    = points.body(p);
+          depths[b]               = std::max(depths[b], half - nearest.level);
+          if (-nearest.level > 0.5 * told_depth * h &&
+              -nearest.level < half + 0.5 * h)
+            {
+              feet.push_back(x + nearest.level * nearest.normal);
+              is_next[b] = 1;
+            }
+        }
+      Utilities::MPI::max(depths, communicator, depths);
+      Utilities::MPI::max(is_next, communicator, is_next);
+      Behind behind;
+      for (unsigned int b = 0; b < depths.size(); ++b)
+        if (is_next[b])
+          behind.depth = std::max(behind.depth, depths[b]);
+      std::vector<Point<dim>> all;
+      for (const auto &of_rank : Utilities::MPI::all_gather(communicator, feet))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+      const auto          tree = pack_rtree(all);
+      std::vector<double> area(2, 0.); // with material behind, all
+      for (const auto &place : boundary.points())
+        {
+          for (auto it =
+                 tree.qbegin(boost::geometry::index::nearest(place.x, 1));
+               it != tree.qend();
+               ++it)
+            area[0] += it->distance(place.x) < h ? place.JxW : 0.;
+          area[1] += place.JxW;
+        }
+      Utilities::MPI::sum(area, communicator, area);
+      behind.share = area[1] > 0 ? area[0] / area[1] : 0.;
+      return behind;
+    }
+
+
+
     template <int dim>
     void
     check_flux_of_boundaries(const Scene<dim>         &scene,
@@ -148,7 +243,9 @@ namespace moraine
                      const Model<dim>         &model,
                      std::vector<std::string> &notes)
   {
-    check_sides_of_boundaries(scene.stages.front().second, model, notes);
+    const StageParameters &stage = scene.stages.front().second;
+    check_sides_of_boundaries(stage, model, notes);
+    tell_of_material_behind(stage, {}, model, notes);
     check_flux_of_boundaries(scene, model, notes);
   }
 
@@ -180,14 +277,49 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                        \
-  template void tell_of_boundaries(const Scene<dim> &,          \
-                                   const Model<dim> &,          \
-                                   std::vector<std::string> &); \
-  template void tell_of_gaps(const StageParameters &,           \
-                             const StageParameters &,           \
-                             const Model<dim> &,                \
-                             std::vector<std::string> &);
+  template <int dim>
+  void
+  tell_of_material_behind(const StageParameters          &stage,
+                          const std::vector<std::string> &known,
+                          const Model<dim>               &model,
+                          std::vector<std::string>       &notes)
+  {
+    for (const auto &boundary : model.boundaries)
+      {
+        if (!contains(stage.boundaries, boundary.name()) ||
+            contains(stage.absorbing, boundary.name()) ||
+            contains(known, boundary.name()))
+          continue;
+        const Behind behind = material_behind(boundary, model);
+        if (!(behind.share > told_share_behind &&
+              behind.depth > told_depth * model.mesh->cell_size()))
+          continue;
+        std::ostringstream text;
+        text << boundary.name() << ": as it begins, material lies behind "
+             << std::lround(100 * behind.share) << " % of its surface, up to "
+             << std::setprecision(2) << behind.depth
+             << " deep: it holds that as well, or cuts it off; "
+             << (boundary.rigid_motion().moves() ?
+                   "let its motion begin then, from the rim of a body" :
+                   "draw the surface along the rim of a body");
+        notes.push_back(text.str());
+      }
+  }
+
+
+
+#define INSTANTIATE(dim)                                                  \
+  template void tell_of_boundaries(const Scene<dim> &,                    \
+                                   const Model<dim> &,                    \
+                                   std::vector<std::string> &);           \
+  template void tell_of_gaps(const StageParameters &,                     \
+                             const StageParameters &,                     \
+                             const Model<dim> &,                          \
+                             std::vector<std::string> &);                 \
+  template void tell_of_material_behind(const StageParameters &,          \
+                                        const std::vector<std::string> &, \
+                                        const Model<dim> &,               \
+                                        std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

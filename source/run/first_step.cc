@@ -15,6 +15,7 @@
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
 #include <moraine/run/near_bodies.h>
+#include <moraine/run/removed_bodies.h>
 #include <moraine/run/scene_conditions.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>
@@ -466,10 +467,12 @@ namespace moraine
       if (!contains(before.absorbing, name))
         held.emplace_back(name, system.constraint_forces(name));
 
+    std::vector<std::string> notes;
+    if (stage.bodies != before.bodies)
+      tell_of_removed_bodies(stage, before, model, notes);
     model.linear_solver->clear();
     model.set_stage(scene, k);
     system.begin_step(t);
-    std::vector<std::string> notes;
     for (const auto &[name, forces] : held)
       {
         const double missed = system.hold(name, forces);
@@ -494,6 +497,7 @@ namespace moraine
     tell_of_skipped_tables(scene, stage, notes);
     hold_stress_at_start(stage, before.boundaries, model);
     tell_of_gaps(stage, before, model, notes);
+    tell_of_material_behind(stage, before.boundaries, model, notes);
     if (begins_with_stress(scene, k))
       notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();

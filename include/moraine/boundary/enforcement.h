@@ -67,6 +67,13 @@ namespace moraine
                 const bool         curved_roller,
                 const bool         in_motion) const;
 
+    /** Whether a flux holds, with the multiplier of a step. */
+    bool
+    is_nitsche() const
+    {
+      return carries_multiplier && !augments;
+    }
+
     double      w_constrained;      ///< @f$w_c@f$
     double      w_free;             ///< @f$w_f@f$
     double      adjoint_sign;       ///< @f$s@f$

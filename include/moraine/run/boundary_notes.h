@@ -13,8 +13,8 @@ namespace moraine
 {
   /**
    * Add to @p notes which boundaries of the first stage are only in part on a
-   * body, and where the flux of Nitsche's method is not that of the material.
-   * In a step that has begun. Collective.
+   * body or begin inside one, and where the flux of Nitsche's method is not
+   * that of the material. In a step that has begun. Collective.
    * @throws InputError for a boundary with its body behind it.
    */
   template <int dim>
@@ -22,6 +22,19 @@ namespace moraine
   tell_of_boundaries(const Scene<dim>         &scene,
                      const Model<dim>         &model,
                      std::vector<std::string> &notes);
+
+  /**
+   * Add to @p notes which boundaries begin in @p stage, not @p known from the
+   * one before, inside a body: it has material on their outer side too, next to
+   * the surface and deeper than a quarter of a cell. In a step that has begun.
+   * Collective.
+   */
+  template <int dim>
+  void
+  tell_of_material_behind(const StageParameters          &stage,
+                          const std::vector<std::string> &known,
+                          const Model<dim>               &model,
+                          std::vector<std::string>       &notes);
 
   /**
    * Add to @p notes which boundaries begin in @p stage, not in the one

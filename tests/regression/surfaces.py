@@ -1,0 +1,186 @@
+# ranks: 1 2  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What is told of where surfaces lie: that one goes on beyond its body, where that
+matters; that it begins inside a body; that what it lies on is gone. Nothing of
+surfaces along the rim of their body, round or not."""
+
+SCENE = """
+subsection Mesh
+  set Lower corner = {lower}
+  set Upper corner = {upper}
+  set Cell size    = {h}
+end
+subsection Materials
+  subsection ground
+    set Young modulus = 1e5
+    set Poisson ratio = 0.25
+    set Density       = 2
+  end
+end
+{more}
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+scene = folder / "scene.prm"
+
+
+def show(title, settings=None, command="check"):
+    result = run(scene, settings, command=command)
+    notes = [line.split(maxsplit=1)[1] for line in result.output.splitlines()
+             if line.split()[:1] in (["note"], ["note:"])]
+    notes = [note for note in notes
+             if not note.startswith("stage ") and "nowhere as thick" not in note]
+    for note in notes:
+        text(title, note)
+    if not notes:
+        text(title, "nothing")
+    return result
+
+
+def write(more, lower, upper, h):
+    scene.write_text(SCENE.format(more=more, lower=lower, upper=upper, h=h))
+
+
+RING = """subsection Bodies
+  subsection ring
+    set Shape        = ring
+    set Centre       = 1.3, -1
+    set Radius       = 30
+    set Inner radius = 12
+  end
+end
+subsection Boundaries
+  subsection bore
+    set Body = ring
+    set Part = {part}
+    {more}
+  end
+end"""
+for h, part, enforcement in (
+        (8, "inner", "augmented Lagrangian"), (4, "inner", "augmented Lagrangian"),
+        (8, "inner", "penalty"), (8, "inner", "skew Nitsche"),
+        (8, "outer", "weighted")):
+    write(RING.format(part=part, more="set Enforcement = " + enforcement),
+          "-60, -60", "60, 60", h)
+    show(f"{part} rim of a ring, cells of {h}, {enforcement}")
+CIRCLE = {"Boundaries/bore/Surface": "circle", "Boundaries/bore/Body": "",
+          "Boundaries/bore/Part": "", "Boundaries/bore/Centre": "1.3, -1",
+          "Boundaries/bore/Body side": "outside"}
+write(RING.format(part="", more=""), "-60, -60", "60, 60", 5)
+show("circle along the rim", {**CIRCLE, "Boundaries/bore/Radius": 12})
+show("circle inside the ring", {**CIRCLE, "Boundaries/bore/Radius": 20})
+
+BLOCK = """subsection Bodies
+  subsection block
+    set Lower corner = 0.3, 0.2
+    set Upper corner = 3.3, 3.2
+  end
+end
+subsection Grid conditions
+  subsection middle
+    set Lower corner = 1, 1
+    set Upper corner = 2, 2
+  end
+end
+subsection Boundaries
+  subsection base
+    set Points      = 0.3 {y}; {x} {y}
+    set Constraint  = {constraint}
+    set Enforcement = {enforcement}
+  end
+end"""
+for x, y, constraint, enforcement in (
+        (3.3, 0.2, "fixed", "augmented Lagrangian"),
+        (5, 0.2, "fixed", "augmented Lagrangian"),
+        (5, 0.2, "roller", "augmented Lagrangian"),
+        (5, 0.2, "roller", "penalty"),
+        (5, 0.2, "roller", "skew Nitsche"),
+        (5, 1.5, "roller", "augmented Lagrangian")):
+    write(BLOCK.format(x=x, y=y, constraint=constraint, enforcement=enforcement),
+          "-2, -2", "6, 6", 0.5)
+    show(f"base to ({x}, {y}), {constraint}, {enforcement}")
+
+STAGES = """subsection Bodies
+  subsection a
+    set Lower corner = 0, 0
+    set Upper corner = 3, 4.1
+  end
+  subsection b
+    set Lower corner = 0, 4.1
+    set Upper corner = 3, 4.4
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10
+  end
+{loads}end
+{boundaries}
+subsection Stages
+  subsection before
+    {first}
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection after
+    set Bodies = {left}
+    {keep}
+    subsection Time
+      set End time = 2
+    end
+  end
+end"""
+PLATE = """subsection Boundaries
+  subsection plate
+    set Body        = {body}
+    set Part        = {part}
+    set Constraint  = roller
+    {motion}
+  end
+end"""
+
+
+def stages(title, left, loads="", boundaries="", first="", keep=""):
+    write(STAGES.format(loads=loads, boundaries=boundaries, first=first,
+                        left=left, keep=keep), "0, 0", "3, 6", 0.5)
+    return show(title, command="run")
+
+
+TOP = {"body": "b", "part": "top"}
+for rate in (0.1, 1.5):
+    stages(f"plate moved by {rate} before it begins", "a, b",
+           first="set Boundaries = none", keep="set Boundaries = plate",
+           boundaries=PLATE.format(
+               **TOP, motion=f"set Translation = 0; -{rate}*min(t,1)"))
+LOAD = """  subsection load
+    set Type  = {type}
+    set Value = 0; -40
+    {where}
+  end
+"""
+ON_TOP = LOAD.format(type="surface traction",
+                     where="set Body  = b\n    set Part  = top")
+ON_POINTS = LOAD.format(type="force on points", where="set Location = 1.5, 4.4")
+for left in ("a", "a, b"):
+    stages(f"plate on b, {left} left", left, 
+           boundaries=PLATE.format(**TOP, motion=""))
+    stages(f"load on b, {left} left", left, loads=ON_TOP)
+    stages(f"force on points of b, {left} left", left, loads=ON_POINTS)
+stages("load on b that ends", "a", loads=ON_TOP, keep="set Loads = weight")
+stages("rollers beside both", "a",
+       boundaries="""subsection Boundaries
+  subsection side
+    set Points     = 0 4.4; 0 0
+    set Constraint = roller
+  end
+end""")
