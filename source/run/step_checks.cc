@@ -157,6 +157,7 @@ namespace moraine
     , energy(round_off_of_energy(model), remedies_of(scene.method))
     , holds(scene, model)
     , crossings(scene, model)
+    , turns(scene, model)
   {}
 
 
@@ -234,6 +235,7 @@ namespace moraine
       found.push_back(missed_boundary(t, report, largest_motion));
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
+    found.push_back(turns.look(t, reports));
     if (!time.between_parts())
       found.push_back(energy_made(t));
     // Works are of dynamics alone.
@@ -432,6 +434,7 @@ namespace moraine
     energy.write(archive);
     holds.write(archive);
     crossings.write(archive);
+    turns.write(archive);
   }
 
 
@@ -456,6 +459,7 @@ namespace moraine
     energy.read(archive);
     holds.read(archive);
     crossings.read(archive);
+    turns.read(archive);
   }
 
 

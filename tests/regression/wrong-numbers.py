@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Moraine authors
 """What could end with "ok" and a wrong number: steps out of balance, a slope on
 boundaries that cut cells, a step too long for its error, a load between steps,
-cells that are too coarse for a body, displacements too large for small strain."""
+cells that are too coarse for a body, displacements and turns too large for small strain."""
 
 PAD = """
 subsection Mesh
@@ -184,3 +184,55 @@ for name, corner, second, stiffness, pull in (
     result = run(scene, {"Method/Method": "finite element"}, expect=None)
     text(f"{name}: told of", ", ".join(
         text for text in (THICK, SHARED, FAR) if text in result.output) or "nothing")
+
+# A turn is no strain, but small strain finds some in one that is prescribed.
+SHAFT = """
+subsection Mesh
+  set Lower corner = -35, -35
+  set Upper corner = 35, 35
+  set Cell size = 5
+end
+subsection Materials
+  subsection steel
+    set Young modulus = 210000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection shaft
+    set Shape = ring
+    set Centre = 0, 0
+    set Radius = 30
+    set Inner radius = 12
+  end
+end
+subsection Boundaries
+  subsection bore
+    set Body = shaft
+    set Part = inner
+    set Rotation angle = 3*t
+  end
+  subsection bearing
+    set Body = shaft
+    set Part = outer
+    set Constraint = roller
+    set Rotation angle = 0
+  end
+end
+subsection Time
+  set Steps = 4
+end
+"""
+scene = folder / "shaft.prm"
+scene.write_text(SHAFT)
+HELD = {"Boundaries/bearing/Constraint": "fixed"}
+for name, settings in (
+        ("small strain", {}),
+        ("small strain, finite element, nothing moves",
+         {"Method/Method": "finite element", "Method/Mesh after step": "keep"}),
+        ("small strain, a hundredth of it",
+         {"Boundaries/bore/Rotation angle": "0.03*t"}),
+        ("small strain, held outside", HELD),
+        ("finite strain", {"Method/Strain": "finite"})):
+    result = run(scene, {"Output/Write": "end", **settings})
+    text(f"shaft, {name}: told of", "it has turned what it holds" in result.output)
