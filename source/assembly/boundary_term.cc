@@ -321,7 +321,8 @@ namespace moraine
         constraint.normal    = point.normal;
         constraint.push      = point.normal;
         constraint.violation = states[q].violation;
-        constraint.M         = boundary.projection(point.normal);
+        if (point.holds)
+          constraint.M = boundary.projection(point.normal);
         multipliers[q] =
           boundary_traction(point,
                             constraint,

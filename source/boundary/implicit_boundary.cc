@@ -222,6 +222,11 @@ namespace moraine
                                           const bool in_the_middle) const
   {
     ConstraintState<dim> state;
+    if (!point.holds)
+      {
+        state.normal = state.push = point.normal;
+        return state;
+      }
     if (kind.projects)
       {
         const Point<dim> x_end = point.x + du;
@@ -250,6 +255,38 @@ namespace moraine
         state.push /= state.push.norm();
       }
     return state;
+  }
+
+
+
+  template <int dim>
+  PrescribedIncrements<dim>
+  ImplicitBoundary<dim>::increments_between(
+    const std::vector<double> &times) const
+  {
+    std::vector<Placement<dim>> poses;
+    for (const double t : times)
+      poses.push_back(motion.pose(t));
+    return [this, times, poses](const Point<dim> &x) {
+      const Point<dim>            X = at_start.pose().inverse(x);
+      std::vector<Tensor<1, dim>> increments;
+      for (unsigned int k = 1; k < times.size(); ++k)
+        increments.push_back((poses[k].map(X) - poses[k - 1].map(X)) +
+                             displacement(x, times[k]) -
+                             displacement(x, times[k - 1]));
+      return increments;
+    };
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::hold_in_cells(
+    const std::function<bool(const unsigned int)> &holds)
+  {
+    for (auto &point : boundary_points)
+      point.holds = holds(point.cell);
   }
 
 

@@ -6,6 +6,7 @@
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/aggregation.h>
 #include <moraine/assembly/load_terms.h>
+#include <moraine/assembly/meeting_term.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
@@ -99,6 +100,37 @@ namespace moraine
       return scene.method.after_step() == MeshAfterStep::reset ?
                VelocityTransfer(scene.first_dynamic_stage().time.integrator) :
                VelocityTransfer();
+    }
+
+
+
+    /** Of all that holds in a stage. */
+    template <int dim>
+    std::unique_ptr<Term<dim>>
+    make_meeting_term(const StageParameters                 &stage,
+                      std::vector<ImplicitBoundary<dim>>    &boundaries,
+                      const std::vector<GridCondition<dim>> &conditions)
+    {
+      constexpr unsigned int               most_spans = 8;
+      std::vector<ImplicitBoundary<dim> *> acting;
+      for (auto &boundary : boundaries)
+        if (contains(stage.boundaries, boundary.name()) &&
+            !contains(stage.absorbing, boundary.name()))
+          acting.push_back(&boundary);
+      std::vector<GridCondition<dim>> acting_conditions;
+      for (const auto &condition : conditions)
+        if (contains(stage.grid_conditions, condition.name) &&
+            !contains(stage.absorbing, condition.name))
+          acting_conditions.push_back(condition);
+      const TimeParameters &time = stage.time;
+      const unsigned int    n    = std::min(time.n_steps, most_spans);
+      std::vector<double>   times;
+      for (unsigned int k = 0; k <= n; ++k)
+        times.push_back(time.start_time +
+                        k * (time.end_time - time.start_time) / n);
+      return std::make_unique<MeetingTerm<dim>>(acting,
+                                                acting_conditions,
+                                                times);
     }
   } // namespace
 
@@ -231,6 +263,7 @@ namespace moraine
             (contains(stage.absorbing, name) || !scene.absorbs_later(name)))
           terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
       }
+    terms.push_back(make_meeting_term(stage, boundaries, grid_conditions));
     return terms;
   }
 

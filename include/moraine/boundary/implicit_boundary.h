@@ -5,6 +5,7 @@
 #define moraine_boundary_implicit_boundary_h
 
 #include <moraine/boundary/enforcement.h>
+#include <moraine/boundary/meeting_pieces.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/geometry/placement.h>
 #include <moraine/geometry/shape.h>
@@ -58,6 +59,8 @@ namespace moraine
     dealii::Tensor<1, dim> multiplier_at_start; ///< of the step
     /** @f$\sum M(u - g)@f$ of the steps before. */
     dealii::Tensor<1, dim> accumulated_violation;
+    /** Whether it constrains anything; the multiplier stays if it does not. */
+    bool holds = true;
   };
 
   /**
@@ -201,6 +204,17 @@ namespace moraine
     {
       return constraint.projection(normal);
     }
+
+    /** The increments it prescribes from each of some @p times to the next one,
+     * for the pose it has now. */
+    PrescribedIncrements<dim>
+    increments_between(const std::vector<double> &times) const;
+
+    /** Let the points in each cell hold or not, until pieces are found again.
+     */
+    void
+    hold_in_cells(
+      const std::function<bool(const unsigned int active_cell_index)> &holds);
 
     /** Take these multipliers until the next set_target(). */
     void

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_meeting_term_h
+#define moraine_assembly_meeting_term_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/grid_condition.h>
+#include <moraine/boundary/implicit_boundary.h>
+
+#include <set>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Lets pieces of implicit boundaries go where these meet each other, or grid
+   * conditions, that move differently in the cells around; see
+   * find_owners_given_way(). Stands after the terms of what meets.
+   */
+  template <int dim>
+  class MeetingTerm : public Term<dim>
+  {
+  public:
+    /** Of those that act together from the first of @p times to the last; in
+     * between they tell how motions go. */
+    MeetingTerm(const std::vector<ImplicitBoundary<dim> *> &boundaries,
+                const std::vector<GridCondition<dim>>      &conditions,
+                const std::vector<double>                  &times);
+
+    /** A note for each two that meet. */
+    std::vector<Effect>
+    effects(const StepContext<dim> &context) const override;
+
+    /** @throws InputError, on all ranks, for a boundary that would hold
+     * nowhere. */
+    bool
+    begin_step(const StepContext<dim> &context) override;
+
+  private:
+    using Piece = MeetingPiece<dim>;
+
+    /** Two that meet. */
+    struct Meeting
+    {
+      unsigned int           first;
+      unsigned int           second;
+      dealii::Point<dim>     x;     ///< where a piece lets go
+      std::set<unsigned int> cells; ///< of such pieces
+    };
+
+    /** Those of this rank that share nodes with another owner. Collective. */
+    std::vector<Piece>
+    find_pieces(const StepContext<dim> &context) const;
+
+    void
+    take_meetings(const std::vector<Piece>        &pieces,
+                  const std::vector<unsigned int> &given_way);
+
+    void
+    check_that_all_hold(const StepContext<dim> &context) const;
+
+    const std::string &
+    name(const unsigned int owner) const
+    {
+      return owner < boundaries.size() ?
+               boundaries[owner]->name() :
+               conditions[owner - boundaries.size()].name;
+    }
+
+    const std::vector<ImplicitBoundary<dim> *> boundaries;
+    const std::vector<GridCondition<dim>>      conditions;
+    const std::vector<double>                  times;
+    bool                                       found = false; ///< once
+    std::vector<Meeting>                       meetings;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_boundary_meeting_pieces_h
+#define moraine_boundary_meeting_pieces_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/types.h>
+
+#include <functional>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What one owner, an implicit boundary or a grid condition, holds in one
+   * cell: @f$M \sum_a N_a u_a = M g@f$ at some places.
+   */
+  template <int dim>
+  struct MeetingPiece
+  {
+    struct Place
+    {
+      dealii::Point<dim>              x;
+      dealii::SymmetricTensor<2, dim> M;
+      std::vector<double>             N; ///< of the nodes of the piece
+
+      template <class BoostArchive>
+      void
+      serialize(BoostArchive &archive, const unsigned int)
+      {
+        archive &x &M &N;
+      }
+    };
+
+    unsigned int owner = 0;
+    unsigned int cell  = 0; ///< active_cell_index(); of nodes, any number
+    /** A node that is prescribed cannot let go. */
+    bool   must_hold = false;
+    double area      = 0; ///< [length^(dim-1)]
+    /** Names of nodes that ranks share. */
+    std::vector<dealii::types::global_dof_index> nodes;
+    std::vector<Place>                           places;
+
+    template <class BoostArchive>
+    void
+    serialize(BoostArchive &archive, const unsigned int)
+    {
+      archive &owner &cell &must_hold &area &nodes &places;
+    }
+  };
+
+  /** The increments that an owner prescribes at a place in some spans of time,
+   * as many for every owner. */
+  template <int dim>
+  using PrescribedIncrements =
+    std::function<std::vector<dealii::Tensor<1, dim>>(
+      const dealii::Point<dim> &)>;
+
+  /**
+   * Where owners meet whose motions nodes cannot follow together, or only if
+   * they move by several times what the motions differ by, some pieces have to
+   * let go. One after the other pieces are taken that agree with those taken
+   * before: first those that see least of nodes another one moves differently,
+   * of two alike the larger one. Pieces agree if the nodal increments with
+   * least differences in cells satisfy all, relative to the motion of one
+   * owner: rigid motions are no difference.
+   *
+   * @param pieces all that share nodes with one of another owner, of all ranks
+   * @param increments of owners
+   * @return for each piece the owner it lets go for; its own if it holds.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  find_owners_given_way(
+    const std::vector<MeetingPiece<dim>>         &pieces,
+    const std::vector<PrescribedIncrements<dim>> &increments);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/meeting_term.h>
+
+#include <moraine/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What nodes are given by others: tied ones by their roots. */
+    template <int dim>
+    class FreeNodes
+    {
+    public:
+      FreeNodes(const State<dim> &state, const PrescribedNodes<dim> &prescribed)
+        : space(state.grid())
+        , tie_of(space.n_nodes(), nullptr)
+      {
+        if (const auto *aggregates = state.strict_aggregates())
+          for (const auto &tie : aggregates->ties())
+            tie_of[tie.node] = &tie;
+        for (const auto &entry : prescribed.entries)
+          tie_of[entry.node] = nullptr;
+      }
+
+      /** Add @p weight times a node to weights of nodes. */
+      void
+      add(const unsigned int                            node,
+          const double                                  weight,
+          std::vector<std::pair<unsigned int, double>> &sum) const
+      {
+        const auto *tie     = tie_of[node];
+        const auto  add_one = [&sum](const unsigned int a, const double w) {
+          const auto same =
+            std::find_if(sum.begin(), sum.end(), [a](const auto &entry) {
+              return entry.first == a;
+            });
+          if (same == sum.end())
+            sum.emplace_back(a, w);
+          else
+            same->second += w;
+        };
+        if (!tie)
+          add_one(node, weight);
+        else
+          for (unsigned int a = 0; a < tie->weights.size(); ++a)
+            add_one(space.cell_nodes(tie->root)[a], weight * tie->weights[a]);
+      }
+
+    private:
+      const GridSpace<dim>                              &space;
+      std::vector<const typename Aggregates<dim>::Tie *> tie_of;
+    };
+
+
+
+    /** A piece with the nodes as this rank numbers them. */
+    template <int dim>
+    struct LocalPiece
+    {
+      MeetingPiece<dim>         piece;
+      std::vector<unsigned int> nodes;
+    };
+
+
+
+    /** The pieces of @p boundary in the cells of this rank. */
+    template <int dim>
+    void
+    add_pieces(const ImplicitBoundary<dim>  &boundary,
+               const unsigned int            owner,
+               const GridSpace<dim>         &space,
+               const FreeNodes<dim>         &free_nodes,
+               std::vector<LocalPiece<dim>> &pieces)
+    {
+      const auto                                  &points = boundary.points();
+      const unsigned int                           n = space.nodes_per_cell();
+      std::vector<std::pair<unsigned int, double>> sum;
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          if (q == 0 || points[q].cell != points[q - 1].cell)
+            {
+              pieces.emplace_back();
+              pieces.back().piece.owner = owner;
+              pieces.back().piece.cell  = points[q].cell;
+              sum.clear();
+            }
+          auto &[piece, nodes] = pieces.back();
+          for (auto &[node, weight] : sum)
+            weight = 0;
+          for (unsigned int a = 0; a < n; ++a)
+            free_nodes.add(space.cell_nodes(points[q].cell)[a],
+                           boundary.N(q)[a],
+                           sum);
+          piece.area += points[q].JxW;
+          piece.places.push_back(
+            {points[q].x, boundary.projection(points[q].normal), {}});
+          nodes.clear();
+          for (const auto &[node, weight] : sum)
+            {
+              nodes.push_back(node);
+              piece.places.back().N.push_back(weight);
+            }
+        }
+    }
+
+
+
+    /** Flags for nodes that see pieces or conditions of several owners.
+     * Collective. */
+    template <int dim>
+    std::vector<bool>
+    nodes_of_several(const GridSpace<dim>               &space,
+                     const std::vector<LocalPiece<dim>> &pieces,
+                     const PrescribedNodes<dim>         &prescribed,
+                     const unsigned int                  n_boundaries)
+    {
+      // The owners of a node are all one if their variance is zero.
+      std::vector<Tensor<1, dim>> sums(space.n_nodes()), squares(sums);
+      const auto                  touch = [&](const unsigned int node,
+                             const unsigned int owner) {
+        sums[node][0] += 1;
+        sums[node][1] += owner;
+        squares[node][0] += double(owner) * owner;
+      };
+      for (const auto &[piece, nodes] : pieces)
+        for (const unsigned int node : nodes)
+          touch(node, piece.owner);
+      for (const auto &entry : prescribed.entries)
+        touch(entry.node, n_boundaries + entry.condition);
+      space.sum_over_ranks(sums);
+      space.sum_over_ranks(squares);
+      std::vector<bool> several(space.n_nodes());
+      for (unsigned int a = 0; a < several.size(); ++a)
+        several[a] = sums[a][0] * squares[a][0] - sums[a][1] * sums[a][1] > 0.5;
+      return several;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  MeetingTerm<dim>::MeetingTerm(
+    const std::vector<ImplicitBoundary<dim> *> &boundaries,
+    const std::vector<GridCondition<dim>>      &conditions,
+    const std::vector<double>                  &times)
+    : boundaries(boundaries)
+    , conditions(conditions)
+    , times(times)
+  {}
+
+
+
+  template <int dim>
+  std::vector<Effect>
+  MeetingTerm<dim>::effects(const StepContext<dim> &) const
+  {
+    std::vector<Effect> notes;
+    for (const Meeting &meeting : meetings)
+      {
+        const std::string two =
+          name(meeting.first) + " and " + name(meeting.second);
+        std::ostringstream text;
+        text << two << ": they move differently, and a cell at (" << meeting.x
+             << ") cannot follow both";
+        if (meeting.cells.size() > 1)
+          text << " (nor can " << meeting.cells.size() - 1 << " more)";
+        text << "; what is left of them there is not held, and keeps the "
+                "traction that it has, so that between them is a gap up to a "
+                "cell wide: smaller cells narrow it";
+        notes.push_back({"meeting of " + two, "note", text.str()});
+      }
+    return notes;
+  }
+
+
+
+  template <int dim>
+  std::vector<MeetingPiece<dim>>
+  MeetingTerm<dim>::find_pieces(const StepContext<dim> &context) const
+  {
+    const GridSpace<dim>      &space = context.state.grid();
+    const PrescribedNodes<dim> prescribed =
+      find_prescribed_nodes(conditions, space, context.t_start);
+    const FreeNodes<dim>         free_nodes(context.state, prescribed);
+    std::vector<LocalPiece<dim>> all;
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      add_pieces(*boundaries[b], b, space, free_nodes, all);
+    const std::vector<bool> several =
+      nodes_of_several(space, all, prescribed, boundaries.size());
+
+    std::vector<Piece> pieces;
+    std::vector<bool>  seen(space.n_nodes(), false);
+    for (auto &[piece, nodes] : all)
+      {
+        if (std::none_of(nodes.begin(), nodes.end(), [&](const auto node) {
+              return several[node];
+            }))
+          continue;
+        for (const unsigned int node : nodes)
+          {
+            seen[node] = true;
+            piece.nodes.push_back(space.node_dof(node));
+          }
+        pieces.push_back(std::move(piece));
+      }
+    for (const auto &entry : prescribed.entries)
+      if (seen[entry.node])
+        {
+          Piece piece;
+          piece.owner     = boundaries.size() + entry.condition;
+          piece.cell      = entry.component;
+          piece.must_hold = true;
+          piece.nodes     = {space.node_dof(entry.node)};
+          SymmetricTensor<2, dim> M;
+          M[entry.component][entry.component] = 1;
+          piece.places.push_back({space.node_position(entry.node), M, {1.}});
+          pieces.push_back(piece);
+        }
+    return pieces;
+  }
+
+
+
+  template <int dim>
+  bool
+  MeetingTerm<dim>::begin_step(const StepContext<dim> &context)
+  {
+    const bool moves =
+      context.state.mesh_after_step() != MeshAfterStep::keep &&
+      std::any_of(boundaries.begin(), boundaries.end(), [](const auto *b) {
+        return b->rigid_motion().moves();
+      });
+    if (boundaries.empty() || (found && !context.cells_moved && !moves))
+      return false;
+    std::vector<Piece> pieces;
+    for (auto &of_one_rank :
+         Utilities::MPI::all_gather(context.state.grid().communicator(),
+                                    find_pieces(context)))
+      for (Piece &piece : of_one_rank)
+        pieces.push_back(std::move(piece));
+    // The same for any number of ranks; several know a node.
+    const auto key = [](const Piece &piece) {
+      return std::make_tuple(piece.owner, piece.cell, piece.nodes);
+    };
+    std::sort(pieces.begin(),
+              pieces.end(),
+              [&key](const Piece &a, const Piece &b) {
+                return key(a) < key(b);
+              });
+    pieces.erase(std::unique(pieces.begin(),
+                             pieces.end(),
+                             [&key](const Piece &a, const Piece &b) {
+                               return key(a) == key(b);
+                             }),
+                 pieces.end());
+
+    std::vector<PrescribedIncrements<dim>> increments;
+    for (const auto *boundary : boundaries)
+      increments.push_back(boundary->increments_between(times));
+    for (const auto &condition : conditions)
+      increments.push_back([this, &condition](const Point<dim> &x) {
+        std::vector<Tensor<1, dim>> all;
+        for (unsigned int k = 1; k < times.size(); ++k)
+          all.push_back(condition.increment(x, times[k - 1], times[k]));
+        return all;
+      });
+    take_meetings(pieces, find_owners_given_way(pieces, increments));
+    check_that_all_hold(context);
+    found = true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  MeetingTerm<dim>::take_meetings(const std::vector<Piece>        &pieces,
+                                  const std::vector<unsigned int> &given_way)
+  {
+    meetings.clear();
+    std::vector<std::set<unsigned int>> let_go(boundaries.size());
+    for (unsigned int p = 0; p < pieces.size(); ++p)
+      {
+        if (given_way[p] == pieces[p].owner)
+          continue;
+        let_go[pieces[p].owner].insert(pieces[p].cell);
+        const unsigned int first  = std::min(pieces[p].owner, given_way[p]),
+                           second = std::max(pieces[p].owner, given_way[p]);
+        auto meeting =
+          std::find_if(meetings.begin(), meetings.end(), [&](const auto &m) {
+            return m.first == first && m.second == second;
+          });
+        if (meeting == meetings.end())
+          meeting = meetings.insert(meetings.end(),
+                                    {first, second, pieces[p].places[0].x, {}});
+        meeting->cells.insert(pieces[p].cell);
+      }
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      boundaries[b]->hold_in_cells([&cells = let_go[b]](const unsigned int c) {
+        return cells.count(c) == 0;
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  MeetingTerm<dim>::check_that_all_hold(const StepContext<dim> &context) const
+  {
+    const MPI_Comm communicator = context.state.grid().communicator();
+    for (const Meeting &meeting : meetings)
+      for (const unsigned int owner : {meeting.first, meeting.second})
+        {
+          if (owner >= boundaries.size())
+            continue;
+          const auto &points = boundaries[owner]->points();
+          const bool  holds =
+            std::any_of(points.begin(), points.end(), [](const auto &point) {
+              return point.holds;
+            });
+          if (!Utilities::MPI::logical_or(holds, communicator))
+            {
+              std::ostringstream message;
+              message << "'" << name(meeting.first) << "' and '"
+                      << name(meeting.second)
+                      << "' prescribe different motions at (" << meeting.x
+                      << "), in all cells that '" << name(owner)
+                      << "' cuts, allowed: smaller cells, surfaces that are a "
+                         "cell apart, or a roller";
+              throw InputError(message.str());
+            }
+        }
+  }
+
+
+
+  template class MeetingTerm<2>;
+  template class MeetingTerm<3>;
+} // namespace moraine
