@@ -336,8 +336,8 @@ namespace moraine
                       << name(meeting.second)
                       << "' prescribe different motions at (" << meeting.x
                       << "), in all cells that '" << name(owner)
-                      << "' cuts, allowed: smaller cells, surfaces that are a "
-                         "cell apart, or a roller";
+                      << "' cuts, allowed: smaller cells, or surfaces that "
+                         "end a cell apart";
               throw InputError(message.str());
             }
         }

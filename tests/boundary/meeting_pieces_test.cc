@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/boundary/meeting_pieces.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+using namespace moraine;
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+  /** What @p owner holds from @p begin to @p end in a cell of size 1 of a row
+   * on a line; node k is at x = k. */
+  MeetingPiece<2>
+  piece(const unsigned int           owner,
+        const unsigned int           cell,
+        const double                 begin,
+        const double                 end,
+        const SymmetricTensor<2, 2> &M = dealii::unit_symmetric_tensor<2>())
+  {
+    MeetingPiece<2> of;
+    of.owner = owner;
+    of.cell  = cell;
+    of.area  = end - begin;
+    of.nodes = {cell, cell + 1};
+    for (const double s : {0.2, 0.8})
+      {
+        const double x = begin + s * (end - begin);
+        of.places.push_back({{x, 0.}, M, {1 - (x - cell), x - cell}});
+      }
+    return of;
+  }
+
+  /** Two owners, the first of which ends at @p x in a row of four cells. */
+  std::vector<MeetingPiece<2>>
+  row(const double x)
+  {
+    std::vector<MeetingPiece<2>> pieces;
+    for (unsigned int cell = 0; cell < 4; ++cell)
+      {
+        if (cell < x)
+          pieces.push_back(piece(0, cell, cell, std::min(cell + 1., x)));
+        if (cell + 1 > x)
+          pieces.push_back(piece(1, cell, std::max(1. * cell, x), cell + 1.));
+      }
+    return pieces;
+  }
+
+  PrescribedIncrements<2>
+  motion(const std::function<Tensor<1, 2>(const Point<2> &)> &g)
+  {
+    return [g](const Point<2> &x) {
+      return std::vector<Tensor<1, 2>>{Tensor<1, 2>(), g(x)};
+    };
+  }
+
+  const auto rests = motion([](const Point<2> &) { return Tensor<1, 2>(); });
+  const auto sinks = motion([](const Point<2> &) {
+    return Tensor<1, 2>({0., -0.1});
+  });
+
+  using Owners = std::vector<unsigned int>;
+} // namespace
+
+TEST(MeetingPieces, ACellInWhichTwoMoveDifferentlyFollowsNeither)
+{
+  for (const double x : {2.02, 2.3, 2.98})
+    EXPECT_EQ(find_owners_given_way<2>(row(x), {sinks, rests}),
+              (Owners{0, 0, 1, 0, 1}))
+      << x;
+}
+
+TEST(MeetingPieces, AtANodeTheSecondLetsGo)
+{
+  EXPECT_EQ(find_owners_given_way<2>(row(2.), {sinks, rests}),
+            (Owners{0, 0, 0, 1}));
+}
+
+TEST(MeetingPieces, ThoseThatMoveTogetherHold)
+{
+  const Owners all = {0, 0, 0, 1, 1};
+  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {rests, rests}), all);
+  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {sinks, sinks}), all);
+  const auto turns = motion([](const Point<2> &x) {
+    return 0.1 * Tensor<1, 2>({-x[1], x[0] - 1e5});
+  });
+  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {turns, turns}), all);
+}
+
+TEST(MeetingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
+{
+  // One cell cannot bend at 2.3; at a node it does.
+  const auto turns = [](const double at) {
+    return motion([at](const Point<2> &x) {
+      return 0.1 * Tensor<1, 2>({0., x[0] - at});
+    });
+  };
+  EXPECT_EQ(find_owners_given_way<2>(row(2.), {turns(2.), rests}),
+            (Owners{0, 0, 1, 1}));
+  EXPECT_NE(find_owners_given_way<2>(row(2.3), {turns(2.3), rests}),
+            (Owners{0, 0, 0, 1, 1}));
+}
+
+TEST(MeetingPieces, RollersOfOtherComponentsHold)
+{
+  std::vector<MeetingPiece<2>> pieces = row(2.3);
+  for (auto &of : pieces)
+    for (auto &place : of.places)
+      {
+        place.M                             = SymmetricTensor<2, 2>();
+        place.M[1 - of.owner][1 - of.owner] = 1;
+      }
+  EXPECT_EQ(find_owners_given_way<2>(pieces, {sinks, rests}),
+            (Owners{0, 0, 0, 1, 1}));
+}
+
+TEST(MeetingPieces, NodesThatArePrescribedStay)
+{
+  std::vector<MeetingPiece<2>> pieces = {piece(0, 0, 0., 1.),
+                                         piece(0, 1, 1., 2.)};
+  MeetingPiece<2>              node;
+  node.owner     = 1;
+  node.must_hold = true;
+  node.nodes     = {0};
+  node.places.push_back({{0., 0.}, dealii::unit_symmetric_tensor<2>(), {1.}});
+  pieces.push_back(node);
+  EXPECT_EQ(find_owners_given_way<2>(pieces, {sinks, rests}),
+            (Owners{1, 0, 1}));
+}
