@@ -222,6 +222,9 @@ namespace moraine
                                           const bool in_the_middle) const
   {
     ConstraintState<dim> state;
+    state.place =
+      point.x + (kind.moves_with_points ? (in_the_middle ? 0.5 : 1.) * du :
+                                          point.prescribed);
     if (!point.holds)
       {
         state.normal = state.push = point.normal;
@@ -245,9 +248,6 @@ namespace moraine
         state.M         = constraint.projection(point.normal);
         state.violation = state.M * (du - point.prescribed);
       }
-    state.place =
-      point.x + (kind.moves_with_points ? (in_the_middle ? 0.5 : 1.) * du :
-                                          point.prescribed);
     state.push = state.normal;
     if (kind.projects && in_the_middle)
       {

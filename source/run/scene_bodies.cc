@@ -237,6 +237,7 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)                                                                \
+  template void BodyParameters<dim>::add_parameters(ParameterHandler &);                \
   template NamedShapes<dim>         body_shapes(const Scene<dim> &);                    \
   template std::set<std::string>    operands_of(const Scene<dim> &);                    \
   template std::vector<std::string> simulated_bodies(const Scene<dim> &);               \
