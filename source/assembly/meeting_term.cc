@@ -116,6 +116,34 @@ namespace moraine
 
 
 
+    /** The same where @p increments have values; elsewhere, as expressions need
+     * none beyond their surface, those at the nearest of the owner's @p places.
+     */
+    template <int dim>
+    PrescribedIncrements<dim>
+    defined_anywhere(const PrescribedIncrements<dim> &increments,
+                     std::vector<Point<dim>>          places,
+                     const unsigned int               n_spans)
+    {
+      return [=](const Point<dim> &x) {
+        if (places.empty())
+          return std::vector<Tensor<1, dim>>(n_spans);
+        try
+          {
+            return increments(x);
+          }
+        catch (const InputError &)
+          {
+            return increments(*std::min_element(
+              places.begin(), places.end(), [&x](const auto &a, const auto &b) {
+                return a.distance_square(x) < b.distance_square(x);
+              }));
+          }
+      };
+    }
+
+
+
     /** Flags for nodes that see pieces or conditions of several owners.
      * Collective. */
     template <int dim>
@@ -265,20 +293,40 @@ namespace moraine
                              }),
                  pieces.end());
 
-    std::vector<PrescribedIncrements<dim>> increments;
+    take_meetings(pieces, find_owners_given_way(pieces, increments(pieces)));
+    check_that_all_hold(context);
+    found = true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  std::vector<PrescribedIncrements<dim>>
+  MeetingTerm<dim>::increments(const std::vector<Piece> &pieces) const
+  {
+    std::vector<PrescribedIncrements<dim>> of_owners;
     for (const auto *boundary : boundaries)
-      increments.push_back(boundary->increments_between(times));
+      of_owners.push_back(boundary->increments_between(times));
     for (const auto &condition : conditions)
-      increments.push_back([this, &condition](const Point<dim> &x) {
+      of_owners.push_back([this, &condition](const Point<dim> &x) {
         std::vector<Tensor<1, dim>> all;
         for (unsigned int k = 1; k < times.size(); ++k)
           all.push_back(condition.increment(x, times[k - 1], times[k]));
         return all;
       });
-    take_meetings(pieces, find_owners_given_way(pieces, increments));
-    check_that_all_hold(context);
-    found = true;
-    return false;
+    for (unsigned int owner = 0; owner < of_owners.size(); ++owner)
+      {
+        std::vector<Point<dim>> places;
+        for (const Piece &piece : pieces)
+          if (piece.owner == owner)
+            for (const auto &place : piece.places)
+              places.push_back(place.x);
+        of_owners[owner] = defined_anywhere<dim>(of_owners[owner],
+                                                 std::move(places),
+                                                 times.size() - 1);
+      }
+    return of_owners;
   }
 
 

@@ -53,6 +53,10 @@ namespace moraine
     std::vector<Piece>
     find_pieces(const StepContext<dim> &context) const;
 
+    /** What each owner prescribes, by its number. */
+    std::vector<PrescribedIncrements<dim>>
+    increments(const std::vector<Piece> &pieces) const;
+
     void
     take_meetings(const std::vector<Piece>        &pieces,
                   const std::vector<unsigned int> &given_way);
