@@ -353,7 +353,13 @@ TEST(SmallSurfaces, AreaAndNormals)
   Numbers    random(5);
   const auto even = box_cells<3>(7, 7., 0.), bent = box_cells<3>(7, 7., 0.15);
   bool       is_even = false;
-  for (const double radius : {.1, .15, .2, .3, .4, .55, .7, .9, 1.2, 1.5, 1.9})
+#ifdef DEBUG // which is ten times as slow
+  const std::vector<double> radii = {.15, .4, 1.2};
+#else
+  const std::vector<double> radii = {
+    .1, .15, .2, .3, .4, .55, .7, .9, 1.2, 1.5, 1.9};
+#endif
+  for (const double radius : radii)
     {
       is_even = !is_even;
       for (const auto &closed : closed_surfaces(radius, random))
