@@ -116,28 +116,20 @@ namespace moraine
 
 
 
-    /** The same where @p increments have values; elsewhere, as expressions need
-     * none beyond their surface, those at the nearest of the owner's @p places.
-     */
+    /** The same, or nothing where @p increments have no values, as expressions
+     * need none beyond their surface. */
     template <int dim>
     PrescribedIncrements<dim>
-    defined_anywhere(const PrescribedIncrements<dim> &increments,
-                     std::vector<Point<dim>>          places,
-                     const unsigned int               n_spans)
+    if_defined(const PrescribedIncrements<dim> &increments)
     {
-      return [=](const Point<dim> &x) {
-        if (places.empty())
-          return std::vector<Tensor<1, dim>>(n_spans);
+      return [increments](const Point<dim> &x) {
         try
           {
             return increments(x);
           }
         catch (const InputError &)
           {
-            return increments(*std::min_element(
-              places.begin(), places.end(), [&x](const auto &a, const auto &b) {
-                return a.distance_square(x) < b.distance_square(x);
-              }));
+            return std::vector<Tensor<1, dim>>();
           }
       };
     }
@@ -293,7 +285,7 @@ namespace moraine
                              }),
                  pieces.end());
 
-    take_meetings(pieces, find_owners_given_way(pieces, increments(pieces)));
+    take_meetings(pieces, find_owners_given_way(pieces, increments()));
     check_that_all_hold(context);
     found = true;
     return false;
@@ -303,7 +295,7 @@ namespace moraine
 
   template <int dim>
   std::vector<PrescribedIncrements<dim>>
-  MeetingTerm<dim>::increments(const std::vector<Piece> &pieces) const
+  MeetingTerm<dim>::increments() const
   {
     std::vector<PrescribedIncrements<dim>> of_owners;
     for (const auto *boundary : boundaries)
@@ -315,17 +307,8 @@ namespace moraine
           all.push_back(condition.increment(x, times[k - 1], times[k]));
         return all;
       });
-    for (unsigned int owner = 0; owner < of_owners.size(); ++owner)
-      {
-        std::vector<Point<dim>> places;
-        for (const Piece &piece : pieces)
-          if (piece.owner == owner)
-            for (const auto &place : piece.places)
-              places.push_back(place.x);
-        of_owners[owner] = defined_anywhere<dim>(of_owners[owner],
-                                                 std::move(places),
-                                                 times.size() - 1);
-      }
+    for (auto &of_owner : of_owners)
+      of_owner = if_defined<dim>(of_owner);
     return of_owners;
   }
 

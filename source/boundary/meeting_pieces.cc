@@ -128,7 +128,11 @@ namespace moraine
             values[p].emplace_back();
             for (const auto &of_owner : increments)
               values[p].back().push_back(of_owner(place.x));
-            n_spans = values[p].back().front().size();
+            const auto own = values[p].back()[pieces[p].owner];
+            for (auto &of_owner : values[p].back())
+              if (of_owner.empty())
+                of_owner = own;
+            n_spans = own.size();
           }
       find_differences();
     }

@@ -55,7 +55,7 @@ namespace moraine
 
     /** What each owner prescribes, by its number. */
     std::vector<PrescribedIncrements<dim>>
-    increments(const std::vector<Piece> &pieces) const;
+    increments() const;
 
     void
     take_meetings(const std::vector<Piece>        &pieces,

@@ -52,7 +52,8 @@ namespace moraine
   };
 
   /** The increments that an owner prescribes at a place in some spans of time,
-   * as many for every owner. */
+   * as many for every owner; none where it knows of none, and differs from
+   * nobody. */
   template <int dim>
   using PrescribedIncrements =
     std::function<std::vector<dealii::Tensor<1, dim>>(
