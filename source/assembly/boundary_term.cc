@@ -95,7 +95,7 @@ namespace moraine
     // vibrations, and as points move. Elsewhere the larger factor costs
     // accuracy for nothing; there it is what is needed.
     const Enforcement &how       = boundary.enforcement();
-    const bool         nitsche   = how.carries_multiplier && !how.augments;
+    const bool         nitsche   = how.is_nitsche();
     const bool         symmetric = nitsche && how.adjoint_sign > 0;
     const bool finite = context.state.strain_measure() == StrainMeasure::finite;
     depths_of_means.clear();

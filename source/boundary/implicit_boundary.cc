@@ -93,6 +93,19 @@ namespace moraine
     if (kind.holds_means)
       take_means(space);
     number_points();
+    if (kind.projects)
+      find_levels(space.communicator());
+    take_over_nearest(space.communicator());
+    kept_at_points = false;
+    placed = has_pieces = true;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::find_levels(const MPI_Comm &communicator)
+  {
     largest_coordinate = 0;
     for (auto &point : boundary_points)
       {
@@ -100,11 +113,7 @@ namespace moraine
         largest_coordinate =
           std::max(largest_coordinate, coordinate_magnitude(point.x));
       }
-    largest_coordinate =
-      Utilities::MPI::max(largest_coordinate, space.communicator());
-    take_over_nearest(space.communicator());
-    kept_at_points = false;
-    placed = has_pieces = true;
+    largest_coordinate = Utilities::MPI::max(largest_coordinate, communicator);
   }
 
 

@@ -118,8 +118,9 @@ namespace moraine
     LA::Vector    products(x);
     double       *values = products.trilinos_vector()[0];
     const double *K      = diagonal.trilinos_vector()[0];
+    const double  scale  = system.displacement_scale();
     for (unsigned int k = 0; k < x.locally_owned_size(); ++k)
-      values[k] = K[k] * (std::abs(values[k]) + system.displacement_scale());
+      values[k] = K[k] * (std::abs(values[k]) + scale);
 
     now.norms = norms_of_parts(system.residual());
     now.goals = norms_of_parts(products);

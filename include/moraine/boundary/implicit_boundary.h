@@ -47,8 +47,10 @@ namespace moraine
   struct BoundaryPoint
   {
     dealii::Point<dim>     x;
-    dealii::Tensor<1, dim> normal;     ///< outward, at the start of the step
-    double                 level;      ///< distance behind a curve; of means
+    dealii::Tensor<1, dim> normal; ///< outward, at the start of the step
+    /** Where the place ends on a curve: the level it has at the start, zero but
+     * for means. */
+    double                 level = 0;
     double                 JxW;        ///< length or area
     unsigned int           cell;       ///< active_cell_index()
     unsigned int           number;     ///< among the points of the cell
@@ -394,6 +396,10 @@ namespace moraine
     /** Evaluate the functions of active cell @p cell_index at every point. */
     void
     evaluate_shapes(const GridSpace<dim> &space);
+
+    /** Of points that are to end on a curve. Collective. */
+    void
+    find_levels(const MPI_Comm &communicator);
 
     /** Give @p point what @p carried says. */
     void
