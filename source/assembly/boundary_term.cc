@@ -29,7 +29,7 @@ namespace moraine
     has_lambda_in_means(const Enforcement &how, const StepContext<dim> &context)
     {
       return context.state.averages_volume() && !context.motion &&
-             how.carries_multiplier && !how.augments;
+             how.is_nitsche();
     }
 
 
@@ -95,11 +95,10 @@ namespace moraine
     // vibrations, and as points move. Elsewhere the larger factor costs
     // accuracy for nothing; there it is what is needed.
     const Enforcement &how       = boundary.enforcement();
-    const bool         nitsche   = how.is_nitsche();
-    const bool         symmetric = nitsche && how.adjoint_sign > 0;
+    const bool         symmetric = how.is_nitsche() && how.adjoint_sign > 0;
     const bool finite = context.state.strain_measure() == StrainMeasure::finite;
     depths_of_means.clear();
-    if (!symmetric && !(nitsche && context.motion))
+    if (!symmetric && !(how.is_nitsche() && context.motion))
       return false;
     const std::vector<double> volumes = volumes_in_cells(context.state);
     boundary.set_depths(volumes,

@@ -261,7 +261,9 @@ namespace moraine
       std::any_of(boundaries.begin(), boundaries.end(), [](const auto *b) {
         return b->rigid_motion().moves();
       });
-    if (boundaries.empty() || (found && !context.cells_moved && !moves))
+    const bool is_alone = boundaries.size() + conditions.size() < 2;
+    if (boundaries.empty() || is_alone ||
+        (found && !context.cells_moved && !moves))
       return false;
     std::vector<Piece> pieces;
     for (auto &of_one_rank :

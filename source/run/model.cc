@@ -125,9 +125,11 @@ namespace moraine
       const TimeParameters &time = stage.time;
       const unsigned int    n    = std::min(time.n_steps, most_spans);
       std::vector<double>   times;
+      // Of uneven spans, lest they are periods of a motion.
       for (unsigned int k = 0; k <= n; ++k)
         times.push_back(time.start_time +
-                        k * (time.end_time - time.start_time) / n);
+                        std::pow(double(k) / n, n < most_spans ? 1. : 1.3) *
+                          (time.end_time - time.start_time));
       return std::make_unique<MeetingTerm<dim>>(acting,
                                                 acting_conditions,
                                                 times);
@@ -378,6 +380,21 @@ namespace moraine
                                  mesh->cell_size());
     basis = method.make_basis({parameters, *space, *points, bodies});
     basis->initialise_points(*points);
+  }
+
+
+
+  template <int dim>
+  double
+  Model<dim>::largest_modulus() const
+  {
+    double largest = 0;
+    for (const auto &material : materials)
+      {
+        const LameConstants C = material->elastic_stiffness();
+        largest               = std::max(largest, C.lambda + 2 * C.mu);
+      }
+    return largest;
   }
 
 

@@ -117,14 +117,8 @@ namespace moraine
     double
     round_off_of_energy(const Model<dim> &model)
     {
-      constexpr double strain  = 1e-8;
-      double           modulus = 0;
-      for (const auto &material : model.materials)
-        {
-          const LameConstants C = material->elastic_stiffness();
-          modulus               = std::max(modulus, C.lambda + 2 * C.mu);
-        }
-      return strain * strain * modulus *
+      constexpr double strain = 1e-8;
+      return strain * strain * model.largest_modulus() *
              std::accumulate(model.body_volumes.begin(),
                              model.body_volumes.end(),
                              0.);

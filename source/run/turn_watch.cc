@@ -107,13 +107,9 @@ namespace moraine
       {
         const LameConstants C =
           model.materials[points.body(p)]->elastic_stiffness();
-        const SymmetricTensor<2, 3> sigma =
-          points.stress_field()(points.values(p));
-        const double volumetric = trace(sigma) / (3 * C.lambda + 2 * C.mu);
-        const SymmetricTensor<2, 3> strain =
-          (sigma - C.lambda * volumetric * unit_symmetric_tensor<3>()) /
-          (2 * C.mu);
-        largest = std::max(largest, strain.norm());
+        largest =
+          std::max(largest,
+                   C.strain_of(points.stress_field()(points.values(p))).norm());
       }
     return Utilities::MPI::max(largest, model.space->communicator());
   }

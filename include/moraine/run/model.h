@@ -41,6 +41,10 @@ namespace moraine
     void
     set_stage(const Scene<dim> &scene, const unsigned int k);
 
+    /** Of the materials, the largest @f$\lambda + 2\mu@f$ [stress]. */
+    double
+    largest_modulus() const;
+
     std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
     std::vector<double>                          body_volumes;
