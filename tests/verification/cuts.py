@@ -12,7 +12,7 @@ from math import cos, hypot, radians, sin, sqrt
 BLOCK = "prm/hard-cases/cut-block.prm"
 H = 0.125
 # MORAINE_PLACES = 300 takes more of a sequence that is always the same.
-PLACES = int(os.environ.get("MORAINE_PLACES", 9))
+PLACES = int(os.environ.get("MORAINE_PLACES", 9 if ranks == 1 else 3))
 
 
 def at(angle, dx, dy, h=H):
@@ -91,10 +91,9 @@ for name, in_a_cell in (("augmented Lagrangian", "auto"), ("weighted", "auto"),
         if in_a_cell == "places":
             at_least(f"{name}, places, h = {h}: tip over aligned - 1", u, 5e-2)
             continue
-        number(f"{name}, h = {h}: tip over aligned - 1", u, 1)
         bound(f"{name}, h = {h}: tip over aligned - 1", u, allowed)
         bound(f"{name}, h = {h}: largest stress over aligned", s, 2)
-u, s, rejected = sweep({"Method/Aggregate below": 0})
+u, s, rejected = sweep({"Method/Aggregate below": 0}, n=9)
 at_least("GIMP without aggregation: largest stress over aligned", s, 100)
 
 # Nodes that springs hold to the cells beside them.
