@@ -93,10 +93,12 @@ namespace moraine
         const auto dof = space.node_dof(entry.node) + entry.component;
         if (constraints.is_constrained(dof))
           continue;
+        const Point<dim> x = space.node_position(entry.node);
         constraints.add_line(dof);
         constraints.set_inhomogeneity(dof,
                                       conditions[entry.condition].increment(
-                                        space.node_position(entry.node),
+                                        x,
+                                        x - space.node_move(entry.node),
                                         context.t_start,
                                         context.t_end)[entry.component]);
       }

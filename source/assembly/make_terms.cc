@@ -3,7 +3,6 @@
 
 #include <moraine/assembly/make_terms.h>
 
-#include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/conserving_force.h>
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/assembly/grid_condition_term.h>
@@ -22,7 +21,8 @@ namespace moraine
              const bool                             inertia,
              const bool                             conserving,
              std::unique_ptr<Term<dim>>             internal_force,
-             const IsActive                        &active)
+             const IsActive                        &active,
+             const ShapesOfBodies<dim>             &shapes)
   {
     const auto acts = [&active](const std::string &section,
                                 const std::string &name) {
@@ -42,7 +42,7 @@ namespace moraine
         std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
     for (auto &boundary : boundaries)
       if (acts("Boundaries", boundary.name()))
-        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary));
+        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary, shapes));
     std::vector<GridCondition<dim>> acting;
     for (const auto &condition : conditions)
       if (acts("Grid conditions", condition.name))
@@ -74,7 +74,8 @@ namespace moraine
              const bool,
              const bool,
              std::unique_ptr<Term<2>>,
-             const IsActive &);
+             const IsActive &,
+             const ShapesOfBodies<2> &);
   template Terms<3>
   make_terms(std::vector<ImplicitBoundary<3>> &,
              const std::vector<GridCondition<3>> &,
@@ -83,5 +84,6 @@ namespace moraine
              const bool,
              const bool,
              std::unique_ptr<Term<3>>,
-             const IsActive &);
+             const IsActive &,
+             const ShapesOfBodies<3> &);
 } // namespace moraine

@@ -306,7 +306,7 @@ namespace moraine
       of_owners.push_back([this, &condition](const Point<dim> &x) {
         std::vector<Tensor<1, dim>> all;
         for (unsigned int k = 1; k < times.size(); ++k)
-          all.push_back(condition.increment(x, times[k - 1], times[k]));
+          all.push_back(condition.increment(x, x, times[k - 1], times[k]));
         return all;
       });
     for (auto &of_owner : of_owners)

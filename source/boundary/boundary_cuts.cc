@@ -5,6 +5,7 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
+#include <moraine/geometry/covered_pieces.h>
 #include <moraine/mesh/active_search.h>
 
 #include <algorithm>
@@ -63,6 +64,17 @@ namespace moraine
         }
       return std::count(holds_edges.begin(), holds_edges.end(), true) ==
              dim - 1;
+    }
+
+
+
+    /** The edge of a cube of the same volume. */
+    template <typename CellIterator>
+    double
+    size_of(const CellIterator &cell)
+    {
+      constexpr int dim = CellIterator::AccessorType::dimension;
+      return std::pow(cell->measure(), 1. / dim);
     }
 
 
@@ -235,22 +247,53 @@ namespace moraine
                  at_start.bounding_box(),
                  1e-9 * cell->diameter()))
       return;
-    std::vector<SurfacePoint<dim>> pieces;
+    const auto own_cell = [&](const SurfacePoint<dim> &piece) {
+      const CellIterator owner = owner_of(cell, piece.x);
+      return owner.state() == IteratorState::valid &&
+                 owner->is_locally_owned() ?
+               owner :
+               CellIterator();
+    };
+    const auto is_own = [&](const SurfacePoint<dim> &piece) {
+      return own_cell(piece).state() == IteratorState::valid;
+    };
+    const auto is_held = [&](const SurfacePoint<dim> &piece) {
+      const CellIterator owner = own_cell(piece);
+      return owner.state() != IteratorState::valid ||
+             body.at(owner->active_cell_index(),
+                     piece.x,
+                     piece.normal,
+                     size_of(owner));
+    };
     // The mesh as it was built decides, so that the points stay the same ones.
-    at_start.pieces(vertices,
-                    n_gauss_points_in<dim>(vertices_of<dim>(cell)),
-                    pieces);
+    const unsigned int n = n_gauss_points_in<dim>(vertices_of<dim>(cell));
+    std::vector<SurfacePoint<dim>> pieces;
+    add_kept_pieces<dim>(at_start, vertices, n, is_held, pieces);
+    if (std::none_of(pieces.begin(), pieces.end(), is_own))
+      {
+        pieces.clear();
+        at_start.pieces(vertices, n, pieces);
+        if (std::none_of(pieces.begin(), pieces.end(), [&](const auto &piece) {
+              const CellIterator owner = own_cell(piece);
+              return owner.state() == IteratorState::valid &&
+                     body.near(owner->active_cell_index(),
+                               piece.x,
+                               piece.normal,
+                               size_of(owner));
+            }))
+          return;
+      }
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        const CellIterator owner = owner_of(cell, piece.x);
-        if (owner.state() != IteratorState::valid || !owner->is_locally_owned())
+        const CellIterator owner = own_cell(piece);
+        if (owner.state() != IteratorState::valid)
           continue;
         BoundaryPoint<dim> point;
         point.x      = piece.x;
         point.normal = piece.normal;
         point.JxW    = piece.JxW;
         point.cell   = owner->active_cell_index();
-        point.h      = std::pow(owner->measure(), 1. / dim);
+        point.h      = size_of(owner);
         point.depth  = point.h;
         boundary_points.push_back(point);
       }

@@ -264,9 +264,10 @@ namespace moraine
         {
           const double         t_n = start + step * size, t = t_n + size;
           const Point<dim>    &x = space.node_position(entry.node);
-          const Tensor<1, dim> u = conditions[entry.first].increment(x, t_n, t);
+          const Tensor<1, dim> u =
+            conditions[entry.first].increment(x, x, t_n, t);
           const Tensor<1, dim> v =
-            conditions[entry.second].increment(x, t_n, t);
+            conditions[entry.second].increment(x, x, t_n, t);
           if (agree(u, v, entry.component, x, space.mesh().cell_size()))
             continue;
           std::ostringstream message;

@@ -54,13 +54,15 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::begin_step(const GridSpace<dim> &space,
-                                    const double          t,
-                                    const double          search_tolerance,
-                                    const bool            moves_points,
-                                    const StrainMeasure   measure,
-                                    const bool            cells_changed,
-                                    const bool            in_motion)
+  ImplicitBoundary<dim>::begin_step(
+    const GridSpace<dim>                   &space,
+    const double                            t,
+    const double                            search_tolerance,
+    const bool                              moves_points,
+    const StrainMeasure                     measure,
+    const bool                              cells_changed,
+    const bool                              in_motion,
+    const typename BodyBehind<dim>::Covers &covers)
   {
     t_start = t;
     const bool curved_roller =
@@ -73,7 +75,9 @@ namespace moraine
                           how.holds_means(space.degree(), curved_roller, in_motion)};
     const bool changes = kind.holds_means != before.holds_means;
     const bool moves   = moves_points && motion.moves();
-    if (has_pieces && !cells_changed && !moves && !changes)
+    const bool body_moved = Utilities::MPI::logical_or(
+      moves_points && !body.is_still_so(covers), space.communicator());
+    if (has_pieces && !cells_changed && !moves && !changes && !body_moved)
       {
         for (auto &point : boundary_points)
           point.depth = point.h;
@@ -88,7 +92,14 @@ namespace moraine
         at_start.set_pose(motion.pose(t));
       }
     boundary_points.clear();
+    body.ask(covers);
     find_pieces(space, search_tolerance);
+    if (n_points(space.communicator()) == 0)
+      {
+        // Away from all bodies it holds what its cells have of them.
+        body.be_everywhere();
+        find_pieces(space, search_tolerance);
+      }
     evaluate_shapes(space);
     if (kind.holds_means)
       take_means(space);

@@ -32,6 +32,11 @@ namespace moraine
 
 
 
+    /** In each direction of a face of a side. */
+    constexpr unsigned int n_parts = 8;
+
+
+
     /** Beyond the mesh by this many cell sizes a place still is at it: cells
      * are chords of what is curved, and places have round-off. */
     constexpr double reach_of_mesh = 0.1;
@@ -39,6 +44,21 @@ namespace moraine
     /** Of the angle between a surface and the side of a mesh that stands for
      * it; others cross it. */
     constexpr double cosine_along_side = 0.9;
+
+
+
+    /** Whether a body is at a place, or not far from it on one of its sides. */
+    template <int dim>
+    bool
+    is_beside_body(const Covers<dim>       &covers,
+                   const SurfacePoint<dim> &place,
+                   const double             h)
+    {
+      return is_at_body(covers, place.x, place.normal, h) ||
+             is_near_body(covers, place.x, place.normal, h) ||
+             is_at_body(covers, place.x, -place.normal, h) ||
+             is_near_body(covers, place.x, -place.normal, h);
+    }
 
 
 
@@ -347,15 +367,23 @@ namespace moraine
 
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
-  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
+  places_on(const Surface<dim>        &surface,
+            const BackgroundMesh<dim> &mesh,
+            const Covers<dim>         &covers)
   {
     std::vector<SurfacePoint<dim>> pieces, beyond;
     const double                   round_off = 1e-9 * mesh.cell_size();
+    double                         h         = 0;
+    const auto is_beside = [&](const SurfacePoint<dim> &piece) {
+      return !covers || is_beside_body(covers, piece, h);
+    };
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
         const CellVertices<dim> vertices = vertices_of<dim>(cell);
+        h                                = std::pow(cell->measure(), 1. / dim);
         if (!are_apart(surface.bounding_box(), vertices, round_off))
-          surface.pieces(vertices, n_gauss_points, pieces);
+          add_kept_pieces<dim>(
+            surface, vertices, n_gauss_points, is_beside, pieces);
         for (const unsigned int f : cell->face_indices())
           {
             if (!cell->face(f)->at_boundary())
@@ -365,7 +393,8 @@ namespace moraine
             if (are_apart(surface.bounding_box(), layer, round_off))
               continue;
             beyond.clear();
-            surface.pieces(layer, n_gauss_points, beyond);
+            add_kept_pieces<dim>(
+              surface, layer, n_gauss_points, is_beside, beyond);
             const Tensor<1, dim> along = normal_of_face(f, vertices);
             for (const auto &piece : beyond)
               if (std::abs(piece.normal * along) > cosine_along_side)
@@ -382,7 +411,9 @@ namespace moraine
 
   template <int dim>
   double
-  share_outside(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh)
+  share_outside(const Surface<dim>        &surface,
+                const BackgroundMesh<dim> &mesh,
+                const Covers<dim>         &covers)
   {
     constexpr double most_cells = dim == 2 ? 100 : 20; // in each direction
     const double     h          = mesh.cell_size();
@@ -415,7 +446,8 @@ namespace moraine
       {
         all += piece.JxW;
         if (nearest_cell(mesh, piece.x, reach_of_mesh * h).state() !=
-            IteratorState::valid)
+              IteratorState::valid ||
+            (covers && !is_beside_body(covers, piece, h)))
           outside += piece.JxW;
       }
     return all > 0 ? outside / all : 0.;
@@ -425,40 +457,67 @@ namespace moraine
 
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
-  places_on_side(const BackgroundMesh<dim> &mesh, const types::boundary_id side)
+  places_on_side(const BackgroundMesh<dim> &mesh,
+                 const types::boundary_id   side,
+                 const Covers<dim>         &covers)
   {
-    const StraightMapping<dim>                      mapping;
-    const FE_Nothing<dim>                           nothing;
-    FEFaceValues<dim>                               on_face(mapping,
-                              nothing,
-                              QGauss<dim - 1>(n_gauss_points),
-                              update_quadrature_points | update_JxW_values |
-                                update_normal_vectors);
+    const StraightMapping<dim> mapping;
+    const FE_Nothing<dim>      nothing;
+    const UpdateFlags          flags =
+      update_quadrature_points | update_JxW_values | update_normal_vectors;
+    FEFaceValues<dim> whole(mapping,
+                            nothing,
+                            QGauss<dim - 1>(n_gauss_points),
+                            flags);
+    // Of a face on which a body ends.
+    FEFaceValues<dim>                               in_parts(mapping,
+                               nothing,
+                               QIterated<dim - 1>(QGauss<1>(2), n_parts),
+                               flags);
     std::vector<typename CarriedPlaces<dim>::Place> places;
+    const auto add_places = [&](const FEFaceValues<dim> &on_face,
+                                const double             h) {
+      const std::size_t before = places.size();
+      for (const unsigned int q : on_face.quadrature_point_indices())
+        if (!covers || is_at_body(covers,
+                                  on_face.quadrature_point(q),
+                                  on_face.normal_vector(q),
+                                  h))
+          places.push_back({on_face.quadrature_point(q),
+                            on_face.JxW(q),
+                            on_face.normal_vector(q)});
+      return places.size() - before;
+    };
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() &&
             cell->face(f)->boundary_id() == side)
           {
-            on_face.reinit(cell, f);
-            for (const unsigned int q : on_face.quadrature_point_indices())
-              places.push_back({on_face.quadrature_point(q),
-                                on_face.JxW(q),
-                                on_face.normal_vector(q)});
+            const double h = std::pow(cell->measure(), 1. / dim);
+            whole.reinit(cell, f);
+            const std::size_t n = add_places(whole, h);
+            if (n == 0 || n == whole.n_quadrature_points)
+              continue;
+            places.resize(places.size() - n);
+            in_parts.reinit(cell, f);
+            add_places(in_parts, h);
           }
     return places;
   }
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template class CarriedPlaces<dim>;                                       \
-  template std::vector<typename CarriedPlaces<dim>::Place> places_on(      \
-    const Surface<dim> &, const BackgroundMesh<dim> &);                    \
-  template double share_outside(const Surface<dim> &,                      \
-                                const BackgroundMesh<dim> &);              \
-  template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
-    const BackgroundMesh<dim> &, const types::boundary_id);
+#define INSTANTIATE(dim)                                                     \
+  template class CarriedPlaces<dim>;                                         \
+  template std::vector<typename CarriedPlaces<dim>::Place> places_on(        \
+    const Surface<dim> &, const BackgroundMesh<dim> &, const Covers<dim> &); \
+  template double share_outside(const Surface<dim> &,                        \
+                                const BackgroundMesh<dim> &,                 \
+                                const Covers<dim> &);                        \
+  template std::vector<typename CarriedPlaces<dim>::Place> places_on_side(   \
+    const BackgroundMesh<dim> &,                                             \
+    const types::boundary_id,                                                \
+    const Covers<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

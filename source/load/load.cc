@@ -36,8 +36,8 @@ namespace moraine
     if (places().empty())
       throw ObjectError("load",
                         load_name,
-                        "found a surface outside the mesh, allowed: one on or "
-                        "in a body");
+                        "found a surface outside the mesh or beside no body, "
+                        "allowed: one on or in a body");
     const auto without = carried.find_cells(space, search_tolerance);
     if (!without.empty())
       {

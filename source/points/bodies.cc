@@ -31,7 +31,9 @@ namespace moraine
                     const CellVertices<dim>                 &vertices,
                     const double                             cell_volume)
     {
-      const double error = a->is_straight() || b->is_straight() ? 1e-10 : 1e-3;
+      double error = dim == 2 ? 1e-3 : 5e-3;
+      if (a->is_straight() || b->is_straight())
+        error = 1e-10;
       return combine<dim>(Operation::intersect, a, b)
                ->clip(ConvexPolytope<dim>(vertices))
                .volume > error * cell_volume;

@@ -51,11 +51,7 @@ namespace moraine
 
 
 
-    /**
-     * The body must lie on the inner side of a surface. Where there is none, a
-     * constraint makes little sense, and the flux of Nitsche's method is that
-     * of no material.
-     */
+    /** The body must lie on the inner side of a surface. */
     template <int dim>
     void
     check_sides_of_boundaries(const StageParameters    &stage,
@@ -76,14 +72,13 @@ namespace moraine
         {
           if (!contains(stage.boundaries, boundary.name()))
             continue;
-          std::vector<double> area(3, 0.); // inside, behind, all
+          std::vector<double> area(2, 0.); // inside, behind
           for (const auto &point : boundary.points())
             {
               const SurfacePoint<dim> foot = foot_of(point, boundary);
               const Tensor<1, dim>    step = 1e-3 * point.h * foot.normal;
               area[0] += in_a_body(foot.x - step) ? point.JxW : 0.;
               area[1] += in_a_body(foot.x + step) ? point.JxW : 0.;
-              area[2] += point.JxW;
             }
           Utilities::MPI::sum(area, model.space->communicator(), area);
           const std::string where = "Boundaries/" + boundary.name();
@@ -96,18 +91,6 @@ namespace moraine
           if (area[0] == 0)
             notes.push_back(boundary.name() +
                             ": no body is beside it at the start");
-          // A roller along which material slides need not end with it.
-          else if (area[0] < 0.99 * area[2] &&
-                   (boundary.enforcement().is_nitsche() ||
-                    !boundary.is_roller()))
-            notes.push_back(
-              boundary.name() + ": " +
-              std::to_string(std::lround(100 * (1 - area[0] / area[2]))) +
-              " % of its surface in the body's cells has no body on its inner "
-              "side; end it with the body" +
-              (boundary.enforcement().w_free > 0 ?
-                 ", or choose 'Enforcement = augmented Lagrangian'" :
-                 ""));
         }
     }
 

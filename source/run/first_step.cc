@@ -37,6 +37,10 @@ namespace moraine
      * move something. */
     constexpr double told_share_of_forces = 0.01;
 
+    /** Of the volume of points: what cells have no room for; some is in the
+     * next cell, into which points near a face reach. */
+    constexpr double told_excess = 0.3;
+
 
 
     /** Bodies may come to a condition later, so that none need be there now. */
@@ -229,8 +233,63 @@ namespace moraine
           notes.push_back(
             "load " + load.name() + ": " +
             std::to_string(std::lround(100 * load.share_outside())) +
-            " % of its surface is outside the mesh, where it does "
-            "not act");
+            " % of its surface is outside the mesh or beside no body, "
+            "where it does not act");
+    }
+
+
+
+    /** Dashpots hold nothing that is at rest. */
+    template <int dim>
+    void
+    tell_of_absorbing_at_rest(const Scene<dim>         &scene,
+                              const StageParameters    &stage,
+                              const Model<dim>         &model,
+                              std::vector<std::string> &notes)
+    {
+      if (stage.time.integrator.dynamic())
+        return;
+      for (const auto &boundary : model.absorbing_boundaries)
+        {
+          const std::string &name = boundary.name();
+          if (contains(boundary.is_on_side() ? stage.grid_conditions :
+                                               stage.boundaries,
+                       name) &&
+              !scene.absorbs_later(name) &&
+              boundary.law().springs == AbsorbingLaw::Springs::none)
+            notes.push_back(
+              name + ": it absorbs waves and holds nothing in this stage "
+                     "without inertia; let it hold here, and name it in "
+                     "'Absorbing' of the stage with waves");
+        }
+    }
+
+
+
+    /** Points that are given may have volumes that are not theirs. */
+    template <int dim>
+    void
+    tell_of_full_cells(const Model<dim> &model, std::vector<std::string> &notes)
+    {
+      if (std::all_of(model.bodies.begin(),
+                      model.bodies.end(),
+                      [](const auto &body) { return body.shape; }))
+        return;
+      const std::vector<double> volumes = model.points->volumes_in_cells();
+      double                    all = 0, too_much = 0;
+      for (const auto &cell :
+           model.mesh->triangulation().active_cell_iterators())
+        {
+          const double volume = volumes[cell->active_cell_index()];
+          all += volume;
+          too_much += std::max(0., volume - cell->measure());
+        }
+      if (too_much > told_excess * all)
+        notes.push_back(
+          "points: cells have no room for " +
+          std::to_string(std::lround(100 * too_much / all)) +
+          " % of their volume; the points of a file are in it twice, or their "
+          "volumes are wrong");
     }
 
 
@@ -428,7 +487,9 @@ namespace moraine
     check_displacements_at_start(scene, model);
     check_loads(stage, model, notes);
     tell_of_loads_outside(model, notes);
+    tell_of_full_cells(model, notes);
     tell_of_skipped_tables(scene, stage, notes);
+    tell_of_absorbing_at_rest(scene, stage, model, notes);
     tell_of_thin_bodies(model, {}, notes);
     tell_of_near_bodies(model, {}, notes);
     tell_of_boundaries(scene, model, notes);
@@ -495,6 +556,7 @@ namespace moraine
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
+    tell_of_absorbing_at_rest(scene, stage, model, notes);
     hold_stress_at_start(stage, before.boundaries, model);
     tell_of_gaps(stage, before, model, notes);
     tell_of_material_behind(stage, before.boundaries, model, notes);

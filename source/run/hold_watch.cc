@@ -160,6 +160,7 @@ namespace moraine
       if (!of_box || place.component == *condition.side / 2)
         largest = std::max(largest,
                            std::abs(condition.increment(place.x,
+                                                        place.x,
                                                         stage.time.start_time,
                                                         t)[place.component]));
     largest = Utilities::MPI::max(largest, model.space->communicator()) /

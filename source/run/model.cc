@@ -165,10 +165,11 @@ namespace moraine
           return f > 0;
         }))
       state->aggregate_below(fill, scene.method.has_ghost_term());
-    boundaries           = make_boundaries(scene);
-    grid_conditions      = make_grid_conditions(scene, *mesh);
-    loads                = make_loads(scene, *mesh, body_names);
-    absorbing_boundaries = make_absorbing_boundaries(scene, *mesh);
+    boundaries               = make_boundaries(scene);
+    grid_conditions          = make_grid_conditions(scene, *mesh);
+    const Covers<dim> covers = covers_of<dim>(shapes_of(bodies));
+    loads                    = make_loads(scene, *mesh, body_names, covers);
+    absorbing_boundaries     = make_absorbing_boundaries(scene, *mesh, covers);
     set_initial_stress(scene, *this);
     if (scene.is_dynamic())
       {
@@ -221,7 +222,8 @@ namespace moraine
                  integrator.dynamic(),
                  TimeIntegrator(integrator).forces_in_the_middle(),
                  scene.method.chosen().make_internal_force(*space, *points),
-                 active);
+                 active,
+                 shapes_of(bodies));
     // What pushes in a later stage goes with the material from now on.
     for (auto &load : loads.carried)
       if (!contains(stage.loads, load.name()) &&

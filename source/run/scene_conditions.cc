@@ -221,15 +221,19 @@ namespace moraine
     finder_on(const SurfacePointer<dim> &surface,
               const RigidMotion<dim>    &motion,
               const double               first_time,
-              const MeshAfterStep        mesh_after_step)
+              const MeshAfterStep        mesh_after_step,
+              const Covers<dim>         &covers)
     {
       return [=](const GridSpace<dim> &space, const double t) {
         const Placement<dim> at_first = motion.pose(first_time),
                              now      = motion.pose(t);
         if (mesh_after_step == MeshAfterStep::reset)
-          return places_on(MovedSurface<dim>(surface, now), space.mesh());
+          // Where bodies are beside one that has moved, cells tell.
+          return places_on(MovedSurface<dim>(surface, now),
+                           space.mesh(),
+                           motion.moves() ? Covers<dim>() : covers);
         auto places =
-          places_on(MovedSurface<dim>(surface, at_first), space.mesh());
+          places_on(MovedSurface<dim>(surface, at_first), space.mesh(), covers);
         if (mesh_after_step == MeshAfterStep::follow_material)
           for (auto &place : places)
             place.normal = now.rotate(at_first.inverse().rotate(place.normal));
@@ -243,10 +247,11 @@ namespace moraine
     template <int dim>
     typename AbsorbingBoundary<dim>::Finder
     finder_on_side(const types::boundary_id               side,
-                   const std::optional<BoundingBox<dim>> &region)
+                   const std::optional<BoundingBox<dim>> &region,
+                   const Covers<dim>                     &covers)
     {
       return [=](const GridSpace<dim> &space, const double) {
-        auto places = places_on_side(space.mesh(), side);
+        auto places = places_on_side(space.mesh(), side, covers);
         if (region)
           places.erase(std::remove_if(places.begin(),
                                       places.end(),
@@ -264,7 +269,8 @@ namespace moraine
   template <int dim>
   std::vector<AbsorbingBoundary<dim>>
   make_absorbing_boundaries(const Scene<dim>          &scene,
-                            const BackgroundMesh<dim> &mesh)
+                            const BackgroundMesh<dim> &mesh,
+                            const Covers<dim>         &covers)
   {
     const NamedShapes<dim>              shapes = body_shapes(scene);
     std::vector<AbsorbingBoundary<dim>> absorbing;
@@ -278,7 +284,8 @@ namespace moraine
               make_surface<dim>(parameters.surface, shapes, section),
               parameters.motion.make_motion(section),
               first_time_of(name, scene),
-              scene.method.after_step()),
+              scene.method.after_step(),
+              covers),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             false);
@@ -291,7 +298,8 @@ namespace moraine
             name,
             finder_on_side<dim>(mesh.boundary_id(parameters.side,
                                                  place(section, "Side")),
-                                region_of(parameters, section)),
+                                region_of(parameters, section),
+                                covers),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             true);
@@ -339,7 +347,8 @@ namespace moraine
   Loads<dim>
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
-             const std::vector<std::string> &body_names)
+             const std::vector<std::string> &body_names,
+             const Covers<dim>              &covers)
   {
     using Place                   = typename CarriedLoad<dim>::Place;
     const NamedShapes<dim> shapes = body_shapes(scene);
@@ -366,8 +375,8 @@ namespace moraine
               make_surface<dim>(parameters.surface, shapes, section);
             loads.carried.emplace_back(name,
                                        value,
-                                       places_on(*surface, mesh),
-                                       share_outside(*surface, mesh));
+                                       places_on(*surface, mesh, covers),
+                                       share_outside(*surface, mesh, covers));
           }
         else
           {
@@ -406,18 +415,19 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                  \
-  template std::vector<ImplicitBoundary<dim>> make_boundaries(            \
-    const Scene<dim> &);                                                  \
-  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries( \
-    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
-  template std::vector<GridCondition<dim>> make_grid_conditions(          \
-    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
-  template Loads<dim> make_loads(const Scene<dim> &,                      \
-                                 const BackgroundMesh<dim> &,             \
-                                 const std::vector<std::string> &);       \
-  template std::function<Tensor<1, dim>(const unsigned int,               \
-                                        const Point<dim> &)>              \
+#define INSTANTIATE(dim)                                                   \
+  template std::vector<ImplicitBoundary<dim>> make_boundaries(             \
+    const Scene<dim> &);                                                   \
+  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries(  \
+    const Scene<dim> &, const BackgroundMesh<dim> &, const Covers<dim> &); \
+  template std::vector<GridCondition<dim>> make_grid_conditions(           \
+    const Scene<dim> &, const BackgroundMesh<dim> &);                      \
+  template Loads<dim> make_loads(const Scene<dim> &,                       \
+                                 const BackgroundMesh<dim> &,              \
+                                 const std::vector<std::string> &,         \
+                                 const Covers<dim> &);                     \
+  template std::function<Tensor<1, dim>(const unsigned int,                \
+                                        const Point<dim> &)>               \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -137,7 +137,7 @@ namespace moraine
       normal /= normal.norm();
       const Tensor<1, dim> mesh = motion.map(middle, t_start, t_end) - middle;
       const Tensor<1, dim> material =
-        condition.increment(middle, t_start, t_end);
+        condition.increment(middle, middle, t_start, t_end);
       double apart = 0;
       for (unsigned int d = 0; d < dim; ++d)
         if (condition.component[d])

@@ -295,6 +295,9 @@ namespace moraine
           driver.undo();
           status  = "not converged";
           message = error.what();
+          if (checkpoints && checkpoints->are_asked_for() &&
+              checkpoints->write(driver))
+            message += " ('moraine resume' goes on from the last accepted step)";
         }
       catch (const std::exception &error)
         {

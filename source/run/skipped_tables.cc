@@ -44,6 +44,29 @@ namespace moraine
         }
       return "";
     }
+    /** Of steps as they are planned: the first that turns by half a circle or
+     * more, which only its two ends cannot tell from less, in words; or "". */
+    std::string
+    turn_of_a_step(const TimeCurve   &angle,
+                   const double       start,
+                   const double       end,
+                   const unsigned int n_steps)
+    {
+      const double dt = (end - start) / n_steps;
+      for (unsigned int step = 0; step < n_steps; ++step)
+        {
+          const double t    = start + step * dt;
+          const double turn = angle.value(t + dt) - angle.value(t);
+          if (std::abs(turn) < 180)
+            continue;
+          std::ostringstream text;
+          text << "the step from t = " << t << " to " << t + dt
+               << " turns it by " << turn
+               << " degrees, of which it sees half a circle at most";
+          return text.str();
+        }
+      return "";
+    }
   } // namespace
 
 
@@ -76,7 +99,18 @@ namespace moraine
         for (const TimeCurve &curve :
              time_curves(motion.translation, name, dim))
           check("'Translation' of " + name, curve);
-      check_text("'Rotation angle' of " + name, motion.rotation_angle);
+      if (motion.rotation_angle.empty())
+        return;
+      const std::string rotation = "'Rotation angle' of " + name;
+      check_text(rotation, motion.rotation_angle);
+      const std::string turn =
+        turn_of_a_step(TimeCurve(motion.rotation_angle, name),
+                       time.start_time,
+                       time.end_time,
+                       time.n_steps);
+      if (!turn.empty())
+        notes.push_back(rotation + ": " + turn +
+                        "; more 'Steps' in section 'Time' would see it");
     };
     for (const auto &[name, load] : scene.loads)
       if (contains(stage.loads, name))

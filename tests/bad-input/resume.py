@@ -3,6 +3,7 @@
 # Copyright (C) 2026 by the Moraine authors
 """What cannot be resumed, and a disk that is full in mid-checkpoint."""
 
+import json
 import resource
 import shutil
 import subprocess
@@ -124,3 +125,14 @@ for name, words in (("first checkpoint", ("run", scene, "--output", "full",
                                      (out / "checkpoints").iterdir())))
 text("  the good one", "goes on" if moraine(
     "resume", "full later", "--from", "3")[0] == 0 else "NO")
+
+# A run that ends early leaves its last step, from which it ends the same way.
+failing = {"Strength reduction/Factor": 1.6, "Output/Checkpoint every": "100 steps"}
+ended = run("prm/geotechnics/factor-of-safety.prm", failing, expect=1)
+before = (ended.folder / "history.csv").read_text()
+again = run(ended.folder, command="resume", expect=1)
+text("a run that ended early, resumed: the same history",
+     before == (ended.folder / "history.csv").read_text())
+text("  the same message", ended.summary["message"] == json.loads(
+    (ended.folder / "summary.json").read_text())["message"])
+at_least("  steps", ended.summary["steps"], 5)

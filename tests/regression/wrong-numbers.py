@@ -236,3 +236,102 @@ for name, settings in (
         ("finite strain", {"Method/Strain": "finite"})):
     result = run(scene, {"Output/Write": "end", **settings})
     text(f"shaft, {name}: told of", "it has turned what it holds" in result.output)
+
+# A step that turns by whole turns does nothing.
+for angle, steps in ("360*t", 1), ("360*t", 2), ("360*t", 3), ("100*t", 1):
+    result = run(scene, {"Boundaries/bore/Rotation angle": angle, "Time/Steps": steps,
+                         "Output/Write": "end"}, expect=None)
+    text(f"shaft turned by {angle} in {steps} steps: told of",
+         "degrees, of which it sees half a circle at most" in result.output)
+
+# Points of a file with volumes that are not theirs.
+POINTS = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 5, 2.5
+  set Cell size = 0.5
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 10000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape = points-from-file
+    set Point file = {file}
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side = left
+  end
+end
+"""
+for name, size, volume, times in (("right", 0.25, 1, 1), ("that fit no cells", 0.2, 1, 1),
+                                  ("twice as large", 0.25, 2, 1),
+                                  ("right, each point twice", 0.25, 1, 2)):
+    file = folder / "points.csv"
+    n = round(4 / size), round(2 / size)
+    file.write_text("x,y,volume\n" + times * "".join(
+        f"{(i + 0.5) * size},{(j + 0.5) * size},{volume * size ** 2}\n"
+        for i in range(n[0]) for j in range(n[1])))
+    scene = folder / "points.prm"
+    scene.write_text(POINTS.format(file=file))
+    result = run(scene, {"Output/Write": "end"})
+    text(f"volumes of points {name}: told of",
+         "cells have no room for" in result.output)
+
+# What is dug has the shape that is left: however a cylinder lies in its cells.
+BORED = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -4, -4, -4
+  set Upper corner = 4, 4, 4
+  set Cell size = {h}
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection all
+    set Lower corner = -4, -4, -4
+    set Upper corner = 4, 4, 4
+  end
+  subsection hole
+    set Shape = cylinder
+    set Axis start = {start}
+    set Axis end = {end}
+    set Radius = {radius}
+  end
+  subsection ground
+    set Shape = difference
+    set Operands = all, hole
+  end
+  subsection core
+    set Shape = {core}
+    set Operands = all, hole
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+"""
+scene = folder / "bored.prm"
+for name, start, end in (("along x", "-4, 0.13, -0.21", "4, 0.13, -0.21"),
+                         ("along y", "0.13, -4, -0.21", "0.13, 4, -0.21"),
+                         ("along z", "0.13, -0.21, -4", "0.13, -0.21, 4"),
+                         ("inclined", "0.13, -0.21, -5", "1.43, -0.4, 5")):
+    for radius, h in (2, 0.5), (1.5, 1), (3.3, 1):
+        scene.write_text(BORED.format(h=h, radius=radius, start=start, end=end,
+                                      core="intersection"))
+        result = run(scene, command="check")
+        text(f"hole of {radius} {name}, cells of {h}, and its core", result.code)
+scene.write_text(BORED.format(h=1, radius=2, start="0, 0, -4", end="0, 0, 4", core="union"))
+text("the hole, and all of it", run(scene, command="check", expect=2).code)

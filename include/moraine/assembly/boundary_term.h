@@ -6,7 +6,9 @@
 
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/implicit_boundary.h>
+#include <moraine/points/bodies.h>
 
+#include <memory>
 #include <vector>
 
 namespace moraine
@@ -16,7 +18,10 @@ namespace moraine
   class BoundaryTerm : public Term<dim>
   {
   public:
-    explicit BoundaryTerm(ImplicitBoundary<dim> &boundary);
+    /** @p shapes of the bodies, null where the points are given: the boundary
+     * ends where they do. Without any it holds all of its cells. */
+    explicit BoundaryTerm(ImplicitBoundary<dim>     &boundary,
+                          const ShapesOfBodies<dim> &shapes = {});
 
     WorkKind
     work_kind() const override
@@ -97,6 +102,11 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
+    /** Whether the body of one of the points of a cell covers a place, moved as
+     * the nearest point of this body. */
+    typename BodyBehind<dim>::Covers
+    cover_of_bodies(const StepContext<dim> &context) const;
+
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,
@@ -124,6 +134,7 @@ namespace moraine
                   const std::vector<dealii::Tensor<1, dim>> &moves) const;
 
     ImplicitBoundary<dim> &boundary;
+    ShapesOfBodies<dim>    shapes;
     BoundaryReport<dim>    prepared;
     /** By active_cell_index(), of the cells g with one mean:
      * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points

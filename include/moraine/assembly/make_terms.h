@@ -4,9 +4,9 @@
 #ifndef moraine_assembly_make_terms_h
 #define moraine_assembly_make_terms_h
 
+#include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/grid_condition.h>
-#include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
 
 #include <functional>
@@ -30,7 +30,8 @@ namespace moraine
    * FictitiousStiffness, or 0 for none. With @p inertia points have mass, with
    * @p conserving internal forces are in the middle of the step. The
    * @p internal_force is theirs unless a method has its own. Those that are not
-   * @p active, if that is given, get no term.
+   * @p active, if that is given, get no term. Implicit boundaries end where
+   * bodies of these @p shapes do; see BoundaryTerm.
    */
   template <int dim>
   Terms<dim>
@@ -41,7 +42,8 @@ namespace moraine
              const bool                             inertia        = false,
              const bool                             conserving     = false,
              std::unique_ptr<Term<dim>>             internal_force = {},
-             const IsActive                        &active         = {});
+             const IsActive                        &active         = {},
+             const ShapesOfBodies<dim>             &shapes         = {});
 } // namespace moraine
 
 #endif

@@ -40,13 +40,15 @@ namespace moraine
     }
 
     /** Displacement from @p t_start to @p t_end of what is at @p x at
-     * @p t_start. */
+     * @p t_start and was at @p X in the mesh as it was built, whose place @p
+     * displacement asks for. */
     dealii::Tensor<1, dim>
     increment(const dealii::Point<dim> &x,
+              const dealii::Point<dim> &X,
               const double              t_start,
               const double              t_end) const
     {
-      return displacement(x, t_end) - displacement(x, t_start) +
+      return displacement(X, t_end) - displacement(X, t_start) +
              (motion.pose(t_end).map(motion.pose(t_start).inverse(x)) - x);
     }
   };

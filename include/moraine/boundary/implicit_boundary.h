@@ -4,6 +4,7 @@
 #ifndef moraine_boundary_implicit_boundary_h
 #define moraine_boundary_implicit_boundary_h
 
+#include <moraine/boundary/body_behind.h>
 #include <moraine/boundary/enforcement.h>
 #include <moraine/boundary/meeting_pieces.h>
 #include <moraine/core/simulation_state.h>
@@ -158,15 +159,19 @@ namespace moraine
      *
      * @p in_motion says that it is dynamics; see
      * Enforcement::holds_means().
+     *
+     * Where @p covers finds no body behind a part of the surface in a cell,
+     * that part is left out.
      */
     void
-    begin_step(const GridSpace<dim> &space,
-               const double          t,
-               const double          search_tolerance,
-               const bool            moves_points,
-               const StrainMeasure   measure,
-               const bool            cells_changed,
-               const bool            in_motion = false);
+    begin_step(const GridSpace<dim>                   &space,
+               const double                            t,
+               const double                            search_tolerance,
+               const bool                              moves_points,
+               const StrainMeasure                     measure,
+               const bool                              cells_changed,
+               const bool                              in_motion = false,
+               const typename BodyBehind<dim>::Covers &covers    = {});
 
     /**
      * Let the factor of Nitsche's method act over @p share of the depth of the
@@ -377,7 +382,7 @@ namespace moraine
     /**
      * Points on the surface inside of @p vertices, @p cell or a layer at it.
      * The functions of their owner, given the cell and the place, hold them;
-     * without one on this rank they are left out.
+     * without one on this rank they are left out, as are those without a body.
      */
     void
     add_pieces(const CellIterator      &cell,
@@ -424,6 +429,7 @@ namespace moraine
     bool                            has_pieces = false;
     Kind                            kind;
     double                          largest_coordinate = 0; ///< of points
+    BodyBehind<dim>                 body;
     std::vector<CarriedPlace<dim>>  carried;
     std::vector<CarriedPlace<dim>>  prepared;
     bool                            kept_at_points = false;

@@ -5,7 +5,7 @@
 #define moraine_geometry_carried_places_h
 
 #include <moraine/core/archive.h>
-#include <moraine/geometry/shape.h>
+#include <moraine/geometry/covered_pieces.h>
 #include <moraine/mesh/grid_space.h>
 
 #include <string>
@@ -104,29 +104,37 @@ namespace moraine
   /**
    * The places of a surface in a mesh, the same on all ranks. What runs along a
    * side of the mesh, and beyond it by no more than a tenth of a cell, is in
-   * it.
+   * it. If @p covers is given, what is further from a body than half a cell is
+   * left out.
    */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
-  places_on(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
+  places_on(const Surface<dim>        &surface,
+            const BackgroundMesh<dim> &mesh,
+            const Covers<dim>         &covers = {});
 
   /**
    * The part of the area of a surface that is outside of a mesh by more than a
-   * tenth of a cell, roughly; 0 for one without ends, or if it is too thin for
-   * its length to say.
+   * tenth of a cell, or beside no body, roughly; 0 for one without ends, or if
+   * it is too thin for its length to say.
    *
    * @param surface any
    * @param mesh the whole of it
+   * @param covers none if nothing is known of bodies
    */
   template <int dim>
   double
-  share_outside(const Surface<dim> &surface, const BackgroundMesh<dim> &mesh);
+  share_outside(const Surface<dim>        &surface,
+                const BackgroundMesh<dim> &mesh,
+                const Covers<dim>         &covers = {});
 
-  /** The places of a side of a mesh, the same on all ranks. */
+  /** The places of a side of a mesh, the same on all ranks; where @p covers is
+   * given, those at a body. */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on_side(const BackgroundMesh<dim>       &mesh,
-                 const dealii::types::boundary_id side);
+                 const dealii::types::boundary_id side,
+                 const Covers<dim>               &covers = {});
 } // namespace moraine
 
 #endif

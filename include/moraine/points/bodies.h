@@ -40,6 +40,20 @@ namespace moraine
 
 
 
+  /** By body; null if the points are given. */
+  template <int dim>
+  using ShapesOfBodies = std::vector<std::shared_ptr<const Shape<dim>>>;
+
+  template <int dim>
+  ShapesOfBodies<dim>
+  shapes_of(const std::vector<Body<dim>> &bodies)
+  {
+    ShapesOfBodies<dim> shapes;
+    for (const Body<dim> &body : bodies)
+      shapes.push_back(body.shape);
+    return shapes;
+  }
+
   /**
    * A field of points for each further column of a point file, for output; call
    * it when all other fields are there.

@@ -31,6 +31,13 @@ namespace moraine
                 RunObserver<dim>      &observer,
                 dealii::TimerOutput   &timer);
 
+    /** Or one is written only when the user stops the run. */
+    bool
+    are_asked_for() const
+    {
+      return !times.never();
+    }
+
     /** The run goes on from @p saved. */
     void
     go_on(const SavedRun &saved);

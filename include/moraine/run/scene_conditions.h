@@ -23,22 +23,26 @@ namespace moraine
   std::vector<ImplicitBoundary<dim>>
   make_boundaries(const Scene<dim> &scene);
 
-  /** Boundaries and grid conditions that absorb, in this order. */
+  /** Boundaries and grid conditions that absorb, in this order. They end where
+   * bodies do, as @p covers says. */
   template <int dim>
   std::vector<AbsorbingBoundary<dim>>
   make_absorbing_boundaries(const Scene<dim>          &scene,
-                            const BackgroundMesh<dim> &mesh);
+                            const BackgroundMesh<dim> &mesh,
+                            const Covers<dim>         &covers);
 
   template <int dim>
   std::vector<GridCondition<dim>>
   make_grid_conditions(const Scene<dim>          &scene,
                        const BackgroundMesh<dim> &mesh);
 
+  /** Surfaces on which they act end where bodies do, as @p covers says. */
   template <int dim>
   Loads<dim>
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
-             const std::vector<std::string> &body_names);
+             const std::vector<std::string> &body_names,
+             const Covers<dim>              &covers);
 
   /** Velocities at the start, by body. */
   template <int dim>

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_geometry_covered_pieces_h
+#define moraine_geometry_covered_pieces_h
+
+#include <moraine/geometry/shape.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace moraine
+{
+  /** Whether a body covers a place, or would if it were larger by a margin
+   * [length]. */
+  template <int dim>
+  using Covers =
+    std::function<bool(const dealii::Point<dim> &x, const double margin)>;
+
+  /** Whether a shape covers a place, or would if it were larger by @p margin.
+   * Where an expression is no number it does. */
+  template <int dim>
+  bool
+  covers_place(const Shape<dim>         &shape,
+               const dealii::Point<dim> &x,
+               const double              margin);
+
+  /** Those of bodies where they are at first; none if the points of one of them
+   * are given, so that its @p shapes entry is null. */
+  template <int dim>
+  Covers<dim>
+  covers_of(const std::vector<std::shared_ptr<const Shape<dim>>> &shapes);
+
+  /** Whether a body is at a place of a surface or behind it by less than a
+   * tenth of the cell size @p h. @p normal is the outward one. */
+  template <int dim>
+  bool
+  is_at_body(const Covers<dim>            &covers,
+             const dealii::Point<dim>     &x,
+             const dealii::Tensor<1, dim> &normal,
+             const double                  h);
+
+  /** Whether one is within half a cell behind it. */
+  template <int dim>
+  bool
+  is_near_body(const Covers<dim>            &covers,
+               const dealii::Point<dim>     &x,
+               const dealii::Tensor<1, dim> &normal,
+               const double                  h);
+
+  /**
+   * The points of a surface in a cell that are to be kept. Where only some are,
+   * as a body ends there, the cell is halved, four times in 2D and twice in 3D.
+   *
+   * @param surface any
+   * @param cell its vertices
+   * @param n_gauss points in each direction of a piece of the whole cell
+   * @param keep says of a point whether it is kept; may be asked twice
+   * @param points they are added to
+   */
+  template <int dim>
+  void
+  add_kept_pieces(const Surface<dim>                                   &surface,
+                  const CellVertices<dim>                              &cell,
+                  const unsigned int                                    n_gauss,
+                  const std::function<bool(const SurfacePoint<dim> &)> &keep,
+                  std::vector<SurfacePoint<dim>>                       &points);
+} // namespace moraine
+
+#endif

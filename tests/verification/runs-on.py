@@ -1,0 +1,334 @@
+# ranks: 1 2  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Boundaries, loads and absorbing surfaces that are longer than the body, at any angle
+to cells: they act where the body is, whatever else is in its cells."""
+
+from math import cos, pi, radians, sin, sqrt
+
+
+def text_of(*numbers):
+    return ", ".join(f"{x!r}" for x in numbers)
+
+
+# A unit block with uniform pressure 1 on top, held by two rollers that meet in a
+# corner, as it stands turned by an angle; nothing is stressed along its base.
+def block(angle, ends, enforcement, overhang=0.):
+    c, s = cos(radians(angle)), sin(radians(angle))
+
+    def at(x, y):
+        return text_of(c * x - s * y + 0.013, s * x + c * y + 0.027)
+
+    def surface(a, b, x, y):
+        if ends:
+            return f"set Points = {at(*a)}; {at(*b)}"
+        return f"set Surface = plane\nset Point = {at(*a)}\n" \
+               f"set Normal = {text_of(c * x - s * y, s * x + c * y)}"
+
+    return f"""
+subsection Mesh
+  set Lower corner = -1, -1
+  set Upper corner = 2, 2
+  set Cell size = 0.1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape = polygon
+    set Vertices = {at(0, 0)}; {at(1, 0)}; {at(1, 1)}; {at(0, 1)}
+  end
+end
+subsection Boundaries
+  subsection base
+    set Constraint = roller
+    set Enforcement = {enforcement}
+    {surface((0, 0), (1, 0), 0, -1)}
+  end
+  subsection left
+    set Constraint = roller
+    set Enforcement = {enforcement}
+    {surface((0, 1), (0, 0), -1, 0)}
+  end
+end
+subsection Loads
+  subsection top
+    set Type = surface traction
+    set Value = {s!r}; {-c!r}
+    set Points = {at(1 + overhang, 1)}; {at(-overhang, 1)}
+  end
+end
+"""
+
+
+def largest_error(result, direction):
+    """Of a component of stress, which is to be -d d^T."""
+    n = len(direction)
+    exact = [[-direction[i] * direction[j] if i < n and j < n else 0.
+              for j in range(3)] for i in range(3)]
+    return max(abs(stress[3 * i + j] - exact[i][j])
+               for (stress,) in result.points("stress")
+               for i in range(n) for j in range(n))
+
+
+scene = folder / "scene.prm"
+for angle in 0, 20, 40:
+    for enforcement, limit in (("skew Nitsche", 0.08), ("augmented Lagrangian", 0.06),
+                               ("weighted", 0.06)):
+        scene.write_text(block(angle, False, enforcement))
+        result = run(scene)
+        axis = (-sin(radians(angle)), cos(radians(angle)))
+        bound(f"block turned by {angle} degrees on planes, {enforcement}: error of stress",
+              largest_error(result, axis), limit)
+        text("  notes", plain(result.output).count("note"))
+
+# A pressure that is drawn longer than the top of the body acts on the top.
+for angle in 0, 20:
+    scene.write_text(block(angle, True, "augmented Lagrangian", overhang=0.04))
+    result = run(scene)
+    row = result.history()[-1]
+    bound(f"load on {angle} degrees, longer than the body: force over the right one - 1",
+          sqrt(row["reaction_x of base"] ** 2 + row["reaction_y of base"] ** 2) - 1, 5e-3)
+
+CYLINDER = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -1.3, -1.3, -1
+  set Upper corner = 1.9, 1.9, 2.2
+  set Cell size = 0.2
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 1000
+    set Poisson ratio = 0
+  end
+end
+subsection Bodies
+  subsection column
+    set Shape = cylinder
+    set Axis start = {start}
+    set Axis end = {end}
+    set Radius = 0.7
+  end
+end
+subsection Boundaries
+  subsection base
+    set Enforcement = augmented Lagrangian
+    set Surface = plane
+    set Point = {start}
+    set Normal = {normal}
+  end
+end
+subsection Loads
+  subsection top
+    set Type = surface traction
+    set Value = {pressure}
+    set Body = column
+    set Part = top
+  end
+end
+"""
+d = (0.8 * sin(radians(20)), 0.6 * sin(radians(20)), cos(radians(20)))
+start = (0.013, 0.027, 0.031)
+scene.write_text(CYLINDER.format(
+    start=text_of(*start), end=text_of(*(a + b for a, b in zip(start, d))),
+    normal=text_of(*(-x for x in d)),
+    pressure="; ".join(f"{-x!r}" for x in d)))
+result = run(scene)
+near = [stress for stress, x in zip((s for (s,) in result.points("stress")),
+                                    (x for (x,) in result.points("position")))
+        if sum(a * (b - c) for a, b, c in zip(d, x, start)) < 0.3]
+bound("cylinder tilted by 20 degrees on a plane: error of stress beside it",
+      max(abs(stress[3 * i + j] + d[i] * d[j])
+          for stress in near for i in range(3) for j in range(3)), 0.2)
+
+# A quarter of a cylinder of clay in a triaxial cell whose plates are planes; its
+# mesh follows it, and plates no longer run along the faces of cells.
+TRIAXIAL = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -960, -460, 290
+  set Upper corner = -910, -410, 450
+  set Cell size = 10
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection clay
+    set Model = von Mises
+    set Young modulus = 20
+    set Poisson ratio = 0.45
+    set Shear yield stress = 0.05
+  end
+end
+subsection Bodies
+  subsection whole
+    set Shape = cylinder
+    set Axis start = -960, -460, 303
+    set Axis end = -960, -460, 443
+    set Radius = 35
+  end
+  subsection quadrant
+    set Lower corner = -960, -460, 290
+    set Upper corner = -900, -400, 450
+  end
+  subsection sample
+    set Shape = intersection
+    set Operands = whole, quadrant
+  end
+end
+subsection Boundaries
+  subsection base
+    set Surface = plane
+    set Point = -960, -460, 303
+    set Normal = 0, 0, -1
+    set Constraint = roller
+  end
+  subsection platen
+    set Surface = plane
+    set Point = -960, -460, 443
+    set Normal = 0, 0, 1
+    set Constraint = roller
+    set Translation = 0; 0; 0: 0, 1: 0, 2: -2.8
+  end
+end
+subsection Grid conditions
+  subsection x
+    set Side = left
+    set Components = x
+  end
+  subsection y
+    set Side = front
+    set Components = y
+  end
+end
+subsection Loads
+  subsection cell
+    set Type = surface traction
+    set Value = -0.2 * (x + 960) / 35; -0.2 * (y + 460) / 35; 0
+    set Curve = 0: 0, 1: 1, 2: 1
+    set Surface = cylinder
+    set Axis start = -960, -460, 303
+    set Axis end = -960, -460, 443
+    set Radius = 35
+    set Body side = inside
+  end
+end
+subsection Time
+  set End time = 2
+  set Steps = 10
+end
+"""
+scene.write_text(TRIAXIAL)
+result = run(scene)
+force = [row["reaction_z of platen"] / (pi * 35 ** 2 / 4) for row in result.history()]
+text("triaxial: status", result.summary["status"])
+# Confined: the lateral pressure times 2 nu; then the yield stress above it.
+bound("triaxial: axial stress when confined over the exact one - 1",
+      force[4] / -0.18 - 1, 5e-3)
+bound("triaxial: axial stress at the end over the exact one - 1",
+      force[-1] / -(0.2 + sqrt(3) * 0.05) - 1, 3e-2)
+
+# The force of dashpots on a body that moves as a whole is rho c v times the area.
+BAR = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 3, 6
+  set Cell size = {h}
+end
+subsection Method
+  set Method = {method}
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 100
+    set Poisson ratio = 0
+    set Density = 0.01
+  end
+end
+subsection Bodies
+  subsection bar
+    set Lower corner = 0, {low!r}
+    set Upper corner = {right!r}, {high!r}
+    set Initial velocity = 1; 0
+  end
+end
+{how}
+subsection Time
+  set Integrator = Newmark
+  set End time = 1e-7
+  set Steps = 1
+end
+"""
+SIDE = """
+subsection Grid conditions
+  subsection end
+    set Side = right
+    set Constraint = absorbing
+  end
+end"""
+LINE = """
+subsection Boundaries
+  subsection end
+    set Surface = plane
+    set Point = 2.3, 0
+    set Normal = 1, 0
+    set Constraint = absorbing
+  end
+end"""
+for name, how, right, low, high in (("side", SIDE, 3., 0., 4.), ("side", SIDE, 3., 1., 5.),
+                                    ("side", SIDE, 3., 0.7, 3.45),
+                                    ("plane", LINE, 2.3, 0., 4.), ("plane", LINE, 2.3, 0.7, 3.45)):
+    for method in "GIMP", "finite element":
+        scene.write_text(BAR.format(h=0.5, method=method, how=how, right=right,
+                                    low=low, high=high))
+        force = -run(scene).history()[-1]["reaction_x of end"]
+        # rho c = 1
+        bound(f"absorbing {name}, bar from {low} to {high}, {method}: force over the "
+              "right one - 1", force / (high - low) - 1, 0.03)
+
+# Only what is prescribed along the material is a uniform strain.
+FIELD = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 1
+  set Cell size = 0.25
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+end
+subsection Materials
+  subsection rubber
+    set Young modulus = 1000
+    set Poisson ratio = 0
+  end
+end
+subsection Bodies
+  subsection sheet
+    set Shape = mesh
+  end
+end
+subsection Grid conditions
+""" + "".join(f"""  subsection {side}
+    set Side = {side}
+    set Displacement = 0.5 * x * t; 0
+  end
+""" for side in ("left", "right", "bottom", "top")) + "end\n"
+scene.write_text(FIELD)
+for steps in 1, 8:
+    stress = [s[0] for (s,) in run(scene, {"Time/Steps": steps}).points("stress")]
+    number(f"sheet stretched by 'Displacement = 0.5 x t' in {steps} steps: least stress",
+           min(stress), 5)
+    number("  largest", max(stress), 5)
