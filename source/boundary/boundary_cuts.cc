@@ -260,6 +260,9 @@ namespace moraine
     const auto is_held = [&](const SurfacePoint<dim> &piece) {
       const CellIterator owner = own_cell(piece);
       return owner.state() != IteratorState::valid ||
+             // A place of its own that no body is at takes no force.
+             (how.w_free == 0. &&
+              (!kind.holds_means || is_along_faces(vertices, piece.normal))) ||
              body.at(owner->active_cell_index(),
                      piece.x,
                      piece.normal,

@@ -297,7 +297,8 @@ namespace moraine
           message = error.what();
           if (checkpoints && checkpoints->are_asked_for() &&
               checkpoints->write(driver))
-            message += " ('moraine resume' goes on from the last accepted step)";
+            message +=
+              " ('moraine resume' goes on from the last accepted step)";
         }
       catch (const std::exception &error)
         {
