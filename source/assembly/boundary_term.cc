@@ -106,7 +106,8 @@ namespace moraine
                   nearest = q;
               }
           // How far off it may be where the body is strained or turned.
-          double uncertain = n == 1 ? u(nearest).norm() : 0.;
+          double uncertain =
+            points.forgotten_displacement() + (n == 1 ? u(nearest).norm() : 0.);
           for (unsigned int q = first; q < last; ++q)
             if (points.body(q) == body)
               uncertain = std::max(uncertain, (u(q) - u(nearest)).norm());

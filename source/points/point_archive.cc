@@ -26,6 +26,8 @@ namespace moraine
     const std::string order = group + "/order";
     /** How many points each rank returned to the mesh. */
     const std::string returned = "points_returned";
+    /** See PointSet::forgotten_displacement(). */
+    const std::string forgotten_set = "points_forgotten_displacement";
     /** Whether bodies have come or gone. */
     const std::string changed = "bodies/have_changed";
 
@@ -79,6 +81,7 @@ namespace moraine
           }
       }
 
+    archive.write(forgotten_set, forgotten, "length");
     archive.distribute(group, std::move(ids));
     std::vector<unsigned int> orders(n);
     std::iota(orders.begin(), orders.end(), 0u);
@@ -105,6 +108,7 @@ namespace moraine
   void
   PointSet<dim>::read(const Archive &archive)
   {
+    forgotten                    = archive.number(forgotten_set);
     const auto &tria             = background.triangulation();
     const auto &ids              = archive.integers(group + "/id");
     const auto &orders           = archive.integers(order);

@@ -403,8 +403,15 @@ namespace moraine
   void
   PointSet<dim>::reset_displacements()
   {
+    double largest = 0;
     for (unsigned int p = 0; p < n_local(); ++p)
-      u_field.store(Tensor<1, dim>(), values(p));
+      {
+        largest = std::max(largest, u_field(values(p)).norm());
+        u_field.store(Tensor<1, dim>(), values(p));
+      }
+    forgotten +=
+      Utilities::MPI::max(largest,
+                          background.triangulation().get_communicator());
   }
 
 

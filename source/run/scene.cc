@@ -161,8 +161,9 @@ namespace moraine
     prm.add_parameter("Displacement",
                       displacement,
                       "Prescribed displacement (length), dim expressions in x, "
-                      "y, z, t separated by ';'; zero if left out. Its change "
-                      "over time acts; it is 0 at the start.");
+                      "y, z, t separated by ';', x where the node is in the "
+                      "mesh as it was built; zero if left out. Its change over "
+                      "time acts; it is 0 at the start.");
     motion.add_parameters(prm, "the nodes");
     prm.add_parameter("Constraint",
                       constraint,

@@ -245,9 +245,17 @@ namespace moraine
       return u_field;
     }
 
-    /** Let displacements count from now. */
+    /** Let displacements count from now. Collective. */
     void
     reset_displacements();
+
+    /** How far points may have been moved that displacements do not know of any
+     * more [length]. */
+    double
+    forgotten_displacement() const
+    {
+      return forgotten;
+    }
 
     const PointField<dim, dealii::SymmetricTensor<2, 3>> &
     stress_field() const
@@ -333,6 +341,7 @@ namespace moraine
     std::vector<CellPoints>                        cell_points;
     std::vector<CellIterator>                      cells_of_copies;
     std::vector<LostPoint>                         lost_points;
+    double                                         forgotten        = 0;
     double                                         return_tolerance = 0;
     unsigned int                                   returned_points  = 0;
     unsigned int first_new_id  = 0; ///< above all ids of the start
