@@ -8,9 +8,10 @@
 #include <moraine/core/object_error.h>
 #include <moraine/mesh/cell_shapes.h>
 
-#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,6 +19,67 @@
 namespace moraine
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** Intervals of (0, 1) along an axis of a domain. */
+    struct Intervals
+    {
+      std::array<double, 4> middle;
+      std::array<double, 4> length;
+      unsigned int          n;
+    };
+
+
+
+    /** @p n equal ones; if @p cut is inside, half of them on each side of it.
+     */
+    Intervals
+    intervals(const unsigned int n, const double cut = 0)
+    {
+      Intervals result;
+      result.n = n;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const bool   is_cut = cut > 0 && cut < 1;
+          const bool   above  = is_cut && 2 * i >= n;
+          const double begin  = above ? cut : 0.;
+          const double length = is_cut ? (above ? 1 - cut : cut) : 1.;
+          const double m      = is_cut ? n / 2. : n;
+          const double k      = above ? i - n / 2. : i;
+          result.middle[i]    = begin + (k + 0.5) / m * length;
+          result.length[i]    = length / m;
+        }
+      return result;
+    }
+
+
+
+    /** Where the middle line of a domain along its axis @p d crosses a face of
+     * the cells of a @p box, or 0 if none that it runs across. */
+    template <int dim>
+    double
+    crossing(const BoxGrid<dim>                       &box,
+             const std::array<Point<dim>, (1 << dim)> &corners,
+             const unsigned int                        d)
+    {
+      Tensor<1, dim> from, to;
+      for (unsigned int c = 0; c < corners.size(); ++c)
+        ((c >> d) & 1 ? to : from) += 2. / corners.size() * corners[c];
+      unsigned int along = 0;
+      for (unsigned int e = 1; e < dim; ++e)
+        if (std::abs(to[e] - from[e]) > std::abs(to[along] - from[along]))
+          along = e;
+      const auto in_cells = [&](const Tensor<1, dim> &x) {
+        return (x[along] - box.lower_corner[along]) / box.cell_size[along];
+      };
+      const double a = in_cells(from), b = in_cells(to);
+      const double face = std::floor(std::max(a, b));
+      return std::min(a, b) < face ? (face - a) / (b - a) : 0.;
+    }
+  } // namespace
+
+
 
   template <int dim>
   CpdiBasis<dim>::CpdiBasis(const GridSpace<dim>         &space,
@@ -276,19 +338,32 @@ namespace moraine
                                const CellPatch<dim> &patch,
                                CellParts<dim>       &parts) const
   {
-    static const QIterated<dim> of_one_cell(QMidpoint<1>(), 2),
-      of_many(QMidpoint<1>(), 4);
-    const CornerCells      own     = cells_of(point);
-    const Quadrature<dim> &rule    = own.n == 1 ? of_one_cell : of_many;
-    const auto             corners = this->domain_corners(point);
-    const CellMap<dim>     map(corners);
-    double                 sum = 0;
-    for (unsigned int q = 0; q < rule.size(); ++q)
+    const CornerCells          own     = cells_of(point);
+    const auto                 corners = this->domain_corners(point);
+    const CellMap<dim>         map(corners);
+    const auto                &box = this->space.mesh().box_grid();
+    std::array<Intervals, dim> along;
+    for (unsigned int d = 0; d < dim; ++d)
+      along[d] = own.n == 1 ? intervals(2) :
+                 box        ? intervals(4, crossing(*box, corners, d)) :
+                              intervals(4);
+    double             sum     = 0;
+    const unsigned int n_parts = Utilities::fixed_power<dim>(along[0].n);
+    for (unsigned int part = 0; part < n_parts; ++part)
       {
+        Point<dim>   middle;
+        double       size  = 1;
+        unsigned int digit = part;
+        for (unsigned int d = 0; d < dim; ++d, digit /= along[0].n)
+          {
+            const unsigned int i = digit % along[0].n;
+            middle[d]            = along[d].middle[i];
+            size *= along[d].length[i];
+          }
         unsigned int cell = GridSpace<dim>::no_cell;
         double       N[n_corners];
         const bool   found = patch.locate(this->points.position(point),
-                                        map.place(rule.point(q)),
+                                        map.place(middle),
                                         cell,
                                         N);
         const auto   end   = own.cells.begin() + own.n;
@@ -298,8 +373,7 @@ namespace moraine
         for (unsigned int a = 0; a < n_corners; ++a)
           for (unsigned int d = 0; d < dim; ++d)
             xi[d] += (a >> d) & 1 ? N[a] : 0.;
-        const double w =
-          rule.weight(q) * std::abs(determinant(map.jacobian(rule.point(q))));
+        const double w = size * std::abs(determinant(map.jacobian(middle)));
         sum += w;
         add_part(i, cell, xi, w, parts);
       }

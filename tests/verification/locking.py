@@ -72,3 +72,60 @@ for title, scene, allowed in (
         else:
             number(f"bearing, {title}: mean stress of {name}, root of the mean "
                    "square of what alternates over the range", usual, 2)
+
+# Domains that reach over faces of cells in a uniform strain: their parts in cells
+# are found by where those faces cross them.
+scene = folder / "stretched.prm"
+scene.write_text("""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 6, 3
+  set Cell size = 0.25
+end
+subsection Method
+  set Strain = finite
+end
+subsection Materials
+  subsection rubber
+    set Young modulus = 100
+    set Poisson ratio = 0.49
+  end
+end
+subsection Bodies
+  subsection sheet
+    set Lower corner = 0, 0
+    set Upper corner = 4, 2
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side = left
+    set Components = x
+  end
+  subsection bottom
+    set Side = bottom
+    set Components = y
+  end
+end
+subsection Boundaries
+  subsection right
+    set Body = sheet
+    set Part = right
+    set Constraint = roller
+    set Translation = 0.04*t; 0
+  end
+end
+subsection Time
+  set Steps = 8
+end
+""")
+mean = {}
+for method in "GIMP", "CPDI1", "CPDI2":
+    stresses = run(scene, {"Method/Method": method}, on_ranks=1).points("stress")
+    mean[method] = [(s[0] + s[4] + s[8]) / 3 for (s,) in stresses]
+exact = mean["GIMP"][0]
+bound("stretched sheet, GIMP: mean stress, largest deviation",
+      max(abs(m / exact - 1) for m in mean["GIMP"]), 1e-6)
+for method in "CPDI1", "CPDI2":
+    bound(f"stretched sheet, {method}: mean stress, largest deviation",
+          max(abs(m / exact - 1) for m in mean[method]), 3e-2)
