@@ -30,6 +30,42 @@ namespace moraine
       "its surface stays while 'Displacement' moves the material; "
       "'Translation' moves both";
     const std::string of_sides = "'surface traction' goes with the material";
+
+    /** Of a cell: by then stresses beside a pressed side are wrong by half. */
+    constexpr double told_gap = 0.4;
+
+
+
+    /** How far material is from the faces on which a side traction pushes, less
+     * half the size of points, in the mean over faces and in cell sizes.
+     * Collective. */
+    template <int dim>
+    double
+    gap_at(const SideTraction<dim> &traction, const Model<dim> &model)
+    {
+      const PointSet<dim> &points = *model.points;
+      std::vector<double>  sums(2, 0.);
+      for (const auto &in_cell : points.cells())
+        for (const unsigned int f : in_cell.cell->face_indices())
+          {
+            const auto face = in_cell.cell->face(f);
+            if (!in_cell.cell->at_boundary(f) ||
+                face->boundary_id() != traction.side)
+              continue;
+            Tensor<1, dim> inward = in_cell.cell->center() - face->center();
+            const double   depth  = inward.norm();
+            inward /= depth;
+            double gap = 2 * depth;
+            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+              gap = std::min(gap,
+                             (points.position(p) - face->center()) * inward -
+                               0.5 * std::pow(points.volume(p), 1. / dim));
+            sums[0] += gap / (2 * depth);
+            sums[1] += 1;
+          }
+      Utilities::MPI::sum(sums, model.space->communicator(), sums);
+      return sums[1] > 0 ? sums[0] / sums[1] : 0.;
+    }
   } // namespace
 
 
@@ -99,7 +135,10 @@ namespace moraine
     for (unsigned int l = 0; l < n_faces.size(); ++l)
       if (const std::string &name = model.loads.side_tractions[l].name;
           contains(stage.loads, name))
-        found.push_back(fewer_faces("Loads/" + name, n_faces[l], t));
+        {
+          found.push_back(fewer_faces("Loads/" + name, n_faces[l], t));
+          found.push_back(left_behind(model.loads.side_tractions[l], t));
+        }
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;
   }
@@ -249,6 +288,29 @@ namespace moraine
     text << "section '" << section << "': by t = " << t << " only " << n
          << " of " << largest
          << " faces of cells are beside material and pushed on; " << of_sides;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::left_behind(const SideTraction<dim> &traction, const double t)
+  {
+    const std::string section = "Loads/" + traction.name;
+    if (model.state->mesh_after_step() != MeshAfterStep::reset ||
+        model.mesh_motion.moves() || told.count(section) > 0)
+      return "";
+    const double gap = gap_at(traction, model);
+    if (!(gap > told_gap))
+      return "";
+    told.insert(section);
+    std::ostringstream text;
+    text << "section '" << section << "': by t = " << t << " material is "
+         << std::setprecision(2) << gap
+         << " cell sizes away from the side of the mesh, on which it still "
+            "pushes: stresses near it are wrong; "
+         << of_sides;
     return text.str();
   }
 

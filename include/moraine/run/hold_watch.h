@@ -90,6 +90,11 @@ namespace moraine
                 const unsigned int n,
                 const double       t);
 
+    /** That material has moved away from the side on which a load pushes; or
+     * "". */
+    std::string
+    left_behind(const SideTraction<dim> &traction, const double t);
+
     const Scene<dim>               &scene;
     const Model<dim>               &model;
     std::vector<GridCondition<dim>> conditions; ///< that act
