@@ -335,3 +335,64 @@ for name, start, end in (("along x", "-4, 0.13, -0.21", "4, 0.13, -0.21"),
         text(f"hole of {radius} {name}, cells of {h}, and its core", result.code)
 scene.write_text(BORED.format(h=1, radius=2, start="0, 0, -4", end="0, 0, 4", core="union"))
 text("the hole, and all of it", run(scene, command="check", expect=2).code)
+
+# Dashpots hold nothing at rest.
+ROCK = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 4
+  set Cell size = 1
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 100
+    set Poisson ratio = 0.3
+    set Density = 1
+  end
+end
+subsection Bodies
+  subsection rock
+    set Lower corner = 0, 0
+    set Upper corner = 4, 4
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+  subsection right
+    set Side = right
+    {right}
+  end
+end
+subsection Loads
+  subsection weight
+    set Type = gravity
+    set Value = 0; -0.1
+  end
+end
+subsection Stages
+  subsection rest
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection waves
+    {waves}
+    subsection Time
+      set Integrator = Newmark
+      set End time = 1.1
+      set Steps = 2
+    end
+  end
+end
+"""
+scene = folder / "rock.prm"
+for name, right, waves in (
+        ("absorbs from the start", "set Constraint = absorbing", ""),
+        ("with springs", "set Constraint = absorbing\nset Virtual thickness = 4", ""),
+        ("holds, then absorbs", "set Components = x", "set Absorbing = right")):
+    scene.write_text(ROCK.format(right=right, waves=waves))
+    result = run(scene)
+    text(f"side that {name}: told of",
+         "it absorbs waves and holds nothing in this stage" in result.output)
