@@ -75,8 +75,9 @@ namespace moraine
                           how.holds_means(space.degree(), curved_roller, in_motion)};
     const bool changes = kind.holds_means != before.holds_means;
     const bool moves   = moves_points && motion.moves();
-    const bool body_moved = Utilities::MPI::logical_or(
-      moves_points && !body.is_still_so(covers), space.communicator());
+    const bool body_moved =
+      Utilities::MPI::logical_or(moves_points && !body.is_still_so(covers),
+                                 space.communicator());
     if (has_pieces && !cells_changed && !moves && !changes && !body_moved)
       {
         for (auto &point : boundary_points)
