@@ -5,6 +5,7 @@
 
 #include <moraine/assembly/boundary_force.h>
 #include <moraine/assembly/boundary_piece.h>
+#include <moraine/points/body_cover.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -67,61 +68,6 @@ namespace moraine
 
 
   template <int dim>
-  typename BodyBehind<dim>::Covers
-  BoundaryTerm<dim>::cover_of_bodies(const StepContext<dim> &context) const
-  {
-    if (shapes.empty())
-      return {};
-    const PointSet<dim> &points = context.state.material_points();
-    const bool moved = context.state.mesh_after_step() != MeshAfterStep::keep;
-    std::vector<std::pair<unsigned int, unsigned int>> points_of(
-      points.mesh().triangulation().n_active_cells());
-    for (const auto &in_cell : points.cells())
-      points_of[in_cell.cell->active_cell_index()] = {in_cell.first,
-                                                      in_cell.last};
-    return [this, &points, moved, points_of](const unsigned int cell,
-                                             const Point<dim>  &x,
-                                             const double       margin) {
-      const auto [first, last] = points_of[cell];
-      const auto distance      = [&](const unsigned int p) {
-        return points.position(p).distance_square(x);
-      };
-      const auto u = [&](const unsigned int p) {
-        return moved ? points.displacement_field()(points.values(p)) :
-                       Tensor<1, dim>();
-      };
-      for (unsigned int p = first; p < last; ++p)
-        {
-          const unsigned int body = points.body(p);
-          if (p > first && points.body(p - 1) == body)
-            continue;
-          if (!shapes[body])
-            return true;
-          unsigned int nearest = p, n = 0;
-          for (unsigned int q = first; q < last; ++q)
-            if (points.body(q) == body)
-              {
-                ++n;
-                if (distance(q) < distance(nearest))
-                  nearest = q;
-              }
-          // How far off it may be where the body is strained or turned.
-          double uncertain =
-            points.forgotten_displacement() + (n == 1 ? u(nearest).norm() : 0.);
-          for (unsigned int q = first; q < last; ++q)
-            if (points.body(q) == body)
-              uncertain = std::max(uncertain, (u(q) - u(nearest)).norm());
-          if (covers_place(*shapes[body], x - u(nearest), margin + uncertain))
-            return true;
-        }
-      // Without a point nothing is known.
-      return first == last;
-    };
-  }
-
-
-
-  template <int dim>
   std::vector<Effect>
   BoundaryTerm<dim>::effects(const StepContext<dim> &context) const
   {
@@ -141,14 +87,20 @@ namespace moraine
   bool
   BoundaryTerm<dim>::begin_step(const StepContext<dim> &context)
   {
+    const bool moves_points =
+      context.state.mesh_after_step() != MeshAfterStep::keep;
+    typename BodyBehind<dim>::Covers covers;
+    if (!shapes.empty())
+      covers =
+        BodyCover<dim>(context.state.material_points(), shapes, moves_points);
     boundary.begin_step(context.state.grid(),
                         context.t_start,
                         context.search_tolerance,
-                        context.state.mesh_after_step() != MeshAfterStep::keep,
+                        moves_points,
                         context.state.strain_measure(),
                         context.cells_moved,
                         context.motion != nullptr,
-                        cover_of_bodies(context));
+                        covers);
     // A form that is not definite feeds what one step leaves to the next: in
     // vibrations, and as points move. Elsewhere the larger factor costs
     // accuracy for nothing; there it is what is needed.

@@ -21,7 +21,7 @@ namespace moraine
 
   template <int dim>
   void
-  BodyBehind<dim>::be_everywhere()
+  BodyBehind<dim>::stop_asking()
   {
     covers = {};
   }

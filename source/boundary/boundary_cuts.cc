@@ -258,11 +258,12 @@ namespace moraine
       return own_cell(piece).state() == IteratorState::valid;
     };
     const auto is_held = [&](const SurfacePoint<dim> &piece) {
+      // A place of its own that no body is at takes no force.
+      if (how.w_free == 0. &&
+          (!kind.holds_means || is_along_faces(vertices, piece.normal)))
+        return true;
       const CellIterator owner = own_cell(piece);
       return owner.state() != IteratorState::valid ||
-             // A place of its own that no body is at takes no force.
-             (how.w_free == 0. &&
-              (!kind.holds_means || is_along_faces(vertices, piece.normal))) ||
              body.at(owner->active_cell_index(),
                      piece.x,
                      piece.normal,

@@ -67,18 +67,20 @@ namespace moraine
     t_start = t;
     const bool curved_roller =
       at_start.curved() && constraint.kind == Constraint<dim>::roller;
-    const Kind before  = kind;
-    kind               = {moves_points,
-                          moves_points && curved_roller,
-                          moves_points && measure == StrainMeasure::finite &&
-                            constraint.kind == Constraint<dim>::fixed,
-                          how.holds_means(space.degree(), curved_roller, in_motion)};
-    const bool changes = kind.holds_means != before.holds_means;
-    const bool moves   = moves_points && motion.moves();
-    const bool body_moved =
-      Utilities::MPI::logical_or(moves_points && !body.is_still_so(covers),
-                                 space.communicator());
-    if (has_pieces && !cells_changed && !moves && !changes && !body_moved)
+    const Kind before     = kind;
+    kind                  = {moves_points,
+                             moves_points && curved_roller,
+                             moves_points && measure == StrainMeasure::finite &&
+                               constraint.kind == Constraint<dim>::fixed,
+                             how.holds_means(space.degree(), curved_roller, in_motion)};
+    const bool changes    = kind.holds_means != before.holds_means;
+    const bool moves      = moves_points && motion.moves();
+    const auto body_moved = [&]() {
+      return moves_points &&
+             Utilities::MPI::logical_or(!body.is_still_so(covers),
+                                        space.communicator());
+    };
+    if (has_pieces && !cells_changed && !moves && !changes && !body_moved())
       {
         for (auto &point : boundary_points)
           point.depth = point.h;
@@ -95,12 +97,10 @@ namespace moraine
     boundary_points.clear();
     body.ask(covers);
     find_pieces(space, search_tolerance);
+    body.stop_asking();
+    // Away from all bodies it holds what its cells have of them.
     if (n_points(space.communicator()) == 0)
-      {
-        // Away from all bodies it holds what its cells have of them.
-        body.be_everywhere();
-        find_pieces(space, search_tolerance);
-      }
+      find_pieces(space, search_tolerance);
     evaluate_shapes(space);
     if (kind.holds_means)
       take_means(space);

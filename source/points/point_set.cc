@@ -213,6 +213,43 @@ namespace moraine
 
 
   template <int dim>
+  std::pair<unsigned int, unsigned int>
+  PointSet<dim>::points_in(const unsigned int active_cell_index) const
+  {
+    const auto in_cell =
+      std::lower_bound(cell_points.begin(),
+                       cell_points.end(),
+                       active_cell_index,
+                       [](const CellPoints &points, const unsigned int index) {
+                         return points.cell->active_cell_index() < index;
+                       });
+    return in_cell != cell_points.end() &&
+               in_cell->cell->active_cell_index() == active_cell_index ?
+             std::make_pair(in_cell->first, in_cell->last) :
+             std::make_pair(0u, 0u);
+  }
+
+
+
+  template <int dim>
+  double
+  PointSet<dim>::gap_before(const unsigned int    active_cell_index,
+                            const Point<dim>     &x,
+                            const Tensor<1, dim> &normal,
+                            const double          largest) const
+  {
+    double gap               = largest;
+    const auto [first, last] = points_in(active_cell_index);
+    for (unsigned int p = first; p < last; ++p)
+      gap = std::min(gap,
+                     (x - position(p)) * normal -
+                       0.5 * std::pow(volume(p), 1. / dim));
+    return gap;
+  }
+
+
+
+  template <int dim>
   typename PointSet<dim>::CellIterator
   PointSet<dim>::cell_of(const unsigned int p) const
   {
@@ -383,6 +420,10 @@ namespace moraine
         const unsigned int first = handles.size();
         for (unsigned int i = 0; i < n; ++i, ++particle)
           handles.push_back(particle->get_local_index());
+        Assert(cell_points.empty() ||
+                 cell_points.back().cell->active_cell_index() <
+                   cell->active_cell_index(),
+               ExcMessage("Points do not come in the order of cells."));
         cell_points.push_back({cell, first, first + n});
       }
   }

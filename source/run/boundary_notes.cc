@@ -103,20 +103,11 @@ namespace moraine
     gap_before(const ImplicitBoundary<dim> &boundary,
                const PointSet<dim>         &points)
     {
-      std::vector<std::pair<unsigned int, unsigned int>> points_of(
-        points.mesh().triangulation().n_active_cells());
-      for (const auto &in_cell : points.cells())
-        points_of[in_cell.cell->active_cell_index()] = {in_cell.first,
-                                                        in_cell.last};
       std::vector<double> sums(2, 0.);
       for (const auto &place : boundary.points())
         {
-          const auto [first, last] = points_of[place.cell];
-          double gap               = place.h;
-          for (unsigned int p = first; p < last; ++p)
-            gap = std::min(gap,
-                           (place.x - points.position(p)) * place.normal -
-                             0.5 * std::pow(points.volume(p), 1. / dim));
+          const double gap =
+            points.gap_before(place.cell, place.x, place.normal, place.h);
           sums[0] += std::max(gap, 0.) * place.JxW;
           sums[1] += place.JxW;
         }

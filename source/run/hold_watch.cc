@@ -52,15 +52,14 @@ namespace moraine
             if (!in_cell.cell->at_boundary(f) ||
                 face->boundary_id() != traction.side)
               continue;
-            Tensor<1, dim> inward = in_cell.cell->center() - face->center();
-            const double   depth  = inward.norm();
-            inward /= depth;
-            double gap = 2 * depth;
-            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-              gap = std::min(gap,
-                             (points.position(p) - face->center()) * inward -
-                               0.5 * std::pow(points.volume(p), 1. / dim));
-            sums[0] += gap / (2 * depth);
+            const Tensor<1, dim> outward =
+              face->center() - in_cell.cell->center();
+            const double h = 2 * outward.norm();
+            sums[0] += points.gap_before(in_cell.cell->active_cell_index(),
+                                         face->center(),
+                                         2 / h * outward,
+                                         h) /
+                       h;
             sums[1] += 1;
           }
       Utilities::MPI::sum(sums, model.space->communicator(), sums);

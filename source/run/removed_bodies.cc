@@ -23,15 +23,11 @@ namespace moraine
     public:
       Grounds(const StageParameters &stage, const Model<dim> &model)
         : model(model)
-        , points_of(model.mesh->triangulation().n_active_cells())
         , goes(model.bodies.size())
       {
         for (unsigned int b = 0; b < goes.size(); ++b)
           goes[b] =
             model.present[b] && !contains(stage.bodies, model.body_names[b]);
-        for (const auto &in_cell : model.points->cells())
-          points_of[in_cell.cell->active_cell_index()] = {in_cell.first,
-                                                          in_cell.last};
       }
 
       /** Whether a body goes that the points @p acts_on are of. */
@@ -56,7 +52,7 @@ namespace moraine
       void
       add(const Point<dim> &x, const unsigned int cell, const double area)
       {
-        const auto [first, last] = points_of[cell];
+        const auto [first, last] = model.points->points_in(cell);
         double       nearest     = std::numeric_limits<double>::max();
         unsigned int body        = 0;
         bool         keeps       = false;
@@ -91,10 +87,9 @@ namespace moraine
       }
 
     private:
-      const Model<dim>                                  &model;
-      std::vector<std::pair<unsigned int, unsigned int>> points_of;
-      std::vector<bool>                                  goes;  ///< bodies
-      std::vector<double>                                areas; ///< and the sum
+      const Model<dim>   &model;
+      std::vector<bool>   goes;  ///< bodies
+      std::vector<double> areas; ///< and the sum
     };
   } // namespace
 

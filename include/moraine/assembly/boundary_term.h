@@ -102,11 +102,6 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
-    /** Whether the body of one of the points of a cell covers a place, moved as
-     * the nearest point of this body. */
-    typename BodyBehind<dim>::Covers
-    cover_of_bodies(const StepContext<dim> &context) const;
-
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,

@@ -32,9 +32,10 @@ namespace moraine
 
     /** From now on a body is everywhere; what was asked is remembered. */
     void
-    be_everywhere();
+    stop_asking();
 
-    /** Whether @p covers gives all answers of before. */
+    /** Whether @p covers gives all answers of before; always if nothing was
+     * asked. */
     bool
     is_still_so(const Covers &covers) const;
 

@@ -162,6 +162,19 @@ namespace moraine
       return cell_points;
     }
 
+    /** The first point of an active cell, and the one after its last. */
+    std::pair<unsigned int, unsigned int>
+    points_in(const unsigned int active_cell_index) const;
+
+    /** How far the points of an active cell, less half their size, are from the
+     * plane through @p x on its inner side; @p largest if there are none, or it
+     * is more [length]. @p normal is the outward one. */
+    double
+    gap_before(const unsigned int            active_cell_index,
+               const dealii::Point<dim>     &x,
+               const dealii::Tensor<1, dim> &normal,
+               const double                  largest) const;
+
     /** What the points of all ranks fill of each cell, by active_cell_index().
      * Collective. */
     std::vector<double>
