@@ -122,6 +122,7 @@ show("surface, Translation", expect=0)
 
 write(more=LOAD.format(type="side traction", where="set Side = top"))
 show("load on a side")
+show("load on a side, a little", {"Loads/load/Value": "0; -50*t"}, expect=0)
 show("load on a side, FE", {"Method/Method": "finite element"}, expect=0)
 write(more=LOAD.format(type="surface traction",
                        where="set Points = 1 2; 0 2"))
@@ -135,55 +136,3 @@ run(whole.folder, command="resume", extra=("--from", "7"), expect=1)
 after = json.loads((whole.folder / "summary.json").read_text())
 text("resumed: ended alike", after["message"] == before["message"])
 text("resumed: told", after.get("warnings", []) == before["warnings"])
-
-# Material that moves away from the side of the mesh on which a load pushes.
-BAR = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 1
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection end
-    set Type = side traction
-    set Side = right
-    set Value = -200*t; 0
-  end
-end
-subsection Time
-  set Steps = 10
-end
-"""
-scene = folder / "bar.prm"
-scene.write_text(BAR)
-for name, settings in (("GIMP", {}), ("a quarter of the load", {"Loads/end/Value": "-50*t; 0"}),
-                       ("finite element", {"Method/Method": "finite element"})):
-    result = run(scene, settings)
-    text(f"bar pushed on its end, {name}: told of",
-         "cell sizes away from the side of the mesh" in result.output)

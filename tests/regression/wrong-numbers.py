@@ -245,41 +245,17 @@ for angle, steps in ("360*t", 1), ("360*t", 2), ("360*t", 3), ("100*t", 1):
          "degrees, of which it sees half a circle at most" in result.output)
 
 # Points of a file with volumes that are not theirs.
-POINTS = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 5, 2.5
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 10000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = points-from-file
-    set Point file = {file}
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-  end
-end
-"""
-for name, size, volume, times in (("right", 0.25, 1, 1), ("that fit no cells", 0.2, 1, 1),
-                                  ("twice as large", 0.25, 2, 1),
-                                  ("right, each point twice", 0.25, 1, 2)):
+for name, size, volume, times in (
+        ("right", 0.5, 1, 1), ("that fit no cells", 0.4, 1, 1),
+        ("nearly as large as cells", 0.79, 1, 1), ("twice as large", 0.5, 2, 1),
+        ("right, each point twice", 0.5, 1, 2)):
     file = folder / "points.csv"
-    n = round(4 / size), round(2 / size)
     file.write_text("x,y,volume\n" + times * "".join(
-        f"{(i + 0.5) * size},{(j + 0.5) * size},{volume * size ** 2}\n"
-        for i in range(n[0]) for j in range(n[1])))
-    scene = folder / "points.prm"
-    scene.write_text(POINTS.format(file=file))
-    result = run(scene, {"Output/Write": "end"})
+        f"{0.5 + (i + 0.5) * size},{0.5 + (j + 0.5) * size},{volume * size ** 2}\n"
+        for i in range(round(4 / size)) for j in range(round(4 / size))))
+    result = run("tests/bad-input/base.prm", {
+        "Bodies/block/Shape": "points-from-file", "Bodies/block/Point file": file,
+        "Bodies/block/Lower corner": "", "Bodies/block/Upper corner": ""})
     text(f"volumes of points {name}: told of",
          "cells have no room for" in result.output)
 
@@ -337,62 +313,14 @@ scene.write_text(BORED.format(h=1, radius=2, start="0, 0, -4", end="0, 0, 4", co
 text("the hole, and all of it", run(scene, command="check", expect=2).code)
 
 # Dashpots hold nothing at rest.
-ROCK = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 4
-  set Cell size = 1
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection rock
-    set Lower corner = 0, 0
-    set Upper corner = 4, 4
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-  subsection right
-    set Side = right
-    {right}
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -0.1
-  end
-end
-subsection Stages
-  subsection rest
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection waves
-    {waves}
-    subsection Time
-      set Integrator = Newmark
-      set End time = 1.1
-      set Steps = 2
-    end
-  end
-end
-"""
-scene = folder / "rock.prm"
-for name, right, waves in (
-        ("absorbs from the start", "set Constraint = absorbing", ""),
-        ("with springs", "set Constraint = absorbing\nset Virtual thickness = 4", ""),
-        ("holds, then absorbs", "set Components = x", "set Absorbing = right")):
-    scene.write_text(ROCK.format(right=right, waves=waves))
-    result = run(scene)
+SIDE = "Grid conditions/right/"
+ABSORBS = {SIDE + "Constraint": "absorbing", SIDE + "Components": ""}
+for name, settings in (
+        ("absorbs from the start", ABSORBS),
+        ("has springs", {**ABSORBS, SIDE + "Virtual thickness": 4}),
+        ("holds, then absorbs", {"Stages/pulse/Absorbing": "base, right"})):
+    result = run("prm/dynamics/gravity-then-wave.prm", {
+        "Stages/pulse/Time/End time": 1.01, "Stages/pulse/Time/Steps": 2,
+        "Output/Write": "end", **settings})
     text(f"side that {name}: told of",
-         "it absorbs waves and holds nothing in this stage" in result.output)
+         "right: it absorbs waves and holds nothing in this stage" in result.output)
