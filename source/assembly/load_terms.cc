@@ -258,7 +258,11 @@ namespace moraine
     // On a mesh that does not reset, places stay in their cells.
     if (context.couplings_changed ||
         context.state.mesh_after_step() == MeshAfterStep::reset)
-      load.find_cells(context.state.grid(), context.search_tolerance);
+      {
+        load.find_cells(context.state.grid(), context.search_tolerance);
+        load.set_functions(
+          context.state.point_basis().functions_at(load.places()));
+      }
     return false;
   }
 
@@ -272,24 +276,22 @@ namespace moraine
   {
     if (!acts)
       return;
-    const GridSpace<dim>       &space = context.state.grid();
-    LocalSystem<dim>            local;
-    std::vector<double>         N(space.nodes_per_cell());
-    std::vector<Tensor<1, dim>> grad_N(space.nodes_per_cell());
-    for (const auto &place : load.places())
-      if (place.active_cell_index != GridSpace<dim>::no_cell)
-        {
-          evaluate_shapes(
-            space, place.active_cell_index, place.x, N.data(), grad_N.data());
-          local.reinit(context.state,
-                       space.cell_nodes(place.active_cell_index),
-                       space.nodes_per_cell(),
-                       false);
-          share(place.weight * load.value(place.x, context.t_end),
-                N.data(),
-                local);
-          system.add(local, false);
-        }
+    const GridSpace<dim>      &space     = context.state.grid();
+    const unsigned int         n         = space.nodes_per_cell();
+    const PlaceFunctions<dim> &functions = load.functions();
+    LocalSystem<dim>           local;
+    for (unsigned int i = 0; i < functions.places.size(); ++i)
+      {
+        const auto &place = load.places()[functions.places[i]];
+        local.reinit(context.state,
+                     space.cell_nodes(functions.cells[i]),
+                     n,
+                     false);
+        share(place.weight * load.value(place.x, context.t_end),
+              &functions.N[n * i],
+              local);
+        system.add(local, false);
+      }
   }
 
 

@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/basis/basis.h>
+
+#include <moraine/mesh/active_search.h>
 #include <moraine/mesh/cell_shapes.h>
 
 #include <numeric>
@@ -85,6 +87,37 @@ namespace moraine
                                         X,
                                         &block.values[p * n],
                                         &block.gradients[p * n]);
+  }
+
+
+
+  template <int dim>
+  PlaceFunctions<dim>
+  Basis<dim>::functions_at(
+    const std::vector<typename CarriedPlaces<dim>::Place> &places) const
+  {
+    PlaceFunctions<dim> functions;
+    for (unsigned int k = 0; k < places.size(); ++k)
+      add_functions_of_cell(places[k], k, functions);
+    return functions;
+  }
+
+
+
+  template <int dim>
+  void
+  Basis<dim>::add_functions_of_cell(
+    const typename CarriedPlaces<dim>::Place &place,
+    const unsigned int                        k,
+    PlaceFunctions<dim>                      &functions) const
+  {
+    const unsigned int cell = place.active_cell_index;
+    if (cell == GridSpace<dim>::no_cell)
+      return;
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<Tensor<1, dim>> grad_N(n);
+    evaluate_shapes(
+      space, cell, place.x, functions.add(k, cell, n), grad_N.data());
   }
 
 

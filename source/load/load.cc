@@ -65,9 +65,23 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &nodal_increments,
     const bool                         through_mesh)
   {
-    carried.prepare_move(carried.increments(space, nodal_increments),
-                         through_mesh,
-                         false);
+    const unsigned int  n = space.nodes_per_cell();
+    std::vector<double> moves(dim * places().size(), 0.);
+    for (unsigned int i = 0; i < place_functions.places.size(); ++i)
+      {
+        const unsigned int *nodes = space.cell_nodes(place_functions.cells[i]);
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            moves[dim * place_functions.places[i] + d] +=
+              place_functions.N[n * i + a] * nodal_increments[nodes[a]][d];
+      }
+    Utilities::MPI::sum(moves, space.communicator(), moves);
+    std::vector<typename CarriedPlaces<dim>::Increment> increments(
+      places().size());
+    for (unsigned int k = 0; k < increments.size(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        increments[k].u[d] = moves[dim * k + d];
+    carried.prepare_move(increments, through_mesh, false);
   }
 
 

@@ -375,7 +375,13 @@ namespace moraine
               make_surface<dim>(parameters.surface, shapes, section);
             loads.carried.emplace_back(name,
                                        value,
-                                       places_on(*surface, mesh, covers),
+                                       places_on(*surface,
+                                                 mesh,
+                                                 covers,
+                                                 scene.method.after_step() ==
+                                                     MeshAfterStep::reset ?
+                                                   Spacing::through_mesh :
+                                                   Spacing::for_cells),
                                        share_outside(*surface, mesh, covers));
           }
         else

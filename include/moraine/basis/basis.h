@@ -5,6 +5,7 @@
 #define moraine_basis_basis_h
 
 #include <moraine/basis/stencil.h>
+#include <moraine/geometry/carried_places.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/points/point_set.h>
 
@@ -99,6 +100,16 @@ namespace moraine
     evaluate_parts(const unsigned int       batch,
                    const StencilBlock<dim> &block,
                    CellParts<dim>          &parts) const;
+
+    /**
+     * The functions that carry forces at @p places to the nodes: those with
+     * which forces on the rim of a body are in balance with stresses of its
+     * points. Here those of the cell of each place that this rank owns.
+     * Collective.
+     */
+    virtual PlaceFunctions<dim>
+    functions_at(
+      const std::vector<typename CarriedPlaces<dim>::Place> &places) const;
 
     /**
      * How the strain of points is found when a step is accepted: a basis for
@@ -235,6 +246,13 @@ namespace moraine
             order.size() - batches[first_batch + g].first_point;
         }
     }
+
+    /** Add the functions of the cell of a place, number @p k, that this rank
+     * owns. */
+    void
+    add_functions_of_cell(const typename CarriedPlaces<dim>::Place &place,
+                          const unsigned int                        k,
+                          PlaceFunctions<dim> &functions) const;
 
     const GridSpace<dim> &space;
     const PointSet<dim>  &points;

@@ -9,7 +9,9 @@
 #include <moraine/basis/domain_tools.h>
 #include <moraine/points/bodies.h>
 
+#include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace moraine
@@ -54,6 +56,18 @@ namespace moraine
     evaluate_parts(const unsigned int       batch,
                    const StencilBlock<dim> &block,
                    CellParts<dim>          &parts) const override;
+
+    /**
+     * A place on the rim of a domain, or in it, sees the interpolants between
+     * the corners of that domain, @f$\sum_c M_c(x) N_i(x_c)@f$; so do
+     * tractions of Sadeghirad et al. (2011). With the functions of the cell
+     * itself forces near faces of cells are not in balance with a uniform
+     * stress. A place that is further from all domains than the nearest of them
+     * is long has the functions of its cell.
+     */
+    PlaceFunctions<dim>
+    functions_at(const std::vector<typename CarriedPlaces<dim>::Place> &places)
+      const override;
 
     /**
      * Domains with an edge longer than DomainTools::longest_edge, but not
@@ -148,6 +162,25 @@ namespace moraine
                              other.cells.begin() + other.n);
       }
     };
+
+    /** The domain of this rank that is nearest to a place. */
+    struct PlaceInDomain
+    {
+      double             distance = std::numeric_limits<double>::max();
+      unsigned int       id       = dealii::numbers::invalid_unsigned_int;
+      unsigned int       point    = dealii::numbers::invalid_unsigned_int;
+      dealii::Point<dim> xi; ///< of the place, maybe beyond the domain
+
+      bool
+      operator<(const PlaceInDomain &other) const
+      {
+        return std::tie(distance, id) < std::tie(other.distance, other.id);
+      }
+    };
+
+    std::vector<PlaceInDomain>
+    nearest_domains(
+      const std::vector<typename CarriedPlaces<dim>::Place> &places) const;
 
     /** Whether a domain with a point at @p x, in or near the @p cell, may be
      * halved through its edges in direction @p d: not if it is distorted, which

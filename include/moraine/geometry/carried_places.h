@@ -13,6 +13,27 @@
 
 namespace moraine
 {
+  /** Functions of the nodes of cells at places: for one place those of its
+   * cell, or parts of those of several. */
+  template <int dim>
+  struct PlaceFunctions
+  {
+    std::vector<unsigned int> places; ///< numbers, ascending
+    std::vector<unsigned int> cells;  ///< by active_cell_index()
+    std::vector<double>       N;      ///< nodes_per_cell() for each of cells
+
+    /** Add the functions of a cell at the place number @p k.
+     * @return where to write @p n values. */
+    double *
+    add(const unsigned int k, const unsigned int cell, const unsigned int n)
+    {
+      places.push_back(k);
+      cells.push_back(cell);
+      N.resize(N.size() + n);
+      return &N[N.size() - n];
+    }
+  };
+
   /**
    * Single places or those of a surface, on the material, which carries them
    * along: they move with the displacement increment of the grid. They are few
@@ -101,17 +122,30 @@ namespace moraine
     std::vector<Place> next; ///< if the trial is accepted
   };
 
+  /** How densely the places of a surface lie. */
+  enum class Spacing
+  {
+    for_cells,   ///< Gauss points of the parts in cells, exact for Q1 and Q2
+    through_mesh ///< so that functions with kinks at any place are integrated
+  };
+
   /**
    * The places of a surface in a mesh, the same on all ranks. What runs along a
    * side of the mesh, and beyond it by no more than a tenth of a cell, is in
    * it. If @p covers is given, what is further from a body than half a cell is
    * left out.
+   *
+   * @param surface any
+   * @param mesh the whole of it
+   * @param covers none if nothing is known of bodies
+   * @param spacing for places that stay in their cells or leave them
    */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on(const Surface<dim>        &surface,
             const BackgroundMesh<dim> &mesh,
-            const Covers<dim>         &covers = {});
+            const Covers<dim>         &covers  = {},
+            const Spacing              spacing = Spacing::for_cells);
 
   /**
    * The part of the area of a surface that is outside of a mesh by more than a

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -68,6 +69,21 @@ namespace moraine
      */
     void
     find_cells(const GridSpace<dim> &space, const double search_tolerance);
+
+    /** Let @p functions carry the forces from the places to the nodes of this
+     * rank, and the places along. */
+    void
+    set_functions(PlaceFunctions<dim> functions)
+    {
+      place_functions = std::move(functions);
+    }
+
+    /** As set_functions() was told. */
+    const PlaceFunctions<dim> &
+    functions() const
+    {
+      return place_functions;
+    }
 
     /** Find where the trial increments carry the places, through a mesh that
      * stays or not. Collective. */
@@ -126,6 +142,7 @@ namespace moraine
     const std::string         load_name;
     const VectorFunction<dim> function;
     CarriedPlaces<dim>        carried;
+    PlaceFunctions<dim>       place_functions;
     double                    outside;
     bool                      placed = false;
   };
