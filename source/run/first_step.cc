@@ -365,7 +365,11 @@ namespace moraine
       model.linear_solver->set_up(model.system->tangent(), true, {});
       const LinearReport report = model.linear_solver->solve(change, missing);
       if (!report.converged)
-        throw ComputationError("accelerations at the start: " + report.message);
+        throw ComputationError(
+          "accelerations at the start: " + report.message +
+          ". A consistent mass is singular where a cell has one point; 'Mass = "
+          "lumped' in section 'Time' or more points ('Points per direction' in "
+          "section 'Method') help then");
       model.system->apply_constraints(change);
       change += model.space->vector_of(model.motion->accelerations());
       model.motion->set_accelerations(change);

@@ -56,8 +56,9 @@ namespace moraine
         section == "Time" ||
         (is_in("Stages") && section.size() > 5 &&
          section.compare(section.size() - 5, 5, "/Time") == 0);
-      return is_in("Output") || is_in("Solver") || is_in("Study") ||
-             (section.empty() && key == "Title") ||
+      // Results go on where they are.
+      return (is_in("Output") && key != "Directory") || is_in("Solver") ||
+             is_in("Study") || (section.empty() && key == "Title") ||
              (of_time && contains(keys_of_time, key) &&
               !contains(over, section));
     }
@@ -164,10 +165,12 @@ namespace moraine
                  now            = values_of(saved.path, parameters);
     const std::string forbidden = forbidden_changes(before, now, input, over);
     if (!forbidden.empty())
-      throw InputError(forbidden +
-                       "\n  A run that goes on may change sections Output, "
-                       "Solver and Study, and of its times from here on " +
-                       list_of(keys_of_time));
+      throw InputError(
+        forbidden +
+        "\n  A run that goes on may change sections Output (but for "
+        "Directory), Solver and Study, and of its times from "
+        "here on " +
+        list_of(keys_of_time));
     const auto &[name, parameters_of_stage] = scene.stages.at(stage);
     const double end                        = parameters_of_stage.time.end_time;
     if (end < saved.label.t)

@@ -80,6 +80,12 @@ for name, settings in (("too few iterations", {}),
          "points touch can be the cause; 'Fictitious stiffness = 1e-6' in "
          "section 'Method' holds them" in result.output)
 
+no_results("GIMP with one point in a cell, consistent mass", run(
+    scene, {"Method/Method": "GIMP", "Method/Points per direction": 1,
+            "Bodies/block/Lower corner": "0, 0", "Bodies/block/Upper corner": "4, 4",
+            "Boundaries/left/Points": "0 4; 0 0", "Materials/soil/Density": 1,
+            "Time/Integrator": "Newmark"}, expect=None, on_ranks=ranks))
+
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"
 words = [str(program), "run", str(root / scene), "--output", str(out),

@@ -53,6 +53,7 @@ refused("changed material", "run", "--set",
         "Materials/soil/Young modulus = 2000")
 refused("two changes, one of them new", "run", "--set", "Method/Method = GIMP",
         "--set", "Probes/tip/Location = 1, 1", "--set", "Output/Mesh = false")
+refused("another folder", "run", "--set", "Output/Directory = elsewhere")
 refused("end before the checkpoint", "run", "--set", "Time/End time = 0.5")
 stages = root / "prm/geotechnics/fill-and-dig.prm"
 assert moraine("run", stages, "--output", "stages", "--set",
