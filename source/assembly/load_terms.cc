@@ -260,8 +260,11 @@ namespace moraine
         context.state.mesh_after_step() == MeshAfterStep::reset)
       {
         load.find_cells(context.state.grid(), context.search_tolerance);
-        load.set_functions(
-          context.state.point_basis().functions_at(load.places()));
+        const Basis<dim> &basis = context.state.point_basis();
+        load.set_functions(context.state.mesh_after_step() ==
+                               MeshAfterStep::reset ?
+                             basis.functions_at(load.places()) :
+                             basis.functions_of_cells(load.places()));
       }
     return false;
   }

@@ -93,7 +93,7 @@ namespace moraine
 
   template <int dim>
   PlaceFunctions<dim>
-  Basis<dim>::functions_at(
+  Basis<dim>::functions_of_cells(
     const std::vector<typename CarriedPlaces<dim>::Place> &places) const
   {
     PlaceFunctions<dim> functions;

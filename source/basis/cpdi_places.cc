@@ -24,7 +24,7 @@ namespace moraine
   namespace
   {
     /** In lengths of a domain: what is further off is not on its rim. */
-    constexpr double reach = 1.;
+    constexpr double reach = 0.1;
 
 
 

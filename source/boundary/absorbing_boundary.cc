@@ -140,6 +140,22 @@ namespace moraine
 
   template <int dim>
   void
+  AbsorbingBoundary<dim>::remove_places(
+    const std::vector<unsigned int> &numbers)
+  {
+    carried.remove(numbers);
+    for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
+      {
+        extensions.erase(extensions.begin() + *number);
+        held.erase(held.begin() + *number);
+      }
+    found = false;
+  }
+
+
+
+  template <int dim>
+  void
   AbsorbingBoundary<dim>::write(Archive &archive) const
   {
     std::vector<double> of_extensions, of_held;

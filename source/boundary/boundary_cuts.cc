@@ -258,8 +258,9 @@ namespace moraine
       return own_cell(piece).state() == IteratorState::valid;
     };
     const auto is_held = [&](const SurfacePoint<dim> &piece) {
-      // A place of its own that no body is at takes no force.
-      if (how.w_free == 0. &&
+      // A place of its own that no body is at takes no force; where it is
+      // pushed through material, fewer of them would lose hold of it.
+      if (how.w_free == 0. && motion.moves() &&
           (!kind.holds_means || is_along_faces(vertices, piece.normal)))
         return true;
       const CellIterator owner = own_cell(piece);

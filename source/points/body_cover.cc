@@ -5,6 +5,8 @@
 
 #include <moraine/geometry/covered_pieces.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace moraine
@@ -18,7 +20,17 @@ namespace moraine
     : points(&points)
     , shapes(&shapes)
     , moved(moved)
-  {}
+    , largest_displacements(shapes.size(), -1.)
+  {
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        double &largest = largest_displacements[points.body(p)];
+        largest         = std::max(largest, displacement(p).norm());
+      }
+    Utilities::MPI::max(largest_displacements,
+                        points.mesh().triangulation().get_communicator(),
+                        largest_displacements);
+  }
 
 
 
@@ -33,7 +45,16 @@ namespace moraine
       if (p == first || points->body(p) != points->body(p - 1))
         if (covers(points->body(p), first, last, x, margin))
           return true;
-    return first == last;
+    if (first == last)
+      for (unsigned int body = 0; body < shapes->size(); ++body)
+        if (largest_displacements[body] >= 0 &&
+            (!(*shapes)[body] ||
+             covers_place(*(*shapes)[body],
+                          x,
+                          margin + largest_displacements[body] +
+                            points->forgotten_displacement())))
+          return true;
+    return false;
   }
 
 

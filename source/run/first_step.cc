@@ -14,6 +14,7 @@
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/model.h>
+#include <moraine/run/narrow_gaps.h>
 #include <moraine/run/near_bodies.h>
 #include <moraine/run/removed_bodies.h>
 #include <moraine/run/scene_conditions.h>
@@ -498,6 +499,7 @@ namespace moraine
     tell_of_absorbing_at_rest(scene, stage, model, notes);
     tell_of_thin_bodies(model, {}, notes);
     tell_of_near_bodies(model, {}, notes);
+    tell_of_narrow_gaps(model, {}, notes);
     tell_of_boundaries(scene, model, notes);
     model.probes->check_places(
       grid_evaluation<dim>(*model.space, model.state->nodal_increments()),
@@ -536,7 +538,10 @@ namespace moraine
 
     std::vector<std::string> notes;
     if (stage.bodies != before.bodies)
-      tell_of_removed_bodies(stage, before, model, notes);
+      {
+        tell_of_removed_bodies(stage, before, model, notes);
+        remove_absorbing_places(stage, model, notes);
+      }
     model.linear_solver->clear();
     model.set_stage(scene, k);
     system.begin_step(t);
@@ -561,6 +566,7 @@ namespace moraine
     check_loads(stage, model, notes);
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);
+    tell_of_narrow_gaps(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_absorbing_at_rest(scene, stage, model, notes);
     hold_stress_at_start(stage, before.boundaries, model);

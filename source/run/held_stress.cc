@@ -4,6 +4,8 @@
 #include <moraine/run/held_stress.h>
 
 #include <moraine/core/words.h>
+#include <moraine/geometry/covered_pieces.h>
+#include <moraine/points/body_cover.h>
 #include <moraine/points/linear_fit.h>
 
 #include <vector>
@@ -45,11 +47,12 @@ namespace moraine
 
 
 
-    /** @f$M \sigma n@f$ at the points of a boundary. */
+    /** @f$M \sigma n@f$ at the points of a boundary that a body is at. */
     template <int dim>
     std::vector<Tensor<1, dim>>
     tractions_on(const ImplicitBoundary<dim> &boundary,
-                 const PointSet<dim>         &points)
+                 const PointSet<dim>         &points,
+                 const BodyCover<dim>        &covers)
     {
       std::vector<Tensor<1, dim>> tractions(boundary.points().size());
       std::vector<std::vector<unsigned int>> places(
@@ -64,7 +67,13 @@ namespace moraine
           const auto stress = fit_stress(points, in_cell);
           for (const unsigned int q : here)
             {
-              const BoundaryPoint<dim> &point = boundary.points()[q];
+              const BoundaryPoint<dim> &point       = boundary.points()[q];
+              const Covers<dim>         covers_here = [&](const Point<dim> &x,
+                                                  const double      margin) {
+                return covers(point.cell, x, margin);
+              };
+              if (!is_at_body(covers_here, point.x, point.normal, point.h))
+                continue;
               tractions[q] =
                 boundary.projection(point.normal) *
                 (stress.at(point.x - in_cell.cell->center()) * point.normal);
@@ -82,24 +91,39 @@ namespace moraine
                        const std::vector<std::string> &before,
                        Model<dim>                     &model)
   {
-    const double t = stage.time.start_time;
+    using Tractions = std::vector<Tensor<1, dim>>;
+    std::vector<ImplicitBoundary<dim> *> holding;
     for (ImplicitBoundary<dim> &boundary : model.boundaries)
+      if (contains(stage.boundaries, boundary.name()) &&
+          !contains(before, boundary.name()) &&
+          !contains(stage.absorbing, boundary.name()) &&
+          boundary.enforcement().carries_multiplier)
+        holding.push_back(&boundary);
+    const ShapesOfBodies<dim> shapes = shapes_of(model.bodies);
+    const BodyCover<dim>      covers(*model.points,
+                                shapes,
+                                model.state->mesh_after_step() !=
+                                  MeshAfterStep::keep);
+    const auto                hold = [&](ImplicitBoundary<dim> &boundary,
+                          const Tractions       &tractions) {
+      boundary.prepare(tractions, Tractions(tractions.size()));
+      boundary.keep();
+      model.system->begin_step(stage.time.start_time);
+    };
+    // Walls that share nodes balance them together or not at all.
+    for (ImplicitBoundary<dim> *boundary : holding)
+      hold(*boundary, tractions_on(*boundary, *model.points, covers));
+    double share = model.system->unbalanced_share();
+    for (ImplicitBoundary<dim> *boundary : holding)
       {
-        if (!contains(stage.boundaries, boundary.name()) ||
-            contains(before, boundary.name()) ||
-            contains(stage.absorbing, boundary.name()) ||
-            !boundary.enforcement().carries_multiplier)
-          continue;
-        const double share = model.system->unbalanced_share();
-        const auto   hold  = [&](const auto &tractions) {
-          boundary.prepare(tractions,
-                           std::vector<Tensor<1, dim>>(tractions.size()));
-          boundary.keep();
-          model.system->begin_step(t);
-        };
-        hold(tractions_on(boundary, *model.points));
-        if (!(model.system->unbalanced_share() < share))
-          hold(std::vector<Tensor<1, dim>>(boundary.points().size()));
+        const Tractions tractions =
+          tractions_on(*boundary, *model.points, covers);
+        hold(*boundary, Tractions(tractions.size()));
+        const double without = model.system->unbalanced_share();
+        if (without <= share)
+          share = without;
+        else
+          hold(*boundary, tractions);
       }
   }
 

@@ -169,7 +169,8 @@ namespace moraine
     grid_conditions          = make_grid_conditions(scene, *mesh);
     const Covers<dim> covers = covers_of<dim>(shapes_of(bodies));
     loads                    = make_loads(scene, *mesh, body_names, covers);
-    absorbing_boundaries     = make_absorbing_boundaries(scene, *mesh, covers);
+    absorbing_boundaries =
+      make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
     set_initial_stress(scene, *this);
     if (scene.is_dynamic())
       {

@@ -7,7 +7,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace moraine
@@ -53,25 +55,38 @@ namespace moraine
       add(const Point<dim> &x, const unsigned int cell, const double area)
       {
         const auto [first, last] = model.points->points_in(cell);
-        double       nearest     = std::numeric_limits<double>::max();
-        unsigned int body        = 0;
-        bool         keeps       = false;
+        bool keeps               = false;
         for (unsigned int p = first; p < last; ++p)
-          {
-            const unsigned int b = model.points->body(p);
-            keeps                = keeps || !goes[b];
-            const double away    = model.points->position(p).distance(x);
-            if (away < nearest)
-              {
-                nearest = away;
-                body    = b;
-              }
-          }
+          keeps = keeps || !goes[model.points->body(p)];
         if (keeps)
           {
-            areas[body] += area;
+            areas[nearest_body(x, cell)] += area;
             areas.back() += area;
           }
+      }
+
+      /** Whether the body goes that a place in a cell of this rank is on; a
+       * cell without points is on the rim of a body, which is asked as it was
+       * drawn. */
+      bool
+      is_on_what_goes(const Point<dim> &x, const unsigned int cell) const
+      {
+        const auto [first, last] = model.points->points_in(cell);
+        if (first < last)
+          return goes[nearest_body(x, cell)];
+        double nearest = std::numeric_limits<double>::max();
+        bool   of_goes = false;
+        for (unsigned int b = 0; b < goes.size(); ++b)
+          if (model.present[b] && model.bodies[b].shape)
+            {
+              const double away = -model.bodies[b].shape->level(x);
+              if (away < nearest)
+                {
+                  nearest = away;
+                  of_goes = goes[b];
+                }
+            }
+        return of_goes;
       }
 
       /** The body that goes on which most of the places lie; "" without one.
@@ -87,6 +102,25 @@ namespace moraine
       }
 
     private:
+      /** That of the nearest point in a cell that has points. */
+      unsigned int
+      nearest_body(const Point<dim> &x, const unsigned int cell) const
+      {
+        const auto [first, last] = model.points->points_in(cell);
+        double       nearest     = std::numeric_limits<double>::max();
+        unsigned int body        = 0;
+        for (unsigned int p = first; p < last; ++p)
+          {
+            const double away = model.points->position(p).distance(x);
+            if (away < nearest)
+              {
+                nearest = away;
+                body    = model.points->body(p);
+              }
+          }
+        return body;
+      }
+
       const Model<dim>   &model;
       std::vector<bool>   goes;  ///< bodies
       std::vector<double> areas; ///< and the sum
@@ -142,11 +176,58 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  remove_absorbing_places(const StageParameters    &stage,
+                          Model<dim>               &model,
+                          std::vector<std::string> &notes)
+  {
+    const Grounds<dim> grounds(stage, model);
+    for (auto &boundary : model.absorbing_boundaries)
+      {
+        const auto               &places = boundary.places();
+        std::vector<unsigned int> is_lost(places.size(), 0);
+        for (unsigned int k = 0; k < places.size(); ++k)
+          if (places[k].active_cell_index != GridSpace<dim>::no_cell)
+            is_lost[k] =
+              grounds.is_on_what_goes(places[k].x, places[k].active_cell_index);
+        Utilities::MPI::max(is_lost, model.space->communicator(), is_lost);
+        double                    lost = 0, all = 0;
+        std::vector<unsigned int> numbers;
+        for (unsigned int k = 0; k < places.size(); ++k)
+          {
+            all += places[k].weight;
+            if (is_lost[k] > 0)
+              {
+                lost += places[k].weight;
+                numbers.push_back(k);
+              }
+          }
+        if (numbers.empty())
+          continue;
+        boundary.remove_places(numbers);
+        notes.push_back(boundary.name() + ": " +
+                        std::to_string(std::lround(100 * lost / all)) +
+                        " % of what absorbs lies on bodies that are gone, and "
+                        "is gone with them");
+      }
+  }
+
+
+
   template void
   tell_of_removed_bodies(const StageParameters &,
                          const StageParameters &,
                          const Model<2> &,
                          std::vector<std::string> &);
+  template void
+  remove_absorbing_places(const StageParameters &,
+                          Model<2> &,
+                          std::vector<std::string> &);
+  template void
+  remove_absorbing_places(const StageParameters &,
+                          Model<3> &,
+                          std::vector<std::string> &);
   template void
   tell_of_removed_bodies(const StageParameters &,
                          const StageParameters &,

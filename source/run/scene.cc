@@ -405,6 +405,24 @@ namespace moraine
 
 
   template <int dim>
+  const StageParameters &
+  Scene<dim>::first_absorbing_stage(const std::string &name) const
+  {
+    const auto is_active = [&](const StageParameters &stage) {
+      return contains(stage.boundaries, name) ||
+             contains(stage.grid_conditions, name);
+    };
+    // Either the constraint is to absorb or it becomes that.
+    for (const auto &[stage_name, stage] : stages)
+      if (is_active(stage) &&
+          (contains(stage.absorbing, name) || !absorbs_later(name)))
+        return stage;
+    return stages.back().second;
+  }
+
+
+
+  template <int dim>
   void
   Scene<dim>::locate_files(const InputFile &input)
   {

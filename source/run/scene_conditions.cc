@@ -268,11 +268,19 @@ namespace moraine
 
   template <int dim>
   std::vector<AbsorbingBoundary<dim>>
-  make_absorbing_boundaries(const Scene<dim>          &scene,
-                            const BackgroundMesh<dim> &mesh,
-                            const Covers<dim>         &covers)
+  make_absorbing_boundaries(const Scene<dim>               &scene,
+                            const BackgroundMesh<dim>      &mesh,
+                            const std::vector<std::string> &body_names,
+                            const ShapesOfBodies<dim>      &shapes_of_bodies)
   {
-    const NamedShapes<dim>              shapes = body_shapes(scene);
+    const NamedShapes<dim> shapes    = body_shapes(scene);
+    const auto             covers_at = [&](const StageParameters &stage) {
+      ShapesOfBodies<dim> present;
+      for (unsigned int b = 0; b < body_names.size(); ++b)
+        if (contains(stage.bodies, body_names[b]))
+          present.push_back(shapes_of_bodies[b]);
+      return covers_of<dim>(present);
+    };
     std::vector<AbsorbingBoundary<dim>> absorbing;
     for (const auto &[name, parameters] : scene.boundaries)
       if (parameters.constraint == "absorbing" || scene.absorbs_later(name))
@@ -285,7 +293,7 @@ namespace moraine
               parameters.motion.make_motion(section),
               first_time_of(name, scene),
               scene.method.after_step(),
-              covers),
+              covers_at(scene.first_absorbing_stage(name))),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             false);
@@ -299,7 +307,7 @@ namespace moraine
             finder_on_side<dim>(mesh.boundary_id(parameters.side,
                                                  place(section, "Side")),
                                 region_of(parameters, section),
-                                covers),
+                                covers_at(scene.first_absorbing_stage(name))),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             true);
@@ -421,19 +429,22 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template std::vector<ImplicitBoundary<dim>> make_boundaries(             \
-    const Scene<dim> &);                                                   \
-  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries(  \
-    const Scene<dim> &, const BackgroundMesh<dim> &, const Covers<dim> &); \
-  template std::vector<GridCondition<dim>> make_grid_conditions(           \
-    const Scene<dim> &, const BackgroundMesh<dim> &);                      \
-  template Loads<dim> make_loads(const Scene<dim> &,                       \
-                                 const BackgroundMesh<dim> &,              \
-                                 const std::vector<std::string> &,         \
-                                 const Covers<dim> &);                     \
-  template std::function<Tensor<1, dim>(const unsigned int,                \
-                                        const Point<dim> &)>               \
+#define INSTANTIATE(dim)                                                  \
+  template std::vector<ImplicitBoundary<dim>> make_boundaries(            \
+    const Scene<dim> &);                                                  \
+  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries( \
+    const Scene<dim> &,                                                   \
+    const BackgroundMesh<dim> &,                                          \
+    const std::vector<std::string> &,                                     \
+    const ShapesOfBodies<dim> &);                                         \
+  template std::vector<GridCondition<dim>> make_grid_conditions(          \
+    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
+  template Loads<dim> make_loads(const Scene<dim> &,                      \
+                                 const BackgroundMesh<dim> &,             \
+                                 const std::vector<std::string> &,        \
+                                 const Covers<dim> &);                    \
+  template std::function<Tensor<1, dim>(const unsigned int,               \
+                                        const Point<dim> &)>              \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

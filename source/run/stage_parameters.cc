@@ -201,6 +201,13 @@ namespace moraine
                      "' is 'quasi-static', and only waves are absorbed; it "
                      "may stand in a stage with another 'Integrator', such as "
                      "'Newmark'");
+          else if (before && stage.bodies != before->bodies)
+            reject(section,
+                   "Absorbing",
+                   boundary,
+                   "nothing where 'Bodies' change; what absorbs holds the "
+                   "forces that it had, so let it begin in a stage of its own "
+                   "before this one");
         if (before)
           stage.absorbing.insert(stage.absorbing.begin(),
                                  before->absorbing.begin(),

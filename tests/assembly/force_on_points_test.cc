@@ -121,6 +121,7 @@ namespace
     };
     CarriedLoad<2> load("push", push, {{Point<2>(1.5, 2.2), 1.}});
     load.find_cells(scene.space, 0.5);
+    load.set_functions(scene.basis->functions_at(load.places()));
     const Tensor<1, 2>              shift({0.3, -0.1});
     const std::vector<Tensor<1, 2>> shifts(scene.space.n_nodes(), shift);
     load.prepare_move(scene.space, shifts, true);

@@ -101,15 +101,24 @@ namespace moraine
                    const StencilBlock<dim> &block,
                    CellParts<dim>          &parts) const;
 
+    /** The functions of the cell of each place that this rank owns: they carry
+     * forces to the nodes where domains stay in their cells. */
+    PlaceFunctions<dim>
+    functions_of_cells(
+      const std::vector<typename CarriedPlaces<dim>::Place> &places) const;
+
     /**
-     * The functions that carry forces at @p places to the nodes: those with
-     * which forces on the rim of a body are in balance with stresses of its
-     * points. Here those of the cell of each place that this rank owns.
+     * The functions that carry forces at @p places to the nodes where domains
+     * move through cells: those with which forces on the rim of a body are in
+     * balance with stresses of its points. Here functions_of_cells().
      * Collective.
      */
     virtual PlaceFunctions<dim>
     functions_at(
-      const std::vector<typename CarriedPlaces<dim>::Place> &places) const;
+      const std::vector<typename CarriedPlaces<dim>::Place> &places) const
+    {
+      return functions_of_cells(places);
+    }
 
     /**
      * How the strain of points is found when a step is accepted: a basis for

@@ -220,6 +220,10 @@ namespace moraine
                         dealii::Tensor<1, dim>();
     }
 
+    /** Leave out places by their numbers, ascending, the same on all ranks. */
+    void
+    remove_places(const std::vector<unsigned int> &numbers);
+
     bool
     is_on_side() const
     {

@@ -7,6 +7,8 @@
 #include <moraine/points/bodies.h>
 #include <moraine/points/point_set.h>
 
+#include <vector>
+
 namespace moraine
 {
   /**
@@ -23,13 +25,15 @@ namespace moraine
      * @param points must live as long as this
      * @param shapes of the bodies, and likewise; one that is null covers all
      * @param moved whether points move with their displacements
+     * Collective.
      */
     BodyCover(const PointSet<dim>       &points,
               const ShapesOfBodies<dim> &shapes,
               const bool                 moved);
 
     /** Whether a body of the active cell @p cell covers @p x, or would if it
-     * were larger by @p margin [length]. A cell without points does. */
+     * were larger by @p margin [length]. In a cell without points it is asked
+     * as it was drawn, larger by the largest displacement of its points. */
     bool
     operator()(const unsigned int        cell,
                const dealii::Point<dim> &x,
@@ -51,6 +55,8 @@ namespace moraine
     const PointSet<dim>       *points;
     const ShapesOfBodies<dim> *shapes;
     bool                       moved;
+    /** Of the points of each body on all ranks; negative if it has none. */
+    std::vector<double> largest_displacements;
   };
 } // namespace moraine
 

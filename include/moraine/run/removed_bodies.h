@@ -23,6 +23,17 @@ namespace moraine
                          const StageParameters    &before,
                          const Model<dim>         &model,
                          std::vector<std::string> &notes);
+
+  /**
+   * Take from absorbing boundaries the places on bodies that go, and add to @p
+   * notes how much that is. At the same time as tell_of_removed_bodies().
+   * Collective.
+   */
+  template <int dim>
+  void
+  remove_absorbing_places(const StageParameters    &stage,
+                          Model<dim>               &model,
+                          std::vector<std::string> &notes);
 } // namespace moraine
 
 #endif

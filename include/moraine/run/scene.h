@@ -251,6 +251,11 @@ namespace moraine
     bool
     absorbs_later(const std::string &name) const;
 
+    /** The stage in which an absorbing boundary or grid condition begins to
+     * absorb; the last one if it never does. */
+    const StageParameters &
+    first_absorbing_stage(const std::string &name) const;
+
   private:
     void
     declare();

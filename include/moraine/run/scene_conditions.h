@@ -24,12 +24,14 @@ namespace moraine
   make_boundaries(const Scene<dim> &scene);
 
   /** Boundaries and grid conditions that absorb, in this order. They end where
-   * bodies do, as @p covers says. */
+   * bodies do that are there when they begin to: of all that have @p body_names
+   * and @p shapes those of that stage. */
   template <int dim>
   std::vector<AbsorbingBoundary<dim>>
-  make_absorbing_boundaries(const Scene<dim>          &scene,
-                            const BackgroundMesh<dim> &mesh,
-                            const Covers<dim>         &covers);
+  make_absorbing_boundaries(const Scene<dim>               &scene,
+                            const BackgroundMesh<dim>      &mesh,
+                            const std::vector<std::string> &body_names,
+                            const ShapesOfBodies<dim>      &shapes);
 
   template <int dim>
   std::vector<GridCondition<dim>>
