@@ -77,26 +77,26 @@ namespace moraine
 
 
 
-    /** Whether a place outside of a shape is in a part of its surroundings that
-     * is nowhere further than @p h from it, found by climbing. */
+    /** How far from a shape one can get from a place outside of it by climbing,
+     * or @p h if that is less: in a slot half of its width, in a hole the
+     * radius.
+     */
     template <int dim>
-    bool
-    is_nowhere_deep(const Shape<dim> &shape, Point<dim> x, const double h)
+    double
+    depth_around(const Shape<dim> &shape, Point<dim> x, const double h)
     {
       constexpr unsigned int most  = 100;
       double                 depth = -shape.level(x);
       for (unsigned int i = 0; i < most && depth < h; ++i)
         {
-          Point<dim>   best     = x;
-          double       deepest  = depth;
-          unsigned int n_around = 1;
-          for (unsigned int d = 0; d < dim; ++d)
-            n_around *= 3;
+          Point<dim>         best     = x;
+          double             deepest  = depth;
+          const unsigned int n_around = Utilities::fixed_power<dim>(3u);
           for (unsigned int k = 0; k < n_around; ++k)
             {
               Point<dim> y = x;
               for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 3)
-                y[d] += (int(rest % 3) - 1) * h / 8;
+                y[d] += (int(rest % 3) - 1) * sample<dim> * h;
               if (-shape.level(y) > deepest + 1e-3 * h)
                 {
                   deepest = -shape.level(y);
@@ -104,11 +104,11 @@ namespace moraine
                 }
             }
           if (deepest == depth)
-            return true;
+            return depth;
           x     = best;
           depth = deepest;
         }
-      return depth < h;
+      return std::min(depth, h);
     }
 
 
@@ -157,14 +157,16 @@ namespace moraine
               const auto gap =
                 first_gap<dim>(shape, x, Point<dim>::unit_vector(d), h);
               if (!gap || gap->width < least_slot * h ||
-                  gap->width >= narrowest.first || is_of_other(gap->middle))
+                  is_of_other(gap->middle))
                 continue;
               const auto cell =
                 cells.cell_around(model.points->cell_of(p), gap->beyond);
-              if (cell != model.mesh->triangulation().end() &&
-                  have_common_node<dim>(model.points->cell_of(p), cell) &&
-                  is_nowhere_deep(shape, gap->middle, h))
-                narrowest = {gap->width, gap->middle};
+              if (cell == model.mesh->triangulation().end() ||
+                  !have_common_node<dim>(model.points->cell_of(p), cell))
+                continue;
+              const double depth = depth_around(shape, gap->middle, h);
+              if (depth < h && 2 * depth < narrowest.first)
+                narrowest = {2 * depth, gap->middle};
             }
         }
       return narrowest;

@@ -99,6 +99,46 @@ for height in (2, 2.1):
     show(f"pulled side of a block {height} high",
          [("block", "firm", "0, 0", f"4, {height}")], LOAD)
 
+# A block less a strip or a disc: only what cells cannot part is told of.
+WITHOUT = """subsection whole
+    set Lower corner = 0, 0
+    set Upper corner = 3, 3
+  end
+  subsection hole
+    {hole}
+  end
+  subsection block
+    set Shape    = difference
+    set Operands = whole, hole
+    set Material = firm
+  end
+"""
+STRIP = """set Lower corner = {x}, -1
+    set Upper corner = {y}, {z}"""
+DISC = """set Shape  = disc
+    set Centre = 1.6, 1.3
+    set Radius = {r}"""
+
+
+def show_without(title, hole):
+    scene.write_text(SCENE.format(more="", bodies=WITHOUT.format(hole=hole)))
+    for line in run(scene, command="check").output.splitlines():
+        if "cells are too coarse" in line:
+            text(title, line.strip())
+            break
+    else:
+        text(title, "nothing")
+
+
+for x, width, top in ((1.2, 0.1, 2), (1.1, 0.35, 2), (1.1, 0.35, 4), (1.2, 0.35, 2),
+                      (1.2, 0.9, 2)):
+    show_without(f"slot at {x}, {width} wide, up to {top}",
+                 STRIP.format(x=x, y=x + width, z=top))
+for radius in (0.06, 0.15, 0.6):
+    show_without(f"hole of radius {radius}", DISC.format(r=radius))
+show_without("notch", """set Shape    = polygon
+    set Vertices = 0.7, -0.1; 2.3, -0.1; 1.5, 1.2""")
+
 STAGES = """
 subsection Stages
   subsection ground

@@ -1,0 +1,142 @@
+# ranks: 2  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Ground at rest stays so: on a base that absorbs after the ground beside was dug
+away, or before; on a base longer than the ground; between walls a cell apart."""
+
+SCENE = """
+subsection Mesh
+  set Lower corner = -1, -0.2
+  set Upper corner = 6, 7.3
+  set Cell size    = 0.5
+end
+subsection Method
+  set Method = {method}
+  set Strain = finite
+end
+subsection Materials
+  subsection clay
+    set Young modulus = 20000
+    set Poisson ratio = 0.25
+    set Density       = 2
+  end
+end
+subsection Bodies
+  {bodies}
+end
+subsection Grid conditions
+  {nodes}
+end
+subsection Boundaries
+  {boundaries}
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10
+  end
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+{more}
+"""
+BODY = """subsection {name}
+    set Lower corner   = {lower}
+    set Upper corner   = {upper}
+    set Initial stress = geostatic
+    {more}
+  end
+  """
+BASE = """subsection base
+    set Enforcement = {enforcement}
+    set Points      = {points}
+  end
+"""
+WALL = """subsection {part}
+    set Body       = ground
+    set Part       = {part}
+    set Constraint = roller
+  end
+"""
+STAGE = """subsection {name}
+    {keys}
+    subsection Time
+      set End time = {end}
+      {time}
+    end
+  end
+"""
+LEFT = """subsection left
+    set Lower corner = -0.01, -1
+    set Upper corner = 0.01, 9
+    set Components   = x
+  end
+"""
+PROBE = """subsection Probes
+  subsection top
+    set Location = 1, 5.9
+  end
+end
+"""
+scene = folder / "scene.prm"
+
+
+def run_scene(**parts):
+    scene.write_text(SCENE.format(**parts))
+    return run(scene)
+
+
+def moved(rows):
+    """How far the top comes from where it is in the first of these rows."""
+    return max(abs(row["u_y at top"] - rows[0]["u_y at top"]) for row in rows)
+
+
+NEWMARK = "set Integrator = Newmark\nset Steps = 20"
+REST = STAGE.format(name="rest", keys="set Bodies = ground, beside", end=1, time="")
+LATE = (STAGE.format(name="dig", keys="set Bodies = ground", end=2, time="")
+        + STAGE.format(name="wait", keys="set Absorbing = base", end=3, time=NEWMARK))
+EARLY = (STAGE.format(name="absorb", keys="set Absorbing = base", end=2, time=NEWMARK)
+         + STAGE.format(name="dig", keys="set Bodies = ground", end=3, time=NEWMARK))
+GROUNDS = BODY.format(name="ground", lower="0, 0", upper="3, 6", more="") \
+    + BODY.format(name="beside", lower="3, 0", upper="6, 6", more="")
+
+for method, enforcement in (("GIMP", "augmented Lagrangian"), ("GIMP", "skew Nitsche"),
+                            ("finite element", "augmented Lagrangian")):
+    for title, stages in (("dug, then absorbing", LATE), ("absorbing, then dug", EARLY)):
+        result = run_scene(
+            method=method, bodies=GROUNDS, nodes=LEFT,
+            boundaries=BASE.format(enforcement=enforcement, points="0 0; 6 0"),
+            more=f"subsection Stages\n{REST}{stages}end\n{PROBE}")
+        rows = [row for row in result.history() if row["t"] >= 2]
+        late = [row for row in rows if row["t"] > 2.8]
+        name = f"{method}, {enforcement}, {title}"
+        if stages == LATE:
+            bound(f"{name}: moves", moved(rows), 2e-4)
+        bound(f"{name}: reaction over weight - 1",
+              max(abs(row["reaction_y of base"] / 360 - 1) for row in late), 0.01)
+        text("  notes", plain(result.output).count("lies on bodies that are gone"))
+
+# The base is a meter too long on both sides; walls hold the ground.
+for method in ("GIMP", "finite element"):
+    result = run_scene(
+        method=method, bodies=BODY.format(name="ground", lower="0.3, 0.1",
+                                          upper="4.4, 6.1", more="set K0 = 0.5"),
+        nodes="", boundaries=BASE.format(enforcement="augmented Lagrangian",
+                                         points="-0.7 0.1; 5.4 0.1")
+        + WALL.format(part="left") + WALL.format(part="right"),
+        more="subsection Time\nset Integrator = Newmark\nset Steps = 10\nend\n" + PROBE)
+    bound(f"{method}, long base: reaction over weight - 1",
+          max(abs(row["reaction_y of base"] / 492 - 1) for row in result.history()), 0.025)
+
+# Each wall alone makes things worse, both together are in balance.
+for y in (0, 0.1, 0.15, 0.25, 0.3):
+    result = run_scene(
+        method="GIMP", bodies=BODY.format(name="ground", lower=f"0.25, {y}",
+                                          upper=f"0.75, {y + 6}", more="set K0 = 0.5"),
+        nodes="", boundaries=BASE.format(enforcement="skew Nitsche",
+                                         points=f"0.25 {y}; 0.75 {y}")
+        + WALL.format(part="left") + WALL.format(part="right"), more="")
+    bound(f"walls a cell apart, base at {y}: reaction over K0 gamma H^2/2 - 1",
+          result.reactions["left"][0] / 180 - 1, 0.01)
