@@ -4,6 +4,7 @@
 #include <moraine/run/narrow_gaps.h>
 
 #include <moraine/basis/cell_patch.h>
+#include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
@@ -49,6 +50,23 @@ namespace moraine
 
 
 
+    /** That of a shape; within it where an expression is no number. */
+    template <int dim>
+    double
+    level_of(const Shape<dim> &shape, const Point<dim> &x)
+    {
+      try
+        {
+          return shape.level(x);
+        }
+      catch (const InputError &)
+        {
+          return std::numeric_limits<double>::infinity();
+        }
+    }
+
+
+
     /** The first gap on the way from a place in a shape along @p direction, of
      * unit length. */
     template <int dim>
@@ -62,7 +80,7 @@ namespace moraine
       double       begin = 0; // of the gap, once it has begun
       for (double s = step; s < largest_gap * h + begin; s += step)
         {
-          const bool inside = shape.contains(x + s * direction);
+          const bool inside = level_of<dim>(shape, x + s * direction) > 0;
           if (!inside && begin == 0)
             begin = s;
           else if (!inside && s - begin > largest_gap * h)
@@ -86,7 +104,7 @@ namespace moraine
     depth_around(const Shape<dim> &shape, Point<dim> x, const double h)
     {
       constexpr unsigned int most  = 100;
-      double                 depth = -shape.level(x);
+      double                 depth = -level_of(shape, x);
       for (unsigned int i = 0; i < most && depth < h; ++i)
         {
           Point<dim>         best     = x;
@@ -97,9 +115,9 @@ namespace moraine
               Point<dim> y = x;
               for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 3)
                 y[d] += (int(rest % 3) - 1) * sample<dim> * h;
-              if (-shape.level(y) > deepest + 1e-3 * h)
+              if (-level_of(shape, y) > deepest + 1e-3 * h)
                 {
-                  deepest = -shape.level(y);
+                  deepest = -level_of(shape, y);
                   best    = y;
                 }
             }
@@ -142,7 +160,8 @@ namespace moraine
         return std::any_of(model.bodies.begin(),
                            model.bodies.end(),
                            [&](const Body<dim> &other) {
-                             return !other.shape || other.shape->contains(x);
+                             return !other.shape ||
+                                    level_of(*other.shape, x) > 0;
                            });
       };
       std::pair<double, Point<dim>> narrowest(
@@ -150,7 +169,7 @@ namespace moraine
       for (unsigned int p = 0; p < model.points->n_local(); ++p)
         {
           const Point<dim> x = model.points->position(p);
-          if (model.points->body(p) != body || shape.level(x) > h)
+          if (model.points->body(p) != body || level_of(shape, x) > h)
             continue;
           for (unsigned int d = 0; d < dim; ++d)
             {

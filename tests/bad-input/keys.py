@@ -214,6 +214,9 @@ refused("absorbing what is not there", staged,
         {"Stages/later/Absorbing": "base"})
 refused("absorbing in quasi-static stages", staged,
         {"Stages/later/Absorbing": "left"})
+refused("absorbing from the time on when bodies go",
+        (root / "prm/geotechnics/fill-and-dig.prm").read_text(),
+        {"Stages/dug/Absorbing": "base", "Stages/dug/Time/Integrator": "Newmark"})
 refused("absorbing in a quasi-static stage after one with inertia", staged,
         {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
          "Stages/later/Absorbing": "left"})
