@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace moraine
@@ -47,6 +49,54 @@ namespace moraine
           foot.normal = nearest.normal;
         }
       return foot;
+    }
+
+
+
+    /** How far the material of its cells is from a boundary, less half the size
+     * of points, in the mean over its surface. Collective. */
+    template <int dim>
+    double
+    gap_before(const ImplicitBoundary<dim> &boundary,
+               const PointSet<dim>         &points)
+    {
+      std::vector<double> sums(2, 0.);
+      for (const auto &place : boundary.points())
+        {
+          const double gap =
+            points.gap_before(place.cell, place.x, place.normal, place.h);
+          sums[0] += std::max(gap, 0.) * place.JxW;
+          sums[1] += place.JxW;
+        }
+      Utilities::MPI::sum(sums,
+                          points.mesh().triangulation().get_communicator(),
+                          sums);
+      return sums[1] > 0 ? sums[0] / sums[1] : 0.;
+    }
+
+
+
+    /** How far a boundary is from the nearest material in its cells, less half
+     * the size of points; nothing if they have none. Collective. */
+    template <int dim>
+    std::optional<double>
+    least_gap_before(const ImplicitBoundary<dim> &boundary,
+                     const PointSet<dim>         &points)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (const auto &place : boundary.points())
+        {
+          const double gap =
+            points.gap_before(place.cell, place.x, place.normal, place.h);
+          if (gap < place.h)
+            least = std::min(least, gap);
+        }
+      least =
+        Utilities::MPI::min(least,
+                            points.mesh().triangulation().get_communicator());
+      if (least == std::numeric_limits<double>::max())
+        return {};
+      return std::max(least, 0.);
     }
 
 
@@ -88,33 +138,22 @@ namespace moraine
               "': found the body behind the surface, allowed: a surface whose "
               "normal points out of the body (in 2D the body is on the left of a "
               "line's points; reverse them)");
-          if (area[0] == 0)
+          if (area[0] > 0)
+            continue;
+          const auto gap = least_gap_before(boundary, *model.points);
+          if (gap && *gap > told_gap * model.mesh->cell_size())
+            {
+              std::ostringstream text;
+              text << boundary.name() << ": no body is at it at the start; it "
+                   << "holds what is " << std::setprecision(2) << *gap
+                   << " away in its cells all the same, and smaller cells let "
+                      "that come closer";
+              notes.push_back(text.str());
+            }
+          else
             notes.push_back(boundary.name() +
                             ": no body is beside it at the start");
         }
-    }
-
-
-
-    /** How far the material of its cells is from a boundary, less half the size
-     * of points, in the mean over its surface. Collective. */
-    template <int dim>
-    double
-    gap_before(const ImplicitBoundary<dim> &boundary,
-               const PointSet<dim>         &points)
-    {
-      std::vector<double> sums(2, 0.);
-      for (const auto &place : boundary.points())
-        {
-          const double gap =
-            points.gap_before(place.cell, place.x, place.normal, place.h);
-          sums[0] += std::max(gap, 0.) * place.JxW;
-          sums[1] += place.JxW;
-        }
-      Utilities::MPI::sum(sums,
-                          points.mesh().triangulation().get_communicator(),
-                          sums);
-      return sums[1] > 0 ? sums[0] / sums[1] : 0.;
     }
 
 

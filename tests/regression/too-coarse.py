@@ -99,6 +99,17 @@ for height in (2, 2.1):
     show(f"pulled side of a block {height} high",
          [("block", "firm", "0, 0", f"4, {height}")], LOAD)
 
+FLOOR = """
+subsection Boundaries
+  subsection floor
+    set Points = -1, 1.3; 4, 1.3
+  end
+end
+"""
+for bottom in (1.3, 1.45):
+    show(f"block from {bottom} above a floor at 1.3",
+         [("block", "firm", f"0, {bottom}", "2, 3")], FLOOR)
+
 # A block less a strip or a disc: only what cells cannot part is told of.
 WITHOUT = """subsection whole
     set Lower corner = 0, 0
