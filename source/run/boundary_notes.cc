@@ -137,7 +137,8 @@ namespace moraine
               "section '" + where +
               "': found the body behind the surface, allowed: a surface whose "
               "normal points out of the body (in 2D the body is on the left of a "
-              "line's points; reverse them)");
+              "line's points, in 3D those of a patch run counter-clockwise seen "
+              "from outside of it; reverse them, or use 'Flip')");
           if (area[0] > 0)
             continue;
           const auto gap = least_gap_before(boundary, *model.points);
