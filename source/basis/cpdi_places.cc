@@ -80,8 +80,15 @@ namespace moraine
           {
             const CellVertices<dim> corners = this->domain_corners(p);
             const CellInverse<dim>  inverse(corners);
+            const Point<dim>        middle = this->points.position(p);
+            double                  extent = 0;
+            for (const Point<dim> &corner : corners)
+              extent = std::max(extent, corner.distance(middle));
             for (const unsigned int k : near)
-              if (auto found = place_in_domain<dim>(inverse, corners, x[k]))
+              if (x[k].distance(middle) > (1 + 2 * reach) * extent)
+                continue;
+              else if (auto found =
+                         place_in_domain<dim>(inverse, corners, x[k]))
                 {
                   if (found->second < round_off * h)
                     found->second = 0.;

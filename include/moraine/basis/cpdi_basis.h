@@ -62,8 +62,8 @@ namespace moraine
      * the corners of that domain, @f$\sum_c M_c(x) N_i(x_c)@f$; so do
      * tractions of Sadeghirad et al. (2011). With the functions of the cell
      * itself forces near faces of cells are not in balance with a uniform
-     * stress. A place that is further from all domains than the nearest of them
-     * is long has the functions of its cell.
+     * stress. A place that is further from all domains than a tenth of their
+     * length has the functions of its cell.
      */
     PlaceFunctions<dim>
     functions_at(const std::vector<typename CarriedPlaces<dim>::Place> &places)
