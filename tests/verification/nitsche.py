@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Nitsche's method where it is hard: a ring whose volume hardly changes, and two
-layers that share cells, one 1e9 times as stiff as the other."""
+layers that share cells, one 1e9 times as stiff as the other. One of three Poisson
+ratios is on all ranks, and two of five angles."""
 
 from math import cos, log2, radians, sin
 
@@ -20,7 +21,8 @@ def ring(title, method, nu, largest_stress, **boundaries):
                    "Exact solution/Constants":
                        f"m: {1000 / (1 + nu) * 2.5e-4!r}",
                    **{f"Boundaries/{name}/Enforcement": how
-                      for name, how in boundaries.items()}})
+                      for name, how in boundaries.items()}},
+            on_ranks=None if nu == 0.49999 else 1)
         for n in (20, 40)]
     name = f"{title}, {method}, nu = {nu}"
     bound(f"{name}: displacement", errors[1].errors["l2_u"], 2e-3)
@@ -66,8 +68,8 @@ for angle, dx, dy in ((0, 0, 0), (0, 7e-3, 0.085), (17, 4e-4, 7e-7),
             force = run(LAYERS, {
                 **QUIET, **place, "Solver/Solver": solver,
                 "Boundaries/left/Enforcement": f"{how} Nitsche",
-                "Boundaries/right/Enforcement": f"{how} Nitsche"}
-            ).reactions["right"]
+                "Boundaries/right/Enforcement": f"{how} Nitsche"},
+                on_ranks=None if angle in (17, 45) else 1).reactions["right"]
             bound(f"layers at {angle} degrees, {how}, {solver}: force over "
                   "exact - 1",
                   (force[0] * c + force[1] * s) / 2.5e6 - 1, 1e-2)
