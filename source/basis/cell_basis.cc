@@ -6,6 +6,9 @@
 #include <moraine/mesh/active_search.h>
 #include <moraine/mesh/cell_shapes.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <array>
 #include <numeric>
 
 namespace moraine
@@ -114,10 +117,13 @@ namespace moraine
     const unsigned int cell = place.active_cell_index;
     if (cell == GridSpace<dim>::no_cell)
       return;
-    const unsigned int          n = space.nodes_per_cell();
-    std::vector<Tensor<1, dim>> grad_N(n);
-    evaluate_shapes(
-      space, cell, place.x, functions.add(k, cell, n), grad_N.data());
+    // Those of Q2 at most.
+    std::array<Tensor<1, dim>, Utilities::pow(3, dim)> grad_N;
+    evaluate_shapes(space,
+                    cell,
+                    place.x,
+                    functions.add(k, cell, space.nodes_per_cell()),
+                    grad_N.data());
   }
 
 

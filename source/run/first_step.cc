@@ -13,6 +13,7 @@
 #include <moraine/run/held_stress.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
+#include <moraine/run/load_notes.h>
 #include <moraine/run/model.h>
 #include <moraine/run/narrow_gaps.h>
 #include <moraine/run/near_bodies.h>
@@ -163,81 +164,6 @@ namespace moraine
                                            largest,
                                            model);
             }
-    }
-
-
-
-    /** Which cells material fills to less than nine tenths, on all ranks. */
-    template <int dim>
-    std::vector<bool>
-    partly_filled_cells(const Model<dim> &model)
-    {
-      const std::vector<double> filled = model.points->volumes_in_cells();
-      std::vector<bool>         partly(filled.size());
-      for (const auto &cell :
-           model.mesh->triangulation().active_cell_iterators())
-        partly[cell->active_cell_index()] =
-          filled[cell->active_cell_index()] < 0.9 * cell->measure();
-      return partly;
-    }
-
-
-
-    /** A weight of nothing is a mistake, not a load; so is a push on nothing.
-     * A side is pushed by whole faces of cells. */
-    template <int dim>
-    void
-    check_loads(const StageParameters    &stage,
-                const Model<dim>         &model,
-                std::vector<std::string> &notes)
-    {
-      for (const auto &force : model.loads.body_forces)
-        for (unsigned int b = 0; b < model.bodies.size(); ++b)
-          if (force.times_density && force.acts_on[b] &&
-              !(model.materials[b]->density() > 0))
-            throw InputError("section 'Loads/" + force.name +
-                             "': found gravity on body '" +
-                             model.bodies[b].name +
-                             "', whose material has no 'Density', allowed: "
-                             "bodies with a density > 0");
-      for (const auto &traction : model.loads.side_tractions)
-        {
-          if (!contains(stage.loads, traction.name))
-            continue;
-          const unsigned int n_faces = n_faces_of(traction, model);
-          if (n_faces == 0)
-            throw InputError(
-              "section 'Loads/" + traction.name +
-              "': found a side of the mesh without a body beside "
-              "it, allowed: a side that a body touches");
-          const unsigned int n_partly =
-            n_faces_of(traction, model, partly_filled_cells(model));
-          if (n_partly > 0)
-            notes.push_back(
-              traction.name + ": " + std::to_string(n_partly) + " of the " +
-              std::to_string(n_faces) +
-              " faces of cells that it pushes on belong to cells that material "
-              "fills in part, and are pushed on as a whole; 'surface traction' "
-              "acts on the rim of a body");
-        }
-    }
-
-
-
-    /** A mesh may end at an axis of symmetry, but nothing is dropped without a
-     * word. */
-    template <int dim>
-    void
-    tell_of_loads_outside(const Model<dim>         &model,
-                          std::vector<std::string> &notes)
-    {
-      for (const auto &load : model.loads.carried)
-        if (load.share_outside() > 0.01)
-          notes.push_back(
-            "load " + load.name() + ": " +
-            std::to_string(std::lround(100 * load.share_outside())) +
-            " % of its surface is outside the mesh or beside no body, "
-            "where it does not act");
     }
 
 
