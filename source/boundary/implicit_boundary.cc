@@ -10,7 +10,9 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace moraine
 {
@@ -148,32 +150,107 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<CarriedPlace<dim>>
+  ImplicitBoundary<dim>::places_of_points() const
+  {
+    std::vector<CarriedPlace<dim>> places;
+    for (const auto &point : boundary_points)
+      places.push_back({Tensor<1, dim>(at_start.pose().inverse(point.x)),
+                        {},
+                        {},
+                        point.JxW,
+                        {{point.cell, point.number}}});
+    return places;
+  }
+
+
+
+  namespace
+  {
+    /** What all ranks have, in the same order on any number of them. */
+    template <int dim>
+    std::vector<CarriedPlace<dim>>
+    gather(const std::vector<CarriedPlace<dim>> &of_this_rank,
+           const MPI_Comm                       &communicator)
+    {
+      std::vector<CarriedPlace<dim>> all;
+      for (const auto &of_one_rank :
+           Utilities::MPI::all_gather(communicator, of_this_rank))
+        all.insert(all.end(), of_one_rank.begin(), of_one_rank.end());
+      std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+        return a.id < b.id;
+      });
+      return all;
+    }
+
+
+
+    /** For each of @p places the nearest of @p among. */
+    template <int dim>
+    std::vector<unsigned int>
+    nearest_of(const std::vector<CarriedPlace<dim>> &places,
+               const std::vector<CarriedPlace<dim>> &among)
+    {
+      std::vector<Point<dim>> points;
+      for (const auto &entry : among)
+        points.emplace_back(entry.place);
+      const auto                tree = pack_rtree_of_indices(points);
+      std::vector<unsigned int> nearest;
+      for (const auto &entry : places)
+        nearest.push_back(*tree.qbegin(
+          boost::geometry::index::nearest(Point<dim>(entry.place), 1)));
+      return nearest;
+    }
+
+
+
+    /** Of the @p places with these numbers, by area. */
+    template <int dim>
+    CarriedPlace<dim>
+    mean_of(const std::vector<unsigned int>      &numbers,
+            const std::vector<CarriedPlace<dim>> &places)
+    {
+      CarriedPlace<dim> mean = places[numbers[0]];
+      for (unsigned int k = 1; k < numbers.size(); ++k)
+        {
+          const CarriedPlace<dim> &place = places[numbers[k]];
+          mean.area += place.area;
+          const double share = place.area / mean.area;
+          mean.multiplier += share * (place.multiplier - mean.multiplier);
+          mean.violation += share * (place.violation - mean.violation);
+        }
+      return mean;
+    }
+  } // namespace
+
+
+
+  template <int dim>
   void
   ImplicitBoundary<dim>::take_over_nearest(const MPI_Comm &communicator)
   {
     // Of all ranks, because a moving surface takes its points from rank to
     // rank.
-    std::vector<CarriedPlace<dim>> all;
-    for (const auto &of_one_rank :
-         Utilities::MPI::all_gather(communicator, carried))
-      all.insert(all.end(), of_one_rank.begin(), of_one_rank.end());
-    if (all.empty())
+    const auto old_places = gather(carried, communicator);
+    if (old_places.empty() || n_points(communicator) == 0)
       return;
-    // Of two as near, the same one whatever rank had it.
-    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
-      return a.id < b.id;
-    });
-    std::vector<Point<dim>> places;
-    for (const auto &entry : all)
-      places.emplace_back(entry.place);
-    const auto tree = pack_rtree_of_indices(places);
-    for (auto &point : boundary_points)
+    const auto of_this_rank = places_of_points();
+    const auto nearest_old  = nearest_of(of_this_rank, old_places);
+    std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> nearest_to;
+    if (kind.holds_means)
       {
-        const Point<dim> place = at_start.pose().inverse(point.x);
-        for (auto it = tree.qbegin(boost::geometry::index::nearest(place, 1));
-             it != tree.qend();
-             ++it)
-          take_over(all[*it], point);
+        const auto new_places  = gather(of_this_rank, communicator);
+        const auto nearest_new = nearest_of(old_places, new_places);
+        for (unsigned int k = 0; k < old_places.size(); ++k)
+          nearest_to[new_places[nearest_new[k]].id].push_back(k);
+      }
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const auto found = nearest_to.find(of_this_rank[q].id);
+        take_over(found == nearest_to.end() ?
+                    old_places[nearest_old[q]] :
+                    mean_of(found->second, old_places),
+                  boundary_points[q]);
       }
   }
 
@@ -350,6 +427,7 @@ namespace moraine
         prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
                        into_frame * multiplier,
                        into_frame * violation,
+                       point.JxW,
                        {{point.cell, point.number}}};
       }
   }
@@ -370,7 +448,7 @@ namespace moraine
   void
   ImplicitBoundary<dim>::write(Archive &archive) const
   {
-    std::vector<double>       places, multipliers, violations;
+    std::vector<double>       places, multipliers, violations, areas;
     std::vector<unsigned int> ids;
     for (const CarriedPlace<dim> &of : carried)
       {
@@ -380,6 +458,7 @@ namespace moraine
             multipliers.push_back(of.multiplier[d]);
             violations.push_back(of.violation[d]);
           }
+        areas.push_back(of.area);
         ids.insert(ids.end(), of.id.begin(), of.id.end());
       }
     const std::string group = "boundaries/" + boundary_name;
@@ -389,6 +468,10 @@ namespace moraine
     archive.write(group + "/carried/place", places, dim, "length");
     archive.write(group + "/carried/multiplier", multipliers, dim, "stress");
     archive.write(group + "/carried/violation", violations, dim, "length");
+    archive.write(group + "/carried/area",
+                  areas,
+                  1,
+                  dim == 2 ? "length" : "length^2");
   }
 
 
@@ -407,6 +490,7 @@ namespace moraine
     const auto &multipliers =
       archive.numbers(group + "/carried/multiplier", dim);
     const auto &violations = archive.numbers(group + "/carried/violation", dim);
+    const auto &areas      = archive.numbers(group + "/carried/area", 1);
     carried.resize(ids.size() / 2);
     for (unsigned int k = 0; k < carried.size(); ++k)
       {
@@ -416,7 +500,8 @@ namespace moraine
             carried[k].multiplier[d] = multipliers[dim * k + d];
             carried[k].violation[d]  = violations[dim * k + d];
           }
-        carried[k].id = {{ids[2 * k], ids[2 * k + 1]}};
+        carried[k].area = areas[k];
+        carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};
       }
     // The points are derived from that by the next begin_step().
     has_pieces = kept_at_points = false;

@@ -74,9 +74,20 @@ LEFT = """subsection left
     set Components   = x
   end
 """
+RIGHT = LEFT.replace("left", "right").replace("-0.01", "5.99").replace("0.01,", "6.01,")
 PROBE = """subsection Probes
   subsection top
     set Location = 1, 5.9
+  end
+end
+"""
+# rho c_p is 219.09.
+PUSH = """subsection Loads
+  subsection push
+    set Type     = surface traction
+    set Body     = ground
+    set Part     = top
+    set Value    = 0; if(t > 2, 21.909, 0)
   end
 end
 """
@@ -95,8 +106,8 @@ def moved(rows):
 
 NEWMARK = "set Integrator = Newmark\nset Steps = 20"
 REST = STAGE.format(name="rest", keys="set Bodies = ground, beside", end=1, time="")
-LATE = (STAGE.format(name="dig", keys="set Bodies = ground", end=2, time="")
-        + STAGE.format(name="wait", keys="set Absorbing = base", end=3, time=NEWMARK))
+DIG = STAGE.format(name="dig", keys="set Bodies = ground", end=2, time="")
+LATE = (DIG + STAGE.format(name="wait", keys="set Absorbing = base", end=3, time=NEWMARK))
 EARLY = (STAGE.format(name="absorb", keys="set Absorbing = base", end=2, time=NEWMARK)
          + STAGE.format(name="dig", keys="set Bodies = ground", end=3, time=NEWMARK))
 GROUNDS = BODY.format(name="ground", lower="0, 0", upper="3, 6", more="") \
@@ -104,9 +115,10 @@ GROUNDS = BODY.format(name="ground", lower="0, 0", upper="3, 6", more="") \
 
 for method, enforcement in (("GIMP", "augmented Lagrangian"), ("GIMP", "skew Nitsche"),
                             ("finite element", "augmented Lagrangian")):
-    for title, stages in (("dug, then absorbing", LATE), ("absorbing, then dug", EARLY)):
+    for title, stages, nodes in (("dug, then absorbing", LATE, LEFT + RIGHT),
+                                 ("absorbing, then dug", EARLY, LEFT)):
         result = run_scene(
-            method=method, bodies=GROUNDS, nodes=LEFT,
+            method=method, bodies=GROUNDS, nodes=nodes,
             boundaries=BASE.format(enforcement=enforcement, points="0 0; 6 0"),
             more=f"subsection Stages\n{REST}{stages}end\n{PROBE}")
         rows = [row for row in result.history() if row["t"] >= 2]
@@ -117,6 +129,18 @@ for method, enforcement in (("GIMP", "augmented Lagrangian"), ("GIMP", "skew Nit
         bound(f"{name}: reaction over weight - 1",
               max(abs(row["reaction_y of base"] / 360 - 1) for row in late), 0.01)
         text("  notes", plain(result.output).count("lies on bodies that are gone"))
+
+# A load on top moves it by p / (rho c_p): dashpots are below the rest alone.
+for method in ("GIMP", "finite element"):
+    waits = STAGE.format(name="push", keys="set Absorbing = base", end=3, time=NEWMARK)
+    result = run_scene(
+        method=method, bodies=GROUNDS, nodes=LEFT + RIGHT,
+        boundaries=BASE.format(enforcement="augmented Lagrangian", points="0 0; 6 0"),
+        more=PUSH + f"subsection Stages\n{REST}{DIG}{waits}end\n{PROBE}")
+    rows = result.history()
+    at = [row["u_y at top"] for row in rows if row["t"] > 2.49]
+    bound(f"{method}, pushed: velocity over p / (rho c_p) - 1",
+          abs((at[-1] - at[0]) / 0.5 / 0.1 - 1), 0.03)
 
 # The base is a meter too long on both sides; walls hold the ground.
 for method in ("GIMP", "finite element"):

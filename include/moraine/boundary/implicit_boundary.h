@@ -95,6 +95,7 @@ namespace moraine
     /** Multiplier and accumulated violation; a roller's in that frame too. */
     dealii::Tensor<1, dim> multiplier;
     dealii::Tensor<1, dim> violation;
+    double                 area = 0; ///< of the surface that it stands for
     /** Cell and number of the point it was: names that ranks share. */
     std::array<unsigned int, 2> id;
 
@@ -102,7 +103,7 @@ namespace moraine
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &place &multiplier &violation &id;
+      archive &place &multiplier &violation &area &id;
     }
   };
 
@@ -411,7 +412,16 @@ namespace moraine
     take_over(const CarriedPlace<dim> &carried,
               BoundaryPoint<dim>      &point) const;
 
-    /** Give every point what the nearest carried place of all ranks has. */
+    /** Where the points of all ranks are, in the surface's own frame. */
+    std::vector<CarriedPlace<dim>>
+    places_of_points() const;
+
+    /**
+     * Give every point what the nearest carried place of all ranks has. A point
+     * that stands for a piece of a cell gets the mean, by area, of the places
+     * that it is the nearest point to, if there are any: where it takes the
+     * place of several, the force stays the same.
+     */
     void
     take_over_nearest(const MPI_Comm &communicator);
 
