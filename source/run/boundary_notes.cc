@@ -31,6 +31,9 @@ namespace moraine
      * points; of its surface: a corner. */
     constexpr double told_depth = 0.25, told_share_behind = 0.1;
 
+    /** Of a surface: what it holds past its ends shows in forces. */
+    constexpr double told_past_ends = 0.05;
+
 
 
     /** Where the surface is beside a place that stands for a piece of it: the
@@ -101,6 +104,31 @@ namespace moraine
 
 
 
+    /** Whether no body comes from a file of points. */
+    template <int dim>
+    bool
+    are_drawn(const std::vector<Body<dim>> &bodies)
+    {
+      return std::all_of(bodies.begin(), bodies.end(), [](const auto &body) {
+        return body.shape != nullptr;
+      });
+    }
+
+
+
+    /** Whether a body that is there has been drawn at @p x. */
+    template <int dim>
+    bool
+    in_a_body(const Point<dim> &x, const Model<dim> &model)
+    {
+      for (unsigned int b = 0; b < model.bodies.size(); ++b)
+        if (model.present[b] && model.bodies[b].shape->contains(x))
+          return true;
+      return false;
+    }
+
+
+
     /** The body must lie on the inner side of a surface. */
     template <int dim>
     void
@@ -108,15 +136,7 @@ namespace moraine
                               const Model<dim>         &model,
                               std::vector<std::string> &notes)
     {
-      const auto in_a_body = [&model](const Point<dim> &x) {
-        for (unsigned int b = 0; b < model.bodies.size(); ++b)
-          if (model.present[b] && model.bodies[b].shape->contains(x))
-            return true;
-        return false;
-      };
-      if (std::any_of(model.bodies.begin(),
-                      model.bodies.end(),
-                      [](const auto &body) { return !body.shape; }))
+      if (!are_drawn(model.bodies))
         return;
       for (const auto &boundary : model.boundaries)
         {
@@ -127,8 +147,8 @@ namespace moraine
             {
               const SurfacePoint<dim> foot = foot_of(point, boundary);
               const Tensor<1, dim>    step = 1e-3 * point.h * foot.normal;
-              area[0] += in_a_body(foot.x - step) ? point.JxW : 0.;
-              area[1] += in_a_body(foot.x + step) ? point.JxW : 0.;
+              area[0] += in_a_body(foot.x - step, model) ? point.JxW : 0.;
+              area[1] += in_a_body(foot.x + step, model) ? point.JxW : 0.;
             }
           Utilities::MPI::sum(area, model.space->communicator(), area);
           const std::string where = "Boundaries/" + boundary.name();
@@ -224,6 +244,57 @@ namespace moraine
 
 
 
+    /** The area of the rim of bodies that lies past the ends of a boundary and
+     * in its cells, over the boundary's own: it holds that, too. From what
+     * points have of volume in a cell, and how deep they lie. Collective. */
+    template <int dim>
+    double
+    rim_past_ends(const ImplicitBoundary<dim> &boundary,
+                  const Model<dim>            &model)
+    {
+      const PointSet<dim> &points    = *model.points;
+      const auto           is_at_rim = [&](const Point<dim>        &x,
+                                 const NearestPoint<dim> &nearest) {
+        return nearest.level > 0 &&
+               !in_a_body(x + (nearest.level + 0.1 * model.mesh->cell_size()) *
+                                nearest.normal,
+                          model);
+      };
+      std::vector<double> area(2, 0.); // past the ends, its own
+      std::vector<bool>   has_place(
+        points.mesh().triangulation().n_active_cells(), false);
+      for (const auto &place : boundary.points())
+        {
+          has_place[place.cell] = true;
+          area[1] += place.JxW;
+        }
+      for (const auto &in_cell : points.cells())
+        {
+          if (!has_place[in_cell.cell->active_cell_index()])
+            continue;
+          double volume = 0, depth = 0;
+          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+            {
+              const NearestPoint<dim> nearest =
+                boundary.nearest_at_start(points.position(p));
+              if (nearest.in_extent || !is_at_rim(points.position(p), nearest))
+                continue;
+              volume += points.volume(p);
+              depth = std::max(depth,
+                               nearest.level +
+                                 0.5 * std::pow(points.volume(p), 1. / dim));
+            }
+          if (volume > 0)
+            area[0] += volume / depth;
+        }
+      Utilities::MPI::sum(area,
+                          points.mesh().triangulation().get_communicator(),
+                          area);
+      return area[1] > 0 ? area[0] / area[1] : 0.;
+    }
+
+
+
     template <int dim>
     void
     check_flux_of_boundaries(const Scene<dim>         &scene,
@@ -260,6 +331,7 @@ namespace moraine
     const StageParameters &stage = scene.stages.front().second;
     check_sides_of_boundaries(stage, model, notes);
     tell_of_material_behind(stage, {}, model, notes);
+    tell_of_ends(stage, {}, model, notes);
     check_flux_of_boundaries(scene, model, notes);
   }
 
@@ -322,6 +394,33 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  tell_of_ends(const StageParameters          &stage,
+               const std::vector<std::string> &known,
+               const Model<dim>               &model,
+               std::vector<std::string>       &notes)
+  {
+    if (!are_drawn(model.bodies))
+      return;
+    for (const auto &boundary : model.boundaries)
+      {
+        if (!contains(stage.boundaries, boundary.name()) ||
+            contains(stage.absorbing, boundary.name()) ||
+            contains(known, boundary.name()))
+          continue;
+        const double past = rim_past_ends(boundary, model);
+        if (past > told_past_ends)
+          notes.push_back(
+            boundary.name() + ": it ends inside cells and holds all of them, " +
+            std::to_string(std::lround(100 * past)) +
+            " % more than was drawn; forces on it come out larger by that or "
+            "more; let it end on faces of cells, or take smaller ones");
+      }
+  }
+
+
+
 #define INSTANTIATE(dim)                                                  \
   template void tell_of_boundaries(const Scene<dim> &,                    \
                                    const Model<dim> &,                    \
@@ -333,7 +432,11 @@ namespace moraine
   template void tell_of_material_behind(const StageParameters &,          \
                                         const std::vector<std::string> &, \
                                         const Model<dim> &,               \
-                                        std::vector<std::string> &);
+                                        std::vector<std::string> &);      \
+  template void tell_of_ends(const StageParameters &,                     \
+                             const std::vector<std::string> &,            \
+                             const Model<dim> &,                          \
+                             std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -498,6 +498,7 @@ namespace moraine
     hold_stress_at_start(stage, before.boundaries, model);
     tell_of_gaps(stage, before, model, notes);
     tell_of_material_behind(stage, before.boundaries, model, notes);
+    tell_of_ends(stage, before.boundaries, model, notes);
     for (const Effect &effect : system.effects())
       if (effect.kind == "note")
         notes.push_back(effect.text);

@@ -3,7 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """What the cells of a scene are too coarse for is told before it runs: bodies drawn
 apart that stick together, a soft layer in cells that a stiff one shares, thin bodies
-of any stage, a side with a load on cells filled in part; and a surface that begins away from ground that has settled."""
+of any stage, a side with a load on cells filled in part, a surface that ends inside
+cells; and one that begins away from ground that has settled."""
 
 SCENE = """
 subsection Mesh
@@ -109,6 +110,26 @@ end
 for bottom in (1.3, 1.45):
     show(f"block from {bottom} above a floor at 1.3",
          [("block", "firm", f"0, {bottom}", "2, 3")], FLOOR)
+
+# On a face of cells, inside of one, with a side that goes on in the air, and walls
+# that end with the body.
+SURFACE = """subsection {name}
+    set Points = {points}
+  end
+  """
+for title, bottom, surfaces in (
+        ("footing to 0.75", 0, [("footing", "0.75, 3; 0, 3")]),
+        ("footing to 0.85", 0, [("footing", "0.85, 3; 0, 3")]),
+        ("footing to 1.1 with a side", 0, [("footing", "1.1, 3; 0, 3"),
+                                             ("side", "1.1, 3.9; 1.1, 3")]),
+        ("floor and walls", 0.1, [("floor", "0, 0.1; 2.1, 0.1"),
+                                  ("left", "0, 3; 0, 0.1"),
+                                  ("right", "2.1, 0.1; 2.1, 3")]),
+        ("upper part of a wall", 0.1, [("wall", "2.1, 0.8; 2.1, 3")])):
+    show(title, [("block", "firm", f"0, {bottom}", "2.1, 3")],
+         "subsection Boundaries\n  " + "".join(
+             SURFACE.format(name=name, points=points) for name, points in surfaces)
+         + "end\n")
 
 # A block less a strip or a disc: only what cells cannot part is told of.
 WITHOUT = """subsection whole

@@ -47,6 +47,18 @@ namespace moraine
                const StageParameters    &before,
                const Model<dim>         &model,
                std::vector<std::string> &notes);
+
+  /**
+   * Add to @p notes which boundaries begin in @p stage, not @p known from the
+   * one before, and end inside cells that have more of a body's rim: functions
+   * of these cells hold that, too. In a step that has begun. Collective.
+   */
+  template <int dim>
+  void
+  tell_of_ends(const StageParameters          &stage,
+               const std::vector<std::string> &known,
+               const Model<dim>               &model,
+               std::vector<std::string>       &notes);
 } // namespace moraine
 
 #endif
