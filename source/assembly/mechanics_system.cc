@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <limits>
+#include <sstream>
 
 namespace moraine
 {
@@ -429,6 +431,23 @@ namespace moraine
   MechanicsSystem<dim>::failure() const
   {
     return first_of_ranks(sums.failure(), state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  MechanicsSystem<dim>::place_of(const types::global_dof_index unknown) const
+  {
+    const GridSpace<dim> &space = state.grid();
+    std::ostringstream    text;
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      if (space.node_dof(node) <= unknown &&
+          unknown < space.node_dof(node) + dim &&
+          space.locally_owned().is_element(unknown))
+        text << "the node at (" << std::setprecision(3)
+             << space.node_position(node) << ')';
+    return first_of_ranks(text.str(), space.communicator());
   }
 
 

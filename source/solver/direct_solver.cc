@@ -218,6 +218,7 @@ namespace moraine
     // Amesos writes its error codes whatever its options say.
     const SilentErrors silence;
     failure.clear();
+    loosest_unknown.reset();
     if ((is_new && factors->solver->SymbolicFactorization() != 0) ||
         factors->solver->NumericFactorization() != 0)
       failure = "the factorisation failed; the matrix is singular";
@@ -276,8 +277,30 @@ namespace moraine
     if (!std::isfinite(relative) || !back_substitute(change, w))
       return true;
     const double epsilon = std::numeric_limits<double>::epsilon();
-    return !(epsilon * std::sqrt(1. * matrix.m()) * change.l2_norm() <
-             singular_change * x.l2_norm());
+    if (epsilon * std::sqrt(1. * matrix.m()) * change.l2_norm() <
+        singular_change * x.l2_norm())
+      return false;
+    loosest_unknown = unknown_of_largest(x);
+    return true;
+  }
+
+
+
+  types::global_dof_index
+  DirectSolver::unknown_of_largest(const LA::Vector &x) const
+  {
+    double                  largest = -1;
+    types::global_dof_index unknown = numbers::invalid_dof_index;
+    for (const auto i : x.locally_owned_elements())
+      if (std::abs(x(i)) > largest)
+        {
+          largest = std::abs(x(i));
+          unknown = i;
+        }
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    if (largest < Utilities::MPI::max(largest, communicator))
+      unknown = numbers::invalid_dof_index;
+    return Utilities::MPI::min(unknown, communicator);
   }
 
 
@@ -329,6 +352,7 @@ namespace moraine
     LinearReport report;
     report.solver            = "direct (" + package + ")";
     report.message           = failure;
+    report.loosest_unknown   = loosest_unknown;
     const double norm_b      = b.l2_norm();
     x                        = 0.;
     report.relative_residual = relative_to(norm_b, norm_b);

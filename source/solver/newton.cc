@@ -243,7 +243,7 @@ namespace moraine
       report.ran_out_of_linear_iterations = linear.ran_out_of_iterations;
       if (!linear.converged)
         return stop(NewtonStatus::linear_solver_failed,
-                    linear.solver + ": " + linear.message);
+                    failure_of(linear, system));
       if (!linear.message.empty())
         report.message = linear.message;
       system.apply_constraints(dx);

@@ -86,6 +86,54 @@ no_results("GIMP with one point in a cell, consistent mass", run(
             "Boundaries/left/Points": "0 4; 0 0", "Materials/soil/Density": 1,
             "Time/Integrator": "Newmark"}, expect=None, on_ranks=ranks))
 
+# Rough plates squeeze quadratic elements until one beside a corner has folded.
+squeezed = folder / "squeezed.prm"
+squeezed.write_text("""
+subsection Mesh
+  set Lower corner = -0.5, -0.25
+  set Upper corner = 2.5, 1.25
+  set Cell size    = 0.0625
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+  set Degree = 2
+end
+subsection Materials
+  subsection metal
+    set Model              = von Mises
+    set Young modulus      = 1000
+    set Poisson ratio      = 0.3
+    set Shear yield stress = 10
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 2, 1
+  end
+end
+subsection Boundaries
+  subsection low
+    set Points = -0.4 0; 2.4 0
+  end
+  subsection up
+    set Points      = 2.4 1; -0.4 1
+    set Translation = 0; -0.4*t
+  end
+end
+subsection Time
+  set Steps = 20
+end
+""")
+result = run(squeezed, expect=1, on_ranks=1)
+at = re.search(r"singular to working precision, most of all at the node at "
+               r"\((\S+) (\S+)\)", message(result.output))
+text("squeezed between plates: the node that is named is",
+     "beside a corner at a plate" if at and
+     (abs(float(at[1]) - 1) > 1 and abs(float(at[2]) - 0.41) > 0.3) else
+     message(result.output))
+
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"
 words = [str(program), "run", str(root / scene), "--output", str(out),

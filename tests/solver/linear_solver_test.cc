@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -205,6 +206,16 @@ TEST(LinearSolver, SaysThatABodyIsNotHeldEvenIfTheLoadBalances)
   const LinearReport report = solver.solve(x, b);
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.message, "the matrix is singular to working precision");
+  // Held least is where the motion that is free is largest: its components are
+  // linear as those of the rotation are, so that is at an edge of the square.
+  ASSERT_TRUE(report.loosest_unknown);
+  double from_edge = 0;
+  if (problem.modes[2].in_local_range(*report.loosest_unknown))
+    {
+      const double turn = std::abs(problem.modes[2](*report.loosest_unknown));
+      from_edge         = std::min(turn, 1 - turn);
+    }
+  EXPECT_LT(from_edge, 1e-10);
 }
 
 TEST(LinearSolver, StiffRowsAreNotSingular)

@@ -189,6 +189,9 @@ namespace moraine
     std::string
     failure() const override;
 
+    std::string
+    place_of(const dealii::types::global_dof_index unknown) const override;
+
     void
     initial_guess(LA::Vector &x) const override;
 

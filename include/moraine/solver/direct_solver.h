@@ -9,6 +9,7 @@
 #include <moraine/solver/linear_report.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,13 +46,14 @@ namespace moraine
   private:
     struct Factors;
 
-    const LA::SparseMatrix  &matrix;
-    const bool               transposed;
-    double                   matrix_norm;
-    std::string              package;
-    std::unique_ptr<Factors> factors;
-    std::string              failure;
-    std::vector<double>      factorised; ///< values of the matrix, this rank's
+    const LA::SparseMatrix                        &matrix;
+    const bool                                     transposed;
+    double                                         matrix_norm;
+    std::string                                    package;
+    std::unique_ptr<Factors>                       factors;
+    std::string                                    failure;
+    std::optional<dealii::types::global_dof_index> loosest_unknown;
+    std::vector<double> factorised; ///< values of the matrix, this rank's
 
     /** Whether the matrix differs by more than round-off from what is
      * factorised. Collective. */
@@ -75,6 +77,10 @@ namespace moraine
 
     bool
     singular(const bool or_inaccurate);
+
+    /** That of the largest entry of @p x, the first of several. Collective. */
+    dealii::types::global_dof_index
+    unknown_of_largest(const LA::Vector &x) const;
 
     LA::Vector
     arbitrary_vector() const;

@@ -4,6 +4,9 @@
 #ifndef moraine_solver_linear_report_h
 #define moraine_solver_linear_report_h
 
+#include <deal.II/base/types.h>
+
+#include <optional>
 #include <string>
 
 namespace moraine
@@ -29,6 +32,9 @@ namespace moraine
 
     /** Why it failed, or why auto fell back. Empty if all went well. */
     std::string message;
+
+    /** The unknown that a matrix which is singular holds least. */
+    std::optional<dealii::types::global_dof_index> loosest_unknown;
   };
 
 

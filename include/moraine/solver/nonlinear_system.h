@@ -6,6 +6,8 @@
 
 #include <moraine/core/linear_algebra.h>
 
+#include <moraine/solver/linear_report.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,6 +60,15 @@ namespace moraine
      */
     virtual std::string
     failure() const
+    {
+      return "";
+    }
+
+    /**
+     * Where an unknown is, as "the node at (1 2)", or "". Collective.
+     */
+    virtual std::string
+    place_of(const dealii::types::global_dof_index) const
     {
       return "";
     }
@@ -140,6 +151,19 @@ namespace moraine
       return false;
     }
   };
+
+
+
+  /** Why equations of @p system were not solved, and where if that is known.
+   * Collective. */
+  inline std::string
+  failure_of(const LinearReport &linear, const NonlinearSystem &system)
+  {
+    const std::string place =
+      linear.loosest_unknown ? system.place_of(*linear.loosest_unknown) : "";
+    return linear.solver + ": " + linear.message +
+           (place.empty() ? "" : ", most of all at " + place);
+  }
 } // namespace moraine
 
 #endif
