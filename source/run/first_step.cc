@@ -470,7 +470,19 @@ namespace moraine
       }
     model.linear_solver->clear();
     model.set_stage(scene, k);
-    system.begin_step(t);
+    try
+      {
+        system.begin_step(t);
+      }
+    catch (const ComputationError &error)
+      {
+        // What goes with a body is why nothing is left.
+        std::string text =
+          "as stage '" + scene.stages[k].first + "' begins, " + error.what();
+        for (const std::string &note : notes)
+          text += "; " + note;
+        throw ComputationError(text);
+      }
     for (const auto &[name, forces] : held)
       {
         const double missed = system.hold(name, forces);

@@ -50,15 +50,19 @@ namespace moraine
         areas.assign(goes.size() + 1, 0.);
       }
 
-      /** A place of the surface, if its cell keeps a body. */
+      /** A place of the surface, if its cell keeps a body; with @p keeping
+       * false, if it loses all of them. */
       void
-      add(const Point<dim> &x, const unsigned int cell, const double area)
+      add(const Point<dim>  &x,
+          const unsigned int cell,
+          const double       area,
+          const bool         keeping = true)
       {
         const auto [first, last] = model.points->points_in(cell);
         bool keeps               = false;
         for (unsigned int p = first; p < last; ++p)
           keeps = keeps || !goes[model.points->body(p)];
-        if (keeps)
+        if (first < last && keeps == keeping)
           {
             areas[nearest_body(x, cell)] += area;
             areas.back() += area;
@@ -154,6 +158,17 @@ namespace moraine
             if (place.active_cell_index != GridSpace<dim>::no_cell)
               grounds.add(place.x, place.active_cell_index, place.weight);
           tell(load.name(), "Loads");
+          grounds.clear();
+          for (const auto &place : load.places())
+            if (place.active_cell_index != GridSpace<dim>::no_cell)
+              grounds.add(place.x,
+                          place.active_cell_index,
+                          place.weight,
+                          false);
+          if (const std::string body = grounds.lost(); !body.empty())
+            notes.push_back(load.name() + ": lies on '" + body +
+                            "', which is gone; leave it out of 'Loads' of the "
+                            "stage");
         }
     for (const auto &boundary : model.boundaries)
       if (contains(stage.boundaries, boundary.name()) &&

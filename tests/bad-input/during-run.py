@@ -134,6 +134,63 @@ text("squeezed between plates: the node that is named is",
      (abs(float(at[1]) - 1) > 1 and abs(float(at[2]) - 0.41) > 0.3) else
      message(result.output))
 
+# A load on a body that a later stage leaves out, and nothing beside it is left.
+staged = folder / "staged.prm"
+staged.write_text("""
+subsection Mesh
+  set Lower corner = -1, 0
+  set Upper corner = 4, 4
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Materials
+  subsection clay
+    set Young modulus = 1e5
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection ground
+    set Lower corner = 0, 0
+    set Upper corner = 3, 1
+  end
+  subsection fill
+    set Lower corner = 0, 1
+    set Upper corner = 3, 2
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection surcharge
+    set Type  = surface traction
+    set Body  = fill
+    set Part  = top
+    set Value = 0; -10
+  end
+end
+subsection Stages
+  subsection filled
+    set Bodies = ground, fill
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection dug
+    set Bodies = ground
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+""")
+text("load on a body that goes", message(run(staged, expect=1).output))
+
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"
 words = [str(program), "run", str(root / scene), "--output", str(out),
