@@ -32,7 +32,7 @@ namespace moraine
     constexpr double told_depth = 0.25, told_share_behind = 0.1;
 
     /** Of a surface: what it holds past its ends shows in forces. */
-    constexpr double told_past_ends = 0.05;
+    constexpr double told_past_ends = 0.05, least_own_share = 0.02;
 
 
 
@@ -244,53 +244,111 @@ namespace moraine
 
 
 
-    /** The area of the rim of bodies that lies past the ends of a boundary and
-     * in its cells, over the boundary's own: it holds that, too. From what
-     * points have of volume in a cell, and how deep they lie. Collective. */
-    template <int dim>
-    double
-    rim_past_ends(const ImplicitBoundary<dim> &boundary,
-                  const Model<dim>            &model)
+    /** What of a boundary a body is at, and whether it goes through bodies. */
+    struct AtBody
     {
-      const PointSet<dim> &points    = *model.points;
-      const auto           is_at_rim = [&](const Point<dim>        &x,
-                                 const NearestPoint<dim> &nearest) {
-        return nearest.level > 0 &&
-               !in_a_body(x + (nearest.level + 0.1 * model.mesh->cell_size()) *
-                                nearest.normal,
-                          model);
-      };
-      std::vector<double> area(2, 0.); // past the ends, its own
-      std::vector<bool>   has_place(
-        points.mesh().triangulation().n_active_cells(), false);
+      std::vector<double> area; ///< in each cell
+      double              sum      = 0;
+      bool                embedded = false;
+    };
+
+
+
+    template <int dim>
+    AtBody
+    area_at_body(const ImplicitBoundary<dim> &boundary, const Model<dim> &model)
+    {
+      AtBody              at;
+      std::vector<double> area(2, 0.); // with a body inside, on both sides
+      at.area.resize(model.mesh->triangulation().n_active_cells(), 0.);
       for (const auto &place : boundary.points())
         {
-          has_place[place.cell] = true;
-          area[1] += place.JxW;
+          const SurfacePoint<dim> foot = foot_of(place, boundary);
+          const Tensor<1, dim>    step = 0.1 * place.h * foot.normal;
+          if (!in_a_body(foot.x - step, model))
+            continue;
+          at.area[place.cell] += place.JxW;
+          area[0] += place.JxW;
+          area[1] += in_a_body(foot.x + step, model) ? place.JxW : 0.;
         }
+      Utilities::MPI::sum(area, model.space->communicator(), area);
+      at.sum      = area[0];
+      at.embedded = area[1] > 0.5 * area[0];
+      return at;
+    }
+
+
+
+    /** The share of a point that @p is_there, asked at places that are spread
+     * over its cube and moved along @p normal into the plane of its middle. */
+    template <int dim, typename Predicate>
+    double
+    share_of_point(const PointSet<dim>  &points,
+                   const unsigned int    p,
+                   const Tensor<1, dim> &normal,
+                   const Predicate      &is_there)
+    {
+      constexpr unsigned int n     = 4; // along each axis
+      const unsigned int     n_all = Utilities::fixed_power<dim>(n);
+      const double           size  = std::pow(points.volume(p), 1. / dim) / n;
+      unsigned int           found = 0;
+      for (unsigned int k = 0; k < n_all; ++k)
+        {
+          Tensor<1, dim> offset;
+          unsigned int   i = k;
+          for (unsigned int d = 0; d < dim; ++d, i /= n)
+            offset[d] = (i % n - 0.5 * (n - 1)) * size;
+          found +=
+            is_there(points.position(p) + offset - (offset * normal) * normal);
+        }
+      return 1. * found / n_all;
+    }
+
+
+
+    /** The area past the ends of a boundary that its cells have and bodies are
+     * at as they are at it, over its own: it holds that, too. From the volume
+     * of points in a cell, and how deep they lie. Collective. */
+    template <int dim>
+    double
+    area_past_ends(const ImplicitBoundary<dim> &boundary,
+                   const Model<dim>            &model)
+    {
+      const PointSet<dim> &points = *model.points;
+      const AtBody         at     = area_at_body(boundary, model);
+      const double         step   = 0.1 * model.mesh->cell_size();
+      double               past   = 0;
       for (const auto &in_cell : points.cells())
         {
-          if (!has_place[in_cell.cell->active_cell_index()])
+          const double own = at.area[in_cell.cell->active_cell_index()];
+          if (own == 0)
             continue;
-          double volume = 0, depth = 0;
+          double volume = 0, moment = 0; // of a layer along the surface
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             {
-              const NearestPoint<dim> nearest =
+              const NearestPoint<dim> middle =
                 boundary.nearest_at_start(points.position(p));
-              if (nearest.in_extent || !is_at_rim(points.position(p), nearest))
+              if (middle.level <= 0)
                 continue;
-              volume += points.volume(p);
-              depth = std::max(depth,
-                               nearest.level +
-                                 0.5 * std::pow(points.volume(p), 1. / dim));
+              const Tensor<1, dim> out = (middle.level + step) * middle.normal;
+              const double         part =
+                points.volume(p) *
+                share_of_point(points, p, middle.normal, [&](const auto &x) {
+                  return !boundary.nearest_at_start(x).in_extent &&
+                         in_a_body(x + out, model) == at.embedded;
+                });
+              volume += part;
+              moment += part * middle.level;
             }
-          if (volume > 0)
-            area[0] += volume / depth;
+          if (volume == 0)
+            continue;
+          const double area = volume / (2 * moment / volume);
+          // A sliver of it hardly holds its cell.
+          if (own > least_own_share * area)
+            past += area;
         }
-      Utilities::MPI::sum(area,
-                          points.mesh().triangulation().get_communicator(),
-                          area);
-      return area[1] > 0 ? area[0] / area[1] : 0.;
+      past = Utilities::MPI::sum(past, model.space->communicator());
+      return at.sum > 0 ? past / at.sum : 0.;
     }
 
 
@@ -409,7 +467,7 @@ namespace moraine
             contains(stage.absorbing, boundary.name()) ||
             contains(known, boundary.name()))
           continue;
-        const double past = rim_past_ends(boundary, model);
+        const double past = area_past_ends(boundary, model);
         if (past > told_past_ends)
           notes.push_back(
             boundary.name() + ": it ends inside cells and holds all of them, " +
