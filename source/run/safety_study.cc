@@ -35,6 +35,7 @@ namespace moraine
     {
       std::string                 title;
       StrengthReductionParameters parameters;
+      double                      start_time, end_time;
       bool                        points_move;
       bool                        may_stay; ///< points, as nothing is said
     };
@@ -47,6 +48,8 @@ namespace moraine
       const auto of = [](const auto &scene) {
         return SceneOfSafety{scene.title,
                              scene.strength_reduction,
+                             scene.start_time(),
+                             scene.end_time(),
                              scene.method.after_step() != MeshAfterStep::keep,
                              scene.method.mesh_after_step == "default" &&
                                scene.method.strain_measure() ==
@@ -191,6 +194,15 @@ namespace moraine
           result.stood = factor;
         else if (trial.failed())
           result.failed = factor;
+        else if (trial.undecided())
+          return end_as("undecided",
+                        "with F = " + text_of(factor, 6) +
+                          " the path ended at t = " +
+                          text_of(trial.summary.time, 6) + ", 'End time' is " +
+                          text_of(scene.end_time, 6) +
+                          "; more 'Steps' tell whether the scene stands, or "
+                          "no 'Arc length', without which there is no "
+                          "equilibrium where it fails");
         else
           return end_as(trial.summary.status, trial.summary.message);
 
@@ -226,12 +238,18 @@ namespace moraine
       StudyReport{folder, "", "", "", "", "", cases, rows}.write_csv();
     });
 
-    const Trial trial{factor, summary};
+    const SceneOfSafety scene = read_scene(with_factor.input);
+    const Trial         trial{factor,
+                      summary,
+                      summary.time >=
+                        scene.end_time -
+                          1e-10 * (scene.end_time - scene.start_time)};
     console << std::setw(8) << fixed(factor, 4) << "  " << std::left
             << std::setw(20)
             << (trial.stood()  ? "stood" :
                 trial.failed() ? "failed at t = " + text_of(summary.time, 5) :
-                                 summary.status)
+                trial.undecided() ? "undecided" :
+                                    summary.status)
             << std::right << std::setw(7) << summary.steps << std::setw(10)
             << summary.rejected_steps << std::setw(8)
             << summary.newton_iterations << std::setw(9)

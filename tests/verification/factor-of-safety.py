@@ -121,7 +121,11 @@ for line in moving.output.splitlines():
 
 for name, settings in (
         ("lower fails", {"Strength reduction/Lower factor": 1.4}),
-        ("upper stands", {"Strength reduction/Upper factor": 1.2})):
+        ("upper stands", {"Strength reduction/Upper factor": 1.2}),
+        # A path that has not come to the end of time says nothing.
+        ("few steps along the path", {"Time/Arc length": 0.05, "Time/Steps": 6,
+                                      "Mesh/Cell size": 2,
+                                      "Strength reduction/Upper factor": 10})):
     result = study(settings, expect=1, on_ranks=2)
     text(name, result.cases[0]["status"])
     text("  said", next(line for line in result.output.splitlines()

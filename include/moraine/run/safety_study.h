@@ -57,12 +57,20 @@ namespace moraine
     {
       double  factor;
       Summary summary;
+      bool    reached_end_time; ///< a path may end elsewhere
 
       /** There is equilibrium to the end. */
       bool
       stood() const
       {
-        return summary.status == "ok";
+        return summary.status == "ok" && reached_end_time;
+      }
+
+      /** There was until its steps were used up. */
+      bool
+      undecided() const
+      {
+        return summary.status == "ok" && !reached_end_time;
       }
 
       /** There is none, from some step on. Else, if it did not stand, there is
