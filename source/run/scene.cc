@@ -348,13 +348,11 @@ namespace moraine
                      simulated_bodies(*this)},
                     stages);
     const auto yields = [](const auto &named) { return named.second.yields(); };
-    const auto moves  = [](const auto &named) {
-      return named.second.time.integrator.dynamic();
-    };
     if (method.strain_measure() == StrainMeasure::finite ||
-        (std::any_of(materials.begin(), materials.end(), yields) &&
-         std::none_of(stages.begin(), stages.end(), moves)))
-      choose_enforcement(input);
+        std::any_of(materials.begin(), materials.end(), yields))
+      choose_enforcement("augmented Lagrangian", input);
+    else if (is_dynamic())
+      choose_enforcement("symmetric Nitsche", input);
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     check(input, given);
@@ -451,15 +449,18 @@ namespace moraine
 
   template <int dim>
   void
-  Scene<dim>::choose_enforcement(const InputFile &input)
+  Scene<dim>::choose_enforcement(const std::string &if_left_out,
+                                 const InputFile   &input)
   {
     prm.enter_subsection("Boundaries");
     for (auto &[name, boundary] : boundaries)
       {
+        if (boundary.constraint == "absorbing")
+          continue;
         const std::string section = "Boundaries/" + name;
         prm.enter_subsection(name);
         if (!input.has(section, "Enforcement"))
-          prm.set("Enforcement", std::string("augmented Lagrangian"));
+          prm.set("Enforcement", if_left_out);
         if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
             !input.has(section, "Band width"))
           prm.set("Band width", 0.01);

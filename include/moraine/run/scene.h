@@ -276,10 +276,11 @@ namespace moraine
     void
     check_conditions(const std::vector<InputFile::Entry> &given) const;
 
-    /** What boundaries are enforced by if nothing is said, where flux would not
-     * be elastic. */
+    /** What boundaries are enforced by if nothing is said, and how wide the
+     * band is then: not by a flux where stress is not elastic, nor where one
+     * that is not that of an energy would feed vibrations. */
     void
-    choose_enforcement(const InputFile &input);
+    choose_enforcement(const std::string &if_left_out, const InputFile &input);
 
     /** Cell means if nothing is said, volume hardly changes and nothing that
      * is @p given excludes them. */
