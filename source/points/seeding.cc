@@ -332,9 +332,6 @@ namespace moraine
                                const Shape<dim>              &shape,
                                std::vector<SeededPoint<dim>> &points) const
   {
-    // The pieces of curved shapes in 3D are coarser than their moments.
-    if (dim == 3 && !shape.is_straight())
-      return false;
     const ConvexPolytope<dim> whole(cell);
     const double              part = shape.clip(whole).volume;
     if (part <= 1e-12 * whole.volume() || part >= (1. - 1e-13) * whole.volume())
