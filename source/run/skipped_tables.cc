@@ -15,7 +15,7 @@ namespace moraine
   namespace
   {
     /** A row of @p curve that steps of size @p dt from @p start pass over by
-     * more than half of its largest change since then, in words; or "". */
+     * more than a tenth of its largest change since then, in words; or "". */
     std::string
     row_between_steps(const TimeCurve &curve,
                       const double     start,
@@ -33,7 +33,7 @@ namespace moraine
           const double a      = curve.value(before);
           const double b      = curve.value(std::min(before + dt, end));
           if (std::max(value - std::max(a, b), std::min(a, b) - value) >
-              0.5 * largest)
+              0.1 * largest)
             {
               std::ostringstream text;
               text << "its table has " << value << " at t = " << t
