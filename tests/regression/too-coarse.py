@@ -131,6 +131,22 @@ for title, bottom, surfaces in (
              SURFACE.format(name=name, points=points) for name, points in surfaces)
          + "end\n")
 
+# Steps that end on the peaks of a table, and beside them.
+PEAKS = """
+subsection Loads
+  subsection weight
+    set Curve = 0: 0, 1: 1, 2: -1, 3: 0
+  end
+end
+subsection Time
+  set End time = 3
+  set Steps    = {steps}
+end
+"""
+for steps in (6, 7):
+    show(f"peaks of a table and {steps} steps", [("block", "firm", "0, 0", "2.1, 3")],
+         PEAKS.format(steps=steps))
+
 # A block less a strip or a disc: only what cells cannot part is told of.
 WITHOUT = """subsection whole
     set Lower corner = 0, 0
