@@ -412,7 +412,7 @@ namespace moraine
     take_over(const CarriedPlace<dim> &carried,
               BoundaryPoint<dim>      &point) const;
 
-    /** Where the points of all ranks are, in the surface's own frame. */
+    /** Where the points of this rank are, in the surface's own frame. */
     std::vector<CarriedPlace<dim>>
     places_of_points() const;
 
