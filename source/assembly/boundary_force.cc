@@ -204,6 +204,25 @@ namespace moraine
 
   template <int dim>
   void
+  add_turn_of_normal(const BoundaryPoint<dim>      &point,
+                     const SymmetricTensor<2, dim> &normal_gradient,
+                     const double                  *N,
+                     LocalSystem<dim>              &local)
+  {
+    const unsigned int            n_nodes = local.dofs.size() / dim;
+    const SymmetricTensor<2, dim> turn =
+      point.JxW * (point.multiplier * point.normal) * normal_gradient;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            local.matrix(dim * a + i, dim * b + j) -= N[a] * N[b] * turn[i][j];
+  }
+
+
+
+  template <int dim>
+  void
   add_mean_penalty(const ImplicitBoundary<dim> &boundary,
                    const BoundaryPiece<dim>    &piece,
                    const Enforcement           &how,
@@ -238,32 +257,36 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                    \
-  template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,     \
-                                            const ConstraintState<dim> &,   \
-                                            const Enforcement &,            \
-                                            const LameConstants &,          \
-                                            const StrainMeasure,            \
-                                            const Tensor<2, dim> &,         \
-                                            const Tensor<2, dim> &);        \
-  template void           add_boundary_point(const BoundaryPoint<dim> &,    \
-                                             const ConstraintState<dim> &,  \
-                                             const Enforcement &,           \
-                                             const LameConstants &,         \
-                                             const StrainMeasure,           \
-                                             const double *,                \
-                                             const Tensor<1, dim> *,        \
-                                             const Tensor<1, dim> *,        \
-                                             const Tensor<2, dim> &,        \
-                                             const Tensor<2, dim> &,        \
-                                             const bool,                    \
-                                             std::vector<Tensor<1, dim>> &, \
-                                             LocalSystem<dim> &);           \
-  template void           add_mean_penalty(const ImplicitBoundary<dim> &,   \
-                                           const BoundaryPiece<dim> &,      \
-                                           const Enforcement &,             \
-                                           const LameConstants &,           \
-                                           LocalSystem<dim> &);
+#define INSTANTIATE(dim)                                                      \
+  template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,       \
+                                            const ConstraintState<dim> &,     \
+                                            const Enforcement &,              \
+                                            const LameConstants &,            \
+                                            const StrainMeasure,              \
+                                            const Tensor<2, dim> &,           \
+                                            const Tensor<2, dim> &);          \
+  template void           add_boundary_point(const BoundaryPoint<dim> &,      \
+                                             const ConstraintState<dim> &,    \
+                                             const Enforcement &,             \
+                                             const LameConstants &,           \
+                                             const StrainMeasure,             \
+                                             const double *,                  \
+                                             const Tensor<1, dim> *,          \
+                                             const Tensor<1, dim> *,          \
+                                             const Tensor<2, dim> &,          \
+                                             const Tensor<2, dim> &,          \
+                                             const bool,                      \
+                                             std::vector<Tensor<1, dim>> &,   \
+                                             LocalSystem<dim> &);             \
+  template void           add_mean_penalty(const ImplicitBoundary<dim> &,     \
+                                           const BoundaryPiece<dim> &,        \
+                                           const Enforcement &,               \
+                                           const LameConstants &,             \
+                                           LocalSystem<dim> &);               \
+  template void           add_turn_of_normal(const BoundaryPoint<dim> &,      \
+                                             const SymmetricTensor<2, dim> &, \
+                                             const double *,                  \
+                                             LocalSystem<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

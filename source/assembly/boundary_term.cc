@@ -253,6 +253,12 @@ namespace moraine
                                tangent,
                                fluxes,
                                local);
+            if (tangent && boundary.follows_curve())
+              add_turn_of_normal(
+                points[q],
+                boundary.normal_gradient(points[q], piece.increment(q).value),
+                piece.N.data(),
+                local);
           }
         if (tangent && how.mean_factor > 0)
           add_mean_penalty(boundary, piece, how, C, local);

@@ -358,6 +358,29 @@ namespace moraine
 
 
   template <int dim>
+  SymmetricTensor<2, dim>
+  ImplicitBoundary<dim>::normal_gradient(const BoundaryPoint<dim> &point,
+                                         const Tensor<1, dim>     &du) const
+  {
+    if (!kind.projects || !point.holds)
+      return {};
+    const double   step = 1e-4 * point.h;
+    Tensor<2, dim> gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
+        gradient[d]                = (at_end.normal(point.x + du + ahead) -
+                       at_end.normal(point.x + du - ahead)) /
+                      (2 * step);
+      }
+    constexpr double corner = 4;
+    return gradient.norm() * point.h < corner ? symmetrize(gradient) :
+                                                SymmetricTensor<2, dim>();
+  }
+
+
+
+  template <int dim>
   PrescribedIncrements<dim>
   ImplicitBoundary<dim>::increments_between(
     const std::vector<double> &times) const

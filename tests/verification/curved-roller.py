@@ -4,7 +4,9 @@
 # Copyright (C) 2026 by the Moraine authors
 """A ring on a curved roller over which it may slide: each method and enforcement with
 its default factors solves each step at once, however stiff its penalty, and has the
-displacement of a ring whose points stay."""
+displacement of a ring whose points stay. A cylinder pressed in a tube."""
+
+from math import log, pi
 
 SLIDES = {"Method/Mesh after step": "default", "Output/Mesh": "false",
           "Output/Points": "false"}
@@ -92,3 +94,63 @@ for method in ("GIMP", "finite element"):
           force / FORCE - 1, 0.01)
     bound(f"pressed in, {method}: moment over force times radius",
           last["moment of bearing"] / force / B, 1e-9)
+
+# A cylinder in a smooth tube, pressed to 0.8 of its length: uniaxial strain.
+CONFINED = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -0.86, -0.86, -0.86
+  set Upper corner = 0.94, 0.94, 1.94
+  set Cells        = 9, 9, 14
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+end
+subsection Materials
+  subsection rubber
+    set Model         = neo-Hookean
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection plug
+    set Shape      = cylinder
+    set Axis start = 0, 0, 0
+    set Axis end   = 0, 0, 1
+    set Radius     = 0.5
+  end
+end
+subsection Boundaries
+  subsection tube
+    set Body       = plug
+    set Part       = side
+    set Constraint = roller
+  end
+  subsection bottom
+    set Body = plug
+    set Part = bottom
+  end
+  subsection piston
+    set Body        = plug
+    set Part        = top
+    set Constraint  = roller
+    set Translation = 0; 0; -0.2*t
+  end
+end
+subsection Time
+  set Steps = 4
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+scene.write_text(CONFINED)
+result = run(scene, on_ranks=1)
+MU, LAMBDA, STRETCH = 1000 / 2.6, 300 / 1.3 / 0.4, 0.8
+FORCE = pi / 4 * (MU * (STRETCH**2 - 1) + LAMBDA * log(STRETCH)) / STRETCH
+bound("confined cylinder: force, off by",
+      result.reactions["piston"][2] / FORCE - 1, 5e-4)
+text("confined cylinder: rejected steps", result.summary["rejected_steps"])

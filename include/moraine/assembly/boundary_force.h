@@ -55,6 +55,17 @@ namespace moraine
                      std::vector<dealii::Tensor<1, dim>> &fluxes,
                      LocalSystem<dim>                    &local);
 
+  /** Adds to the derivative of such a point that its multiplier turns with the
+   * normal of a curved wall, @f$-N_a N_b\, (t \cdot n) \nabla n@f$. Of the
+   * penalty that is left out: before a step has found its way it is large.
+   * @param normal_gradient see ImplicitBoundary::normal_gradient() */
+  template <int dim>
+  void
+  add_turn_of_normal(const BoundaryPoint<dim>              &point,
+                     const dealii::SymmetricTensor<2, dim> &normal_gradient,
+                     const double                          *N,
+                     LocalSystem<dim>                      &local);
+
   /** Adds what the mean violation of a piece of a boundary adds to the
    * derivative; its force is in boundary_traction(). */
   template <int dim>

@@ -262,6 +262,23 @@ namespace moraine
       return std::abs(at_end.level(x)) > 2 * radius;
     }
 
+    /** Whether normals depend on where points come to. */
+    bool
+    follows_curve() const
+    {
+      return kind.projects;
+    }
+
+    /**
+     * How the normal at the end of the step changes with the place, there where
+     * @p point comes to by @p du; zero if it is not asked for there
+     * (@f$\nabla n@f$, 1 over the radii of curvature along the surface), by
+     * central differences. At a corner there is none.
+     */
+    dealii::SymmetricTensor<2, dim>
+    normal_gradient(const BoundaryPoint<dim>     &point,
+                    const dealii::Tensor<1, dim> &du) const;
+
     /** What is nearest to @p x on the surface at the start of the step. */
     NearestPoint<dim>
     nearest_at_start(const dealii::Point<dim> &x) const
