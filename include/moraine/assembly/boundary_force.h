@@ -58,7 +58,10 @@ namespace moraine
   /** Adds to the derivative of such a point that its multiplier turns with the
    * normal of a curved wall, @f$-N_a N_b\, (t \cdot n) \nabla n@f$. Of the
    * penalty that is left out: before a step has found its way it is large.
-   * @param normal_gradient see ImplicitBoundary::normal_gradient() */
+   * @param point of the surface, with its multiplier
+   * @param normal_gradient see ImplicitBoundary::normal_gradient()
+   * @param N functions of the nodes there
+   * @param local to which it is added */
   template <int dim>
   void
   add_turn_of_normal(const BoundaryPoint<dim>              &point,
