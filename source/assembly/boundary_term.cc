@@ -253,7 +253,8 @@ namespace moraine
                                tangent,
                                fluxes,
                                local);
-            if (tangent && boundary.follows_curve())
+            if (tangent && boundary.follows_curve() &&
+                points[q].multiplier.norm_square() > 0.)
               add_turn_of_normal(
                 points[q],
                 boundary.normal_gradient(points[q], piece.increment(q).value),

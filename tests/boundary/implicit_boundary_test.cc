@@ -285,6 +285,8 @@ namespace
             std::max(off_turned,
                      boundary.constraint_state(points[q], turned, false)
                        .violation.norm());
+          normal_gradients.push_back(
+            boundary.normal_gradient(points[q], Tensor<1, 2>()));
         }
       length = Utilities::MPI::sum(length, MPI_COMM_WORLD);
     }
@@ -302,6 +304,8 @@ namespace
     double                               off_linear = 0;
     /** Violation after a turn about the centre. */
     double off_turned = 0;
+    /** At the points. */
+    std::vector<SymmetricTensor<2, 2>> normal_gradients;
   };
 } // namespace
 
@@ -321,6 +325,8 @@ TEST(ImplicitBoundary, HoldsTheMeanOfACellUnlessItRunsAlongItsFaces)
       EXPECT_LT(inclined.off_linear, 1e-12);
       for (const auto &point : inclined.points)
         EXPECT_NEAR((point.x - a) * point.normal, 0, 1e-12);
+      for (const auto &gradient : inclined.normal_gradients)
+        EXPECT_EQ(gradient.norm(), 0);
       Places(line(a, b), how, "places").expect(4);
       Places(line(a, c), how).expect(4);
     }
@@ -346,6 +352,17 @@ TEST(ImplicitBoundary, OnACurveARollersMeanGoesAroundFreely)
   EXPECT_LT(in_motion.off_turned, 1e-12);
   EXPECT_GE(Utilities::MPI::sum(in_motion.points.size(), MPI_COMM_WORLD),
             4 * Utilities::MPI::sum(one.points.size(), MPI_COMM_WORLD));
+  // The normal turns by 1/r along the circle, not across it.
+  for (unsigned int q = 0; q < one.points.size(); ++q)
+    {
+      const Tensor<1, 2>          to = one.points[q].x - centre;
+      const double                r  = to.norm();
+      const SymmetricTensor<2, 2> exact =
+        1 / r *
+        (unit_symmetric_tensor<2>() -
+         symmetrize(outer_product(to / r, to / r)));
+      EXPECT_LT((one.normal_gradients[q] - exact).norm(), 1e-6);
+    }
 }
 
 
