@@ -26,7 +26,7 @@ namespace moraine
       if (must_announce != 0)
         {
           static constexpr char text[] =
-            "\nEnding after this step; once more to end at once.\n";
+            "\nEnding with the last accepted step; once more to end at once.\n";
           const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
           static_cast<void>(written);
         }

@@ -33,6 +33,10 @@ namespace moraine
     /** A ghost term that takes more of the work is told of. */
     constexpr double told_ghost_share = 0.01;
 
+    /** The user wants the step under way to be given up. */
+    struct Interruption
+    {};
+
     std::vector<TimeParameters>
     times_of(const NamedStages &stages)
     {
@@ -97,13 +101,30 @@ namespace moraine
         observer->run_resumes(time_control);
     while (!time_control.finished())
       {
-        if (!time_control.between_parts() && interrupted(communicator))
+        if (is_to_end())
           return false;
-        advance();
+        try
+          {
+            advance();
+          }
+        catch (const Interruption &)
+          {
+            undo();
+            return false;
+          }
         if (after_step && !time_control.between_parts())
           after_step();
       }
     return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  StepDriver<dim>::is_to_end() const
+  {
+    return !time_control.between_parts() && interrupted(communicator);
   }
 
 
@@ -115,6 +136,8 @@ namespace moraine
     return [this](const NewtonIteration &iteration) {
       for (RunObserver<dim> *observer : observers)
         observer->newton_iteration(iteration, time_control);
+      if (is_to_end())
+        throw Interruption();
     };
   }
 

@@ -2,7 +2,8 @@
 # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Runs that are killed at random moments and resumed are those never stopped.
+"""Runs that are killed or told to end (SIGTERM) at random moments and resumed are
+those never stopped.
 
 MORAINE_KILLS=50 in the environment kills as often, spread over the scenes."""
 
@@ -78,6 +79,17 @@ def kill(process):
     return True
 
 
+def tell_to_end(process):
+    """By SIGTERM; False if it had ended."""
+    process.terminate()
+    output = process.communicate(timeout=60)[0]
+    if process.returncode == 0:
+        return False
+    # Before it reads its scene nobody listens.
+    assert process.returncode == -signal.SIGTERM or "by the user" in output, output
+    return True
+
+
 def first_words(scene, settings, out):
     words = ["run", str(root / scene), "--output", str(out), "--overwrite"]
     for key, value in settings.items():
@@ -106,7 +118,8 @@ def killed_runs(scene, settings, n, out, seconds, kills, compare):
             wait = moments.uniform(0.1, 0.9) * seconds if kills > 0 else 600
             output = process.communicate(timeout=wait)[0]
         except subprocess.TimeoutExpired:
-            kills -= kill(process)
+            by_signal = n == 1 and moments.random() < 0.5
+            kills -= (tell_to_end if by_signal else kill)(process)
             continue
         assert process.returncode == 0, output
         compare()

@@ -2,9 +2,12 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/interrupt.h>
 #include <moraine/run/step_driver.h>
 
 #include <gtest/gtest.h>
+
+#include <csignal>
 
 namespace moraine
 {
@@ -100,6 +103,14 @@ end
       }
 
       void
+      newton_iteration(const NewtonIteration &,
+                       const TimeControl &time) override
+      {
+        if (time.n_accepted() == interrupts_after)
+          std::raise(SIGTERM);
+      }
+
+      void
       step_rejected(const double, const std::string &) override
       {
         events += "reject ";
@@ -111,7 +122,9 @@ end
       std::vector<double> u;
       unsigned int        n_steps = 0;
       StepDriver<2>      *driver  = nullptr;
-      Archive             accepted; ///< what the driver wrote last
+      /** It does so in the first iteration after that many steps. */
+      unsigned int interrupts_after = numbers::invalid_unsigned_int;
+      Archive      accepted; ///< what the driver wrote last
     };
 
 
@@ -398,6 +411,31 @@ end
         EXPECT_EQ(run.listener.n_steps, 4u);
         EXPECT_EQ(differences(run.archive(), undisturbed.archive()), "");
       }
+  }
+
+
+
+  TEST(StepDriver, a_signal_in_a_step_leaves_the_one_before)
+  {
+    const auto input = InputFile::from_text("scene.prm", carrying_scene_text);
+    RunOfScene undisturbed(input);
+    undisturbed.driver.run();
+
+    RunOfScene run(input);
+    run.listener.driver           = &run.driver;
+    run.listener.interrupts_after = 2;
+    {
+      const InterruptHandler handler(false);
+      EXPECT_FALSE(run.driver.run());
+    }
+    EXPECT_EQ(run.listener.n_steps, 2u);
+    EXPECT_TRUE(run.archive() == run.listener.accepted);
+
+    run.listener.interrupts_after = numbers::invalid_unsigned_int;
+    const InterruptHandler handler(false);
+    EXPECT_TRUE(run.driver.run());
+    EXPECT_EQ(run.listener.n_steps, 4u);
+    EXPECT_EQ(differences(run.archive(), undisturbed.archive()), "");
   }
 
 

@@ -89,7 +89,13 @@ namespace moraine
     void
     begin_next_stage();
 
-    /** Of Newton's method, for the observers. */
+    /** Whether the user wants the run to end where it can: not between the two
+     * parts of a step. Collective. */
+    bool
+    is_to_end() const;
+
+    /** Of Newton's method, for the observers; ends a step that the user gives
+     * up. */
     Newton::Watcher
     tell_of_iteration() const;
 
