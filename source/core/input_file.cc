@@ -250,7 +250,8 @@ namespace moraine
   InputFile
   InputFile::read(const std::string &path)
   {
-    if (std::filesystem::is_directory(path))
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown))
       throw InputError(path + ": cannot be read: it is a directory");
     std::ifstream      file(path);
     std::ostringstream text;

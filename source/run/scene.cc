@@ -183,7 +183,8 @@ namespace moraine
     prm.add_parameter(
       "Type",
       type,
-      "body force (force/volume), gravity (acceleration, times density), side "
+      "body force (force/volume that the material has at the start of a step), "
+      "gravity (acceleration, times density: its mass stays), side "
       "traction (force/area on a side of the mesh), surface traction "
       "(force on a surface carried by the material, a dead load per area of "
       "the undeformed body), point force (force "

@@ -309,12 +309,14 @@ namespace moraine
       summary.status  = status;
       summary.message = message;
       if (summary.steps > 0)
-        for (const std::string &doubt : doubts_of_stress(scene, model))
-          {
-            summary.warnings.push_back(doubt);
-            for (RunObserver<dim> *observer : observers)
-              observer->note(doubt);
-          }
+        for (const auto &doubts :
+             {doubts_of_stress(scene, model), doubts_of_strain(model)})
+          for (const std::string &doubt : doubts)
+            {
+              summary.warnings.push_back(doubt);
+              for (RunObserver<dim> *observer : observers)
+                observer->note(doubt);
+            }
       for (RunObserver<dim> *observer : observers)
         observer->run_ends(summary, driver.counts());
       return summary;

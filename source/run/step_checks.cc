@@ -258,11 +258,13 @@ namespace moraine
         !missed.insert(report.name).second)
       return "";
     std::ostringstream text;
-    text << "boundary '" << report.name << "': the material misses it by "
-         << report.violation << ", "
-         << std::round(100 * report.violation / largest_motion)
-         << " % of the largest motion in the step to t = " << t
-         << "; smaller cells or steps bring it closer";
+    text
+      << "boundary '" << report.name << "': the material misses it by "
+      << report.violation << ", "
+      << std::round(100 * report.violation / largest_motion)
+      << " % of the largest motion in the step to t = " << t
+      << "; smaller cells or steps, or one that ends on faces of cells, bring "
+         "it closer";
     return text.str();
   }
 

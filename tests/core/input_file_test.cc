@@ -255,6 +255,9 @@ TEST(InputFile, UnreadableFiles)
             "/no/such.prm: cannot be read: No such file or directory");
   EXPECT_EQ(message_of<InputError>([] { InputFile::read("/tmp"); }),
             "/tmp: cannot be read: it is a directory");
+  const std::string long_name(300, 'a');
+  EXPECT_EQ(message_of<InputError>([&] { InputFile::read(long_name); }),
+            long_name + ": cannot be read: File name too long");
 }
 
 TEST(Patterns, InWords)

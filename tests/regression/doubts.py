@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A run whose stress shows that its volume locks, that points cross cells or that
-cuts are felt says so, with the key that helps; one that took the key does not."""
+cuts are felt, or that strain is not small, says so, with the key that helps; one
+that took the key does not."""
 
 POINT = {"Method/Volumetric strain": "pointwise"}
 BEARING = {"Mesh/Cell size": 0.25, "Time/Steps": 4}
@@ -72,3 +73,58 @@ idle = run("prm/hard-cases/bearing-fe.prm",
            {**BEARING, "Mesh/Cell size": 0.26, "Mesh/Upper corner": "5.2, 0.26"})
 text("footing above the ground: said",
      "footing: holds no node of a body at the start" in idle.output)
+
+# Small strain where it is none: force over area of the start is no stress where
+# points move.
+PLATE = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 3, 1.5
+  set Cell size    = 0.25
+end
+subsection Materials
+  subsection steel
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection plate
+    set Shape        = box
+    set Lower corner = 0, 0
+    set Upper corner = 2, 1
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side       = left
+    set Components = x
+  end
+  subsection base
+    set Side       = bottom
+    set Components = y
+  end
+end
+subsection Loads
+  subsection pull
+    set Type  = surface traction
+    set Body  = plate
+    set Part  = right
+    set Value = 100 * t; 0
+  end
+end
+subsection Time
+  set Steps = 4
+end
+"""
+plate = folder / "plate.prm"
+plate.write_text(PLATE)
+SMALL = {"Method/Strain": "small", "Method/Method": "GIMP"}
+for name, settings in (
+        ("GIMP", {}), ("FE", {"Method/Method": "finite element"}),
+        ("a third of the load", {"Time/End time": 0.33}),
+        ("points stay", {"Method/Mesh after step": "keep"}),
+        ("finite strain", {"Method/Strain": "finite"})):
+    result = run(plate, {**SMALL, **settings})
+    text(f"plate pulled, small strain, {name}: warnings", "; ".join(
+        warning.split(",")[0] for warning in told(result)) or "none")
