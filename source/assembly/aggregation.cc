@@ -103,11 +103,10 @@ namespace moraine
           if (lines.is_constrained(dof))
             continue;
           lines.add_line(dof);
-          const unsigned int *nodes = space.cell_nodes(tie.root);
           for (unsigned int a = 0; a < tie.weights.size(); ++a)
             if (std::abs(tie.weights[a]) > round_off)
               lines.add_entry(dof,
-                              space.node_dof(nodes[a]) + c,
+                              space.node_dof(tie.nodes[a]) + c,
                               tie.weights[a]);
         }
   }
@@ -137,7 +136,12 @@ namespace moraine
       return false;
     const std::vector<double> scales = scales_of_roots(context);
     for (Held &one : held)
-      one.scale = factor * scales[ties[one.tie].root];
+      {
+        const std::vector<unsigned int> &roots = ties[one.tie].roots;
+        one.scale                              = 0;
+        for (const unsigned int root : roots)
+          one.scale += factor * scales[root] / roots.size();
+      }
     // New ties are told of by the state.
     return false;
   }
@@ -155,7 +159,8 @@ namespace moraine
     // Points of a root may be on another rank than the node.
     std::vector<double> is_root(tria.n_active_cells(), 0.);
     for (const Held &one : held)
-      is_root[state.aggregates()->ties()[one.tie].root] = 1;
+      for (const unsigned int root : state.aggregates()->ties()[one.tie].roots)
+        is_root[root] = 1;
     Utilities::MPI::max(is_root, all_ranks, is_root);
     std::vector<double> scales(is_root.size(), 0.);
     for (const auto &in_cell : points.cells())
@@ -182,15 +187,13 @@ namespace moraine
   GhostTerm<dim>::couple(const StepContext<dim>           &context,
                          const typename Term<dim>::Couple &couple_nodes) const
   {
-    const GridSpace<dim>     &space = context.state.grid();
-    const unsigned int        n     = space.nodes_per_cell();
-    std::vector<unsigned int> nodes(n + 1);
+    std::vector<unsigned int> nodes;
     for (const Held &one : held)
       {
         const Tie &tie = context.state.aggregates()->ties()[one.tie];
-        nodes[0]       = tie.node;
-        std::copy_n(space.cell_nodes(tie.root), n, nodes.begin() + 1);
-        couple_nodes(nodes.data(), n + 1);
+        nodes.assign(1, tie.node);
+        nodes.insert(nodes.end(), tie.nodes.begin(), tie.nodes.end());
+        couple_nodes(nodes.data(), nodes.size());
       }
   }
 
@@ -202,25 +205,26 @@ namespace moraine
                       const bool              tangent,
                       GlobalSystem<dim>      &system) const
   {
-    const GridSpace<dim>     &space = context.state.grid();
-    const unsigned int        n     = space.nodes_per_cell() + 1;
-    const double              rate  = value_by_increment(context);
-    std::vector<unsigned int> nodes(n);
-    std::vector<double>       b(n, 1.); // the distance is b_k q_k
+    const double              rate = value_by_increment(context);
+    std::vector<unsigned int> nodes;
+    std::vector<double>       b; // the distance is b_k q_k
     LocalSystem<dim>          local;
     for (const Held &one : held)
       {
         const Tie &tie = context.state.aggregates()->ties()[one.tie];
-        nodes[0]       = tie.node;
-        std::copy_n(space.cell_nodes(tie.root), n - 1, nodes.begin() + 1);
+        nodes.assign(1, tie.node);
+        b.assign(1, 1.);
+        for (unsigned int k = 0; k < tie.nodes.size(); ++k)
+          {
+            nodes.push_back(tie.nodes[k]);
+            b.push_back(-tie.weights[k]);
+          }
+        const unsigned int n = nodes.size();
         local.reinit(context.state, nodes.data(), n, tangent);
         Tensor<1, dim> distance;
         for (unsigned int k = 0; k < n; ++k)
-          {
-            b[k] = k == 0 ? 1. : -tie.weights[k - 1];
-            distance +=
-              b[k] * value(context, nodes[k], local.nodal_increments[k]);
-          }
+          distance +=
+            b[k] * value(context, nodes[k], local.nodal_increments[k]);
         for (unsigned int c = 0; c < dim; ++c)
           {
             if (system.is_prescribed(local.dofs[c]))

@@ -41,6 +41,34 @@ namespace moraine
 
 
 
+    /** @f$V_g/A_g@f$ of the group of a cell; of k groups of which it has a k-th
+     * each, the inverse of the mean @f$A_g/V_g@f$, as the square of each
+     * @f$A_g \bar v_g@f$ is bounded by itself.
+     * @param sums of cells: volumes, then areas
+     * @param without what to take if no group has an area */
+    template <int dim>
+    double
+    depth_of_groups(const std::vector<typename CellMeans<dim>::Part> &parts,
+                    const std::vector<double>                        &sums,
+                    const double                                      without)
+    {
+      double       inverse  = 0;
+      unsigned int n_groups = 0;
+      for (auto part = parts.begin(); part != parts.end(); ++n_groups)
+        {
+          double volume = 0, area = 0;
+          for (; part != parts.end() && part->group == n_groups; ++part)
+            {
+              volume += part->share * sums[part->cell];
+              area += part->share * sums[sums.size() / 2 + part->cell];
+            }
+          inverse += area / volume;
+        }
+      return inverse > 0 ? n_groups / inverse : without;
+    }
+
+
+
     /** Of the points of this rank, by active_cell_index(). */
     template <int dim>
     std::vector<double>
@@ -144,14 +172,8 @@ namespace moraine
       if (depths_of_means[point.cell] == 0)
         {
           context.state.mean_of_cell(point.cell, parts);
-          double volume = 0, area = 0;
-          for (const auto &part : parts)
-            {
-              volume += sums[part.cell];
-              area += sums[n + part.cell];
-            }
           depths_of_means[point.cell] =
-            std::max(area > 0 ? volume / area : point.h,
+            std::max(depth_of_groups<dim>(parts, sums, point.h),
                      ImplicitBoundary<dim>::smallest_depth * point.h);
         }
   }

@@ -54,7 +54,7 @@ namespace moraine
           add_one(node, weight);
         else
           for (unsigned int a = 0; a < tie->weights.size(); ++a)
-            add_one(space.cell_nodes(tie->root)[a], weight * tie->weights[a]);
+            add_one(tie->nodes[a], weight * tie->weights[a]);
       }
 
     private:

@@ -6,7 +6,6 @@
 #include <moraine/mesh/active_search.h>
 
 #include <limits>
-#include <numeric>
 #include <set>
 
 namespace moraine
@@ -159,13 +158,14 @@ namespace moraine
     std::vector<unsigned char>                       active)
   {
     find_parts(space, points, volume);
-    const std::vector<Tie>          ties_before  = std::move(tied);
-    const std::vector<unsigned int> roots_before = std::move(roots);
+    const std::vector<Tie> ties_before  = std::move(tied);
+    const RootsOfCells     roots_before = std::move(roots);
     group_cells(space);
     ask_for_groups(space, active);
     const auto ask_for_cells = [&] {
       for (const Tie &tie : tied)
-        active[tie.root] = 1;
+        for (const unsigned int root : tie.roots)
+          active[root] = 1;
       return space.set_active_cells(active);
     };
     find_ties(space);
@@ -177,7 +177,7 @@ namespace moraine
         find_ties(space);
       }
     for (const Tie &tie : tied)
-      AssertThrow(space.knows(tie.root), ExcInternalError());
+      AssertThrow(!tie.nodes.empty(), ExcInternalError());
     return new_nodes || !(tied == ties_before) || !(roots == roots_before);
   }
 
@@ -232,10 +232,8 @@ namespace moraine
     rootless.clear();
     if (!any_cut())
       return;
-    const unsigned int          n = space.nodes_per_cell();
-    std::vector<double>         N(n);
-    std::vector<Tensor<1, dim>> grad_N(n);
-    std::vector<bool>           in_cut_cell(space.n_nodes(), false);
+    const unsigned int n = space.nodes_per_cell();
+    std::vector<bool>  in_cut_cell(space.n_nodes(), false);
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (part(cell) == Part::cut && space.knows(cell->active_cell_index()))
@@ -250,23 +248,55 @@ namespace moraine
               return part(cell) == Part::filled;
             }))
           continue;
-        const unsigned int root =
-          find_root(space,
-                    cells,
-                    space.node_position(node) - space.node_move(node));
-        if (root != GridSpace<dim>::no_cell)
+        Tie tie{node,
+                find_roots(space,
+                           cells,
+                           space.node_position(node) - space.node_move(node)),
+                {},
+                {}};
+        if (!tie.roots.empty())
           {
-            // Nodes that move with the material keep their place in the root.
-            if (space.knows(root))
-              evaluate_shapes(space,
-                              root,
-                              space.node_position(node),
-                              N.data(),
-                              grad_N.data());
-            tied.push_back({node, root, N});
+            if (std::all_of(tie.roots.begin(),
+                            tie.roots.end(),
+                            [&space](const auto root) {
+                              return space.knows(root);
+                            }))
+              find_weights(space, tie);
+            tied.push_back(std::move(tie));
           }
         else if (space.locally_owned().is_element(space.node_dof(node)))
           rootless.push_back(node);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Aggregates<dim>::find_weights(const GridSpace<dim> &space, Tie &tie) const
+  {
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<double>         N(n);
+    std::vector<Tensor<1, dim>> grad_N(n);
+    for (const unsigned int root : tie.roots)
+      {
+        // Nodes that move with the material keep their place in the root.
+        evaluate_shapes(
+          space, root, space.node_position(tie.node), N.data(), grad_N.data());
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            const unsigned int node = space.cell_nodes(root)[a];
+            const double       part = N[a] / tie.roots.size();
+            const auto         known =
+              std::find(tie.nodes.begin(), tie.nodes.end(), node);
+            if (known == tie.nodes.end())
+              {
+                tie.nodes.push_back(node);
+                tie.weights.push_back(part);
+              }
+            else
+              tie.weights[known - tie.nodes.begin()] += part;
+          }
       }
   }
 
@@ -279,15 +309,13 @@ namespace moraine
     roots.clear();
     if (!with_groups || !any_cut())
       return;
-    roots.resize(parts.size());
-    std::iota(roots.begin(), roots.end(), 0u);
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (part(cell) == Part::cut)
         {
-          const unsigned int root = find_root(space, {cell}, cell->center());
-          if (root != GridSpace<dim>::no_cell)
-            roots[cell->active_cell_index()] = root;
+          auto nearest = find_roots(space, {cell}, cell->center());
+          if (!nearest.empty())
+            roots[cell->active_cell_index()] = std::move(nearest);
         }
   }
 
@@ -300,59 +328,70 @@ namespace moraine
   {
     if (roots.empty())
       return;
-    std::vector<bool> here(roots.size(), false); // groups, by their roots
+    std::vector<bool> here(active.size(), false); // groups, by their roots
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (const unsigned int c = cell->active_cell_index();
           active[c] != 0 || (cell->is_locally_owned() && space.is_active(cell)))
-        here[roots[c]] = true;
-    for (unsigned int c = 0; c < roots.size(); ++c)
-      if (roots[c] != c && here[roots[c]])
-        active[c] = active[roots[c]] = 1;
+        {
+          if (const auto found = roots.find(c); found == roots.end())
+            here[c] = true;
+          else
+            for (const unsigned int root : found->second)
+              here[root] = true;
+        }
+    for (const auto &[cell, roots_of_cell] : roots)
+      for (const unsigned int root : roots_of_cell)
+        if (here[root])
+          active[cell] = active[root] = 1;
   }
 
 
 
   template <int dim>
-  unsigned int
-  Aggregates<dim>::find_root(const GridSpace<dim>            &space,
-                             const std::vector<CellIterator> &cut_cells,
-                             const Point<dim>                &x) const
+  std::vector<unsigned int>
+  Aggregates<dim>::find_roots(const GridSpace<dim>            &space,
+                              const std::vector<CellIterator> &cut_cells,
+                              const Point<dim>                &x) const
   {
-    unsigned int root = GridSpace<dim>::no_cell;
+    std::vector<std::pair<unsigned int, double>> found; // and distances
     visit_layers(space, cut_cells, [&](const auto &layer) {
-      double nearest = std::numeric_limits<double>::max();
       for (const auto &cell : layer)
         if (part(cell) == Part::filled)
-          {
-            const double gap = distance_to_cell<dim>(cell, x);
-            const double eps = 1e-9 * cell->diameter();
-            // Of equally near ones that with the lowest index, on all ranks.
-            if (gap < nearest - eps ||
-                (gap < nearest + eps && cell->active_cell_index() < root))
-              {
-                nearest = gap;
-                root    = cell->active_cell_index();
-              }
-          }
-      return root != GridSpace<dim>::no_cell;
+          found.emplace_back(cell->active_cell_index(),
+                             distance_to_cell<dim>(cell, x));
+      if (found.empty())
+        return false;
+      double nearest = std::numeric_limits<double>::max();
+      for (const auto &[cell, distance] : found)
+        nearest = std::min(nearest, distance);
+      nearest += 1e-9 * cut_cells.front()->diameter();
+      found.erase(std::remove_if(found.begin(),
+                                 found.end(),
+                                 [nearest](const auto &one) {
+                                   return one.second > nearest;
+                                 }),
+                  found.end());
+      return true;
     });
-    return root;
+    std::vector<unsigned int> cells;
+    for (const auto &[cell, distance] : found)
+      cells.push_back(cell);
+    std::sort(cells.begin(), cells.end());
+    return cells;
   }
 
 
 
   template <int dim>
   Tensor<1, dim>
-  Aggregates<dim>::value_of_root(
-    const GridSpace<dim>              &space,
+  Aggregates<dim>::value_of_roots(
     const Tie                         &tie,
     const std::vector<Tensor<1, dim>> &values) const
   {
-    const unsigned int *nodes = space.cell_nodes(tie.root);
-    Tensor<1, dim>      value;
+    Tensor<1, dim> value;
     for (unsigned int a = 0; a < tie.weights.size(); ++a)
-      value += tie.weights[a] * values[nodes[a]];
+      value += tie.weights[a] * values[tie.nodes[a]];
     return value;
   }
 
@@ -360,21 +399,20 @@ namespace moraine
 
   template <int dim>
   std::vector<double>
-  Aggregates<dim>::shares_of_root(
-    const GridSpace<dim>              &space,
+  Aggregates<dim>::shares_of_roots(
     const Tie                         &tie,
     const std::vector<Tensor<1, dim>> &masses,
     const std::vector<Tensor<1, dim>> &moved) const
   {
-    constexpr double    much  = 0.5;
-    const unsigned int *nodes = space.cell_nodes(tie.root);
+    constexpr double    much = 0.5;
     std::vector<double> shares(tie.weights.size());
     double              sum    = 0;
     bool                is_fit = true;
     for (unsigned int a = 0; a < shares.size(); ++a)
       {
-        is_fit    = is_fit && moved[nodes[a]][0] >= much * masses[nodes[a]][0];
-        shares[a] = std::max(moved[nodes[a]][0], 0.);
+        const unsigned int node = tie.nodes[a];
+        is_fit    = is_fit && moved[node][0] >= much * masses[node][0];
+        shares[a] = std::max(moved[node][0], 0.);
         sum += shares[a];
       }
     if (is_fit)
@@ -394,7 +432,6 @@ namespace moraine
   {
     if (!any_cut())
       return;
-    const unsigned int          n = space.nodes_per_cell();
     std::vector<Tensor<1, dim>> moved(masses), momenta(values.size());
     const auto                  is_mine = [&space](const Tie &tie) {
       return space.locally_owned().is_element(space.node_dof(tie.node));
@@ -404,9 +441,8 @@ namespace moraine
     std::vector<Tensor<1, dim>> taken(values.size());
     for (const Tie &tie : tied)
       if (is_mine(tie))
-        for (unsigned int a = 0; a < n; ++a)
-          taken[space.cell_nodes(tie.root)[a]][0] +=
-            tie.weights[a] * masses[tie.node][0];
+        for (unsigned int a = 0; a < tie.nodes.size(); ++a)
+          taken[tie.nodes[a]][0] += tie.weights[a] * masses[tie.node][0];
     space.sum_over_ranks(taken);
     for (unsigned int node = 0; node < values.size(); ++node)
       moved[node] += taken[node];
@@ -416,18 +452,18 @@ namespace moraine
         {
           const Tensor<1, dim> momentum =
             masses[tie.node][0] *
-            (values[tie.node] - value_of_root(space, tie, values));
+            (values[tie.node] - value_of_roots(tie, values));
           const std::vector<double> shares =
-            shares_of_root(space, tie, masses, moved);
-          for (unsigned int a = 0; a < n; ++a)
-            momenta[space.cell_nodes(tie.root)[a]] += shares[a] * momentum;
+            shares_of_roots(tie, masses, moved);
+          for (unsigned int a = 0; a < tie.nodes.size(); ++a)
+            momenta[tie.nodes[a]] += shares[a] * momentum;
         }
     space.sum_over_ranks(momenta);
     for (unsigned int node = 0; node < values.size(); ++node)
       if (moved[node][0] > 0)
         values[node] += momenta[node] / moved[node][0];
     for (const Tie &tie : tied)
-      values[tie.node] = value_of_root(space, tie, values);
+      values[tie.node] = value_of_roots(tie, values);
   }
 
 

@@ -6,7 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 namespace moraine
 {
@@ -30,10 +30,10 @@ namespace moraine
 
   template <int dim>
   void
-  CellMeans<dim>::update(const GridSpace<dim>            &space,
-                         const Basis<dim>                &basis,
-                         const Volume                    &volume,
-                         const std::vector<unsigned int> &roots)
+  CellMeans<dim>::update(const GridSpace<dim> &space,
+                         const Basis<dim>     &basis,
+                         const Volume         &volume,
+                         const RootsOfCells   &roots)
   {
     cells.clear();
     volumes.clear();
@@ -75,39 +75,42 @@ namespace moraine
 
   template <int dim>
   void
-  CellMeans<dim>::find_groups(const GridSpace<dim>            &space,
-                              const std::vector<unsigned int> &roots)
+  CellMeans<dim>::find_groups(const GridSpace<dim> &space,
+                              const RootsOfCells   &roots)
   {
     groups.clear();
     members.clear();
-    group_of.clear();
-    std::map<unsigned int, std::vector<unsigned int>> followers;
-    for (unsigned int cell = 0; cell < roots.size(); ++cell)
-      if (roots[cell] != cell)
-        followers[roots[cell]].push_back(cell);
-    if (followers.empty())
+    groups_of.clear();
+    std::map<unsigned int, std::vector<Member>> groups_by_root;
+    for (const auto &[cell, roots_of_cell] : roots)
+      for (const unsigned int root : roots_of_cell)
+        groups_by_root.try_emplace(root, 1, Member{root, 1.})
+          .first->second.push_back({cell, 1. / roots_of_cell.size()});
+    if (groups_by_root.empty())
       return;
 
-    std::vector<bool> here(roots.size(), false);
+    std::set<unsigned int> here; // roots
+    const auto             add_roots_of = [&](const unsigned int cell) {
+      if (const auto found = roots.find(cell); found != roots.end())
+        here.insert(found->second.begin(), found->second.end());
+      else
+        here.insert(cell);
+    };
     for (const unsigned int cell : cells)
-      here[roots[cell]] = true;
+      add_roots_of(cell);
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
-        here[roots[cell->active_cell_index()]] = true;
-    group_of.assign(roots.size(), numbers::invalid_unsigned_int);
-    for (const auto &[root, cells_of_group] : followers)
-      if (here[root])
+        add_roots_of(cell->active_cell_index());
+    for (const auto &[root, of_group] : groups_by_root)
+      if (here.count(root) > 0)
         {
           const unsigned int first = members.size();
-          members.push_back(root);
-          members.insert(members.end(),
-                         cells_of_group.begin(),
-                         cells_of_group.end());
-          for (unsigned int i = first; i < members.size(); ++i)
+          for (const Member &member : of_group)
             {
-              group_of[members[i]] = groups.size();
-              number_of(members[i]);
+              groups_of[member.cell].push_back(groups.size());
+              number_of(member.cell);
+              members.push_back(member);
             }
           groups.push_back(
             {first, static_cast<unsigned int>(members.size()), 0.});
@@ -232,7 +235,7 @@ namespace moraine
       return;
     for (Group &group : groups)
       for (unsigned int i = group.first; i < group.end; ++i)
-        group.volume += volumes[numbers_of[members[i]]];
+        group.volume += members[i].share * volumes[numbers_of[members[i].cell]];
     const Batches             before = std::move(batches);
     CellParts<dim>            parts;
     std::vector<unsigned int> nodes;
@@ -277,13 +280,13 @@ namespace moraine
     std::vector<Part>  in_place;
     const unsigned int n_own = own.cells.size();
     for (unsigned int c = 0; c < n_own; ++c)
-      if (std::find(parts.cells.begin(), parts.cells.end(), own.cells[c]) ==
-          parts.cells.end())
-        {
-          of_cell(own.cells[c], in_place);
-          for (const Part &part : in_place)
+      {
+        of_cell(own.cells[c], in_place);
+        for (const Part &part : in_place)
+          if (std::find(parts.cells.begin(), parts.cells.end(), part.cell) ==
+              parts.cells.end())
             parts.cells.push_back(part.cell);
-        }
+      }
     const unsigned int n = parts.cells.size();
     parts.shares.assign(n_points * n, 0.);
     for (unsigned int c = 0; c < n_own; ++c)
@@ -354,19 +357,29 @@ namespace moraine
                           std::vector<Part> &parts) const
   {
     parts.clear();
-    const auto add = [&](const unsigned int of, const double volume) {
-      const unsigned int k = numbers_of[of];
+    const auto add = [&](const Member      &member,
+                         const unsigned int group,
+                         const double       by_volume) {
+      const unsigned int k = numbers_of[member.cell];
       if (k != numbers::invalid_unsigned_int && volumes[k] > 0)
-        parts.push_back({of, volumes[k] / volume, &gradients[k * n_corners]});
+        parts.push_back({member.cell,
+                         group,
+                         member.share,
+                         member.share * volumes[k] * by_volume,
+                         &gradients[k * n_corners]});
     };
-    if (is_grouped(cell))
+    if (const auto own = groups_of.find(cell); own != groups_of.end())
       {
-        const Group &group = groups[group_of[cell]];
-        for (unsigned int i = group.first; i < group.end; ++i)
-          add(members[i], group.volume);
+        const unsigned int n = own->second.size();
+        for (unsigned int g = 0; g < n; ++g)
+          {
+            const Group &group = groups[own->second[g]];
+            for (unsigned int i = group.first; i < group.end; ++i)
+              add(members[i], g, 1. / (n * group.volume));
+          }
       }
     else if (numbers_of[cell] != numbers::invalid_unsigned_int)
-      add(cell, volumes[numbers_of[cell]]);
+      add({cell, 1.}, 0, 1. / volumes[numbers_of[cell]]);
   }
 
 

@@ -191,8 +191,7 @@ namespace moraine
         [this](const auto &block, const unsigned int i) {
           return volume_in_cell(block, i);
         },
-        cell_aggregates ? cell_aggregates->roots_of_cells() :
-                          std::vector<unsigned int>());
+        cell_aggregates ? cell_aggregates->roots_of_cells() : RootsOfCells());
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace moraine
@@ -24,6 +25,10 @@ namespace moraine
   vertices_in_bulk(const GridSpace<dim>      &space,
                    const std::vector<double> &filled);
 
+  /** By active_cell_index() of cells that have some: the filled cells that they
+   * are counted with. */
+  using RootsOfCells = std::map<unsigned int, std::vector<unsigned int>>;
+
   /**
    * Which nodes have too little material around to be free, and which cells
    * they follow: the aggregates of Badia, Verdugo, Martin 2018
@@ -33,7 +38,8 @@ namespace moraine
    * around, so that a thin part has filled cells, too. A node of active cells
    * none of which is filled follows its *root*, the nearest filled cell: its
    * value is that of the root's functions, continued to the node. We tie nodes
-   * one by one to the cell nearest to each, not cells to cells.
+   * one by one to the cell nearest to each, not cells to cells, and to the mean
+   * of those that are equally near, so that what is symmetric stays so.
    *
    * Roots are sought over active cells only, so that nothing is tied across a
    * gap, and at most three cells away, because continued functions grow with
@@ -46,14 +52,17 @@ namespace moraine
     struct Tie
     {
       unsigned int node; ///< of this rank
-      unsigned int root; ///< active_cell_index() of a cell this rank knows
-      std::vector<double> weights; ///< @f$N_a(x)@f$ of the nodes of the root
+      /** active_cell_index() of cells this rank knows, in order: one, or those
+       * that are equally near. */
+      std::vector<unsigned int> roots;
+      std::vector<unsigned int> nodes;   ///< of all the roots
+      std::vector<double>       weights; ///< of each the mean @f$N_a(x)@f$
 
       bool
       operator==(const Tie &other) const
       {
-        return node == other.node && root == other.root &&
-               weights == other.weights;
+        return node == other.node && roots == other.roots &&
+               nodes == other.nodes && weights == other.weights;
       }
     };
 
@@ -84,10 +93,10 @@ namespace moraine
       return tied;
     }
 
-    /** By active_cell_index(): the filled cell nearest to the middle of a cut
-     * cell, in the reach of ties; of any other cell the cell itself. The same
-     * on all ranks; empty if cells are not grouped or no cell is cut. */
-    const std::vector<unsigned int> &
+    /** Of cut cells: the filled cell nearest to their middle, in the reach of
+     * ties, or those that are equally near. The same on all ranks; empty if
+     * cells are not grouped. */
+    const RootsOfCells &
     roots_of_cells() const
     {
       return roots;
@@ -143,27 +152,29 @@ namespace moraine
       return parts[cell->active_cell_index()];
     }
 
-    /** The filled cell nearest to @p x around cut cells, which all meet there;
-     * no_cell if there is none. */
-    unsigned int
-    find_root(const GridSpace<dim>            &space,
-              const std::vector<CellIterator> &cut_cells,
-              const dealii::Point<dim>        &x) const;
+    /** The filled cells nearest to @p x around cut cells, which all meet there,
+     * in the order of their indices. */
+    std::vector<unsigned int>
+    find_roots(const GridSpace<dim>            &space,
+               const std::vector<CellIterator> &cut_cells,
+               const dealii::Point<dim>        &x) const;
 
-    /** The value of the root of a tie at its node. */
+    /** The nodes and weights of a tie whose roots this rank knows. */
+    void
+    find_weights(const GridSpace<dim> &space, Tie &tie) const;
+
+    /** The value of the roots of a tie at its node. */
     dealii::Tensor<1, dim>
-    value_of_root(const GridSpace<dim>                      &space,
-                  const Tie                                 &tie,
-                  const std::vector<dealii::Tensor<1, dim>> &values) const;
+    value_of_roots(const Tie                                 &tie,
+                   const std::vector<dealii::Tensor<1, dim>> &values) const;
 
-    /** How the nodes of the root share what a tied node hands over: by its
+    /** How the nodes of the roots share what a tied node hands over: by its
      * weights, which keeps the moment, unless a node is too light for that;
      * then alike, by the masses @p moved with them. */
     std::vector<double>
-    shares_of_root(const GridSpace<dim>                      &space,
-                   const Tie                                 &tie,
-                   const std::vector<dealii::Tensor<1, dim>> &masses,
-                   const std::vector<dealii::Tensor<1, dim>> &moved) const;
+    shares_of_roots(const Tie                                 &tie,
+                    const std::vector<dealii::Tensor<1, dim>> &masses,
+                    const std::vector<dealii::Tensor<1, dim>> &moved) const;
 
     /** Whether any cell of the mesh is cut. */
     bool
@@ -176,7 +187,7 @@ namespace moraine
     const bool                with_groups;
     std::vector<Part>         parts; ///< of all cells, the same on all ranks
     std::vector<Tie>          tied;
-    std::vector<unsigned int> roots;
+    RootsOfCells              roots;
     std::vector<unsigned int> rootless;
   };
 } // namespace moraine

@@ -5,8 +5,10 @@
 #define moraine_state_cell_means_h
 
 #include <moraine/basis/basis.h>
+#include <moraine/state/aggregates.h>
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace moraine
@@ -26,7 +28,9 @@ namespace moraine
    * b_{ca}@f$: there are no more means than cells whose nodes are free, so that
    * a cut does not lock. Where a point has a part @f$s_{pc}@f$ in cells of a
    * group, the cells of the group take its place with
-   * @f$s_{pc'} = (V_{c'} / V_g) \sum_{c \in g} s_{pc}@f$.
+   * @f$s_{pc'} = (V_{c'} / V_g) \sum_{c \in g} s_{pc}@f$. A cell with k roots
+   * is in all their groups, with a share of 1/k of its volume and of its
+   * points: above, @f$V_c@f$ and @f$s_{pc}@f$ are those shares then.
    */
   template <int dim>
   class CellMeans
@@ -38,24 +42,25 @@ namespace moraine
     using Volume =
       std::function<double(const StencilBlock<dim> &, const unsigned int i)>;
 
-    /** A cell, with what part it counts in the mean of its group, and
-     * @f$b_{ca}@f$ [1/length] of its corners. */
+    /** A cell that counts in the mean of another or in its own. */
     struct Part
     {
-      unsigned int                  cell; ///< active_cell_index()
-      double                        weight;
-      const dealii::Tensor<1, dim> *gradients;
+      unsigned int                  cell;  ///< active_cell_index()
+      unsigned int                  group; ///< among those of the other, from 0
+      double                        share; ///< of this cell in that group
+      double                        weight;    ///< in the mean
+      const dealii::Tensor<1, dim> *gradients; ///< @f$b_{ca}@f$ [1/length]
     };
 
     /** Of the points as @p basis has batched them; @p roots are those of cells
-     * by active_cell_index(), of each group the same, and may be empty. This
+     * that have some. This
      * rank knows the cells of groups of which it owns or touches one.
      * Collective. */
     void
-    update(const GridSpace<dim>            &space,
-           const Basis<dim>                &basis,
-           const Volume                    &volume,
-           const std::vector<unsigned int> &roots);
+    update(const GridSpace<dim> &space,
+           const Basis<dim>     &basis,
+           const Volume         &volume,
+           const RootsOfCells   &roots);
 
     /** Give a block of the batch @p batch, as it was in update(), its means,
      * and the nodes that they have and the block has not. */
@@ -74,6 +79,12 @@ namespace moraine
             std::vector<Part> &parts) const;
 
   private:
+    struct Member
+    {
+      unsigned int cell;
+      double       share;
+    };
+
     struct Group
     {
       unsigned int first; ///< in members
@@ -111,14 +122,12 @@ namespace moraine
 
     /** Groups of which this rank owns or touches a cell. */
     void
-    find_groups(const GridSpace<dim>            &space,
-                const std::vector<unsigned int> &roots);
+    find_groups(const GridSpace<dim> &space, const RootsOfCells &roots);
 
     bool
     is_grouped(const unsigned int cell) const
     {
-      return !group_of.empty() &&
-             group_of[cell] != dealii::numbers::invalid_unsigned_int;
+      return groups_of.count(cell) > 0;
     }
 
     /** Add what all ranks have, of cells that more than one of them touches. */
@@ -141,10 +150,11 @@ namespace moraine
                 std::vector<unsigned int> &nodes,
                 CellParts<dim>            &parts) const;
 
-    Batches                             batches;
-    std::vector<Group>                  groups;
-    std::vector<unsigned int>           members;    ///< cells of groups
-    std::vector<unsigned int>           group_of;   ///< by active_cell_index()
+    Batches             batches;
+    std::vector<Group>  groups;
+    std::vector<Member> members; ///< of groups
+    /** Numbers of the groups of cells that have some. */
+    std::map<unsigned int, std::vector<unsigned int>> groups_of;
     std::vector<unsigned int>           cells;      ///< active_cell_index()
     std::vector<unsigned int>           numbers_of; ///< by active_cell_index()
     std::vector<double>                 volumes;
