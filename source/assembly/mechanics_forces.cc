@@ -33,11 +33,12 @@ namespace moraine
 
   template <int dim>
   LA::Vector
-  MechanicsSystem<dim>::constraint_forces(const std::string &name)
+  MechanicsSystem<dim>::constraint_forces(const std::string &name,
+                                          const LA::Vector  &x)
   {
     LA::Vector result = state.grid().vector();
     set_target(context.t_start);
-    assemble(result, false);
+    assemble(x, false);
     constraints.hand_over_ties(unbalanced);
     sums.begin(false);
     for (const auto &term : terms)
@@ -330,9 +331,11 @@ namespace moraine
 
 
   template LA::Vector
-  MechanicsSystem<2>::constraint_forces(const std::string &name);
+  MechanicsSystem<2>::constraint_forces(const std::string &,
+                                        const LA::Vector &);
   template LA::Vector
-  MechanicsSystem<3>::constraint_forces(const std::string &name);
+  MechanicsSystem<3>::constraint_forces(const std::string &,
+                                        const LA::Vector &);
   template double
   MechanicsSystem<2>::hold(const std::string &name, const LA::Vector &held);
   template double

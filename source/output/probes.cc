@@ -110,7 +110,10 @@ namespace moraine
                   one.location.end(),
                   probe.start.begin_raw());
         if (probe.follows_point())
-          choose_point(probe.start, points, probe);
+          {
+            choose_point(probe.start, points, probe);
+            probe.body = body_of(probe.point_id, points);
+          }
         probes.push_back(std::move(probe));
       }
   }
@@ -212,6 +215,23 @@ namespace moraine
                            "where there is no material, allowed with 'Kind = "
                            "interpolated': a place on a body");
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Probes<dim>::tell_of_absent(const PointSet<dim>            &points,
+                              const std::vector<std::string> &body_names,
+                              std::vector<std::string>       &notes) const
+  {
+    for (const Probe &probe : probes)
+      if (probe.follows_point() && !is_there(probe.body, points))
+        notes.push_back(
+          "probe '" + probe.parameters.name + "' follows a point of body '" +
+          body_names[probe.body] +
+          "', which is not there, and shows zeros; another 'Location' finds "
+          "another point, and 'Kind = interpolated' what is there");
   }
 
 

@@ -15,6 +15,7 @@
 #include <iomanip>
 #include <limits>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace moraine
@@ -472,8 +473,56 @@ namespace moraine
           notes.push_back(
             boundary.name() + ": it ends inside cells and holds all of them, " +
             std::to_string(std::lround(100 * past)) +
-            " % more than was drawn; forces on it come out larger by that or "
-            "more; let it end on faces of cells, or take smaller ones");
+            " % more than was drawn; forces on it come out larger, mostly by "
+            "about that; let it end on faces of cells, or take smaller ones");
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  tell_of_nodes_off_bodies(const std::vector<GridCondition<dim>> &conditions,
+                           const Model<dim>                      &model,
+                           const double                           t,
+                           std::vector<std::string>              &notes)
+  {
+    if (!are_drawn(model.bodies))
+      return;
+    const GridSpace<dim> &space    = *model.space;
+    const auto            is_at_it = [&](const Point<dim> &x) {
+      for (const unsigned int corner : GeometryInfo<dim>::vertex_indices())
+        {
+          Tensor<1, dim> way;
+          for (unsigned int d = 0; d < dim; ++d)
+            way[d] = ((corner >> d) & 1 ? told_gap : -told_gap) *
+                     model.mesh->cell_size();
+          if (in_a_body(x + way, model))
+            return true;
+        }
+      return false;
+    };
+    std::vector<std::set<unsigned int>> nodes(conditions.size());
+    for (const auto &entry :
+         find_prescribed_nodes(conditions, space, t).entries)
+      if (space.locally_owned().is_element(space.node_dof(entry.node)))
+        nodes[entry.condition].insert(entry.node);
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      {
+        std::vector<unsigned int> n(2, 0); // off bodies, all
+        for (const unsigned int node : nodes[c])
+          {
+            n[0] += !is_at_it(space.node_position(node));
+            ++n[1];
+          }
+        Utilities::MPI::sum(n, space.communicator(), n);
+        if (2 * n[0] > n[1])
+          notes.push_back(
+            conditions[c].name + ": " + std::to_string(n[0]) + " of the " +
+            std::to_string(n[1]) +
+            " nodes that it holds are off the bodies, which end before these "
+            "and are held as if they went on to there; let them end on faces "
+            "of cells, or hold their rim in section 'Boundaries'");
       }
   }
 
@@ -494,7 +543,12 @@ namespace moraine
   template void tell_of_ends(const StageParameters &,                     \
                              const std::vector<std::string> &,            \
                              const Model<dim> &,                          \
-                             std::vector<std::string> &);
+                             std::vector<std::string> &);                 \
+  template void tell_of_nodes_off_bodies(                                 \
+    const std::vector<GridCondition<dim>> &,                              \
+    const Model<dim> &,                                                   \
+    const double,                                                         \
+    std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

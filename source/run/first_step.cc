@@ -21,6 +21,7 @@
 #include <moraine/run/scene_conditions.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>
+#include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -71,10 +72,12 @@ namespace moraine
      * A motion without a value at the end of a step is found here, before
      * anything is computed or written; so are conditions that contradict each
      * other, and a surface without a level at a body.
+     * @param first whether bodies are where they were drawn
      */
     template <int dim>
     void
     check_prescribed_motion(const StageParameters    &stage,
+                            const bool                first,
                             Model<dim>               &model,
                             std::vector<std::string> &notes)
     {
@@ -90,6 +93,8 @@ namespace moraine
       check_agreement(
         active, *model.space, time.start_time, time.end_time, time.n_steps);
       note_idle_conditions(active, *model.space, time.start_time, notes);
+      if (first)
+        tell_of_nodes_off_bodies(active, model, time.start_time, notes);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
@@ -350,6 +355,29 @@ namespace moraine
 
 
 
+    /**
+     * The displacement from the places of an accepted step to equilibrium in
+     * these: small strain has found it before points moved, and what holds
+     * forces of another place would let go of the difference for good.
+     * In a step of the stage @p before that has begun; 0 with inertia.
+     */
+    template <int dim>
+    LA::Vector
+    to_equilibrium(const Scene<dim>      &scene,
+                   const StageParameters &before,
+                   Model<dim>            &model)
+    {
+      LA::Vector x = model.space->vector();
+      if (before.time.integrator.dynamic())
+        return x;
+      model.system->set_target(model.system->step_context().t_start);
+      const NewtonReport report =
+        Newton(scene.newton).solve(*model.system, *model.linear_solver, x);
+      return report.converged() ? x : model.space->vector();
+    }
+
+
+
     /** How far an initial stress is from equilibrium, in a step that has begun.
      */
     template <int dim>
@@ -416,7 +444,7 @@ namespace moraine
     system.begin_step(scene.start_time());
     check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
-    check_prescribed_motion(stage, model, notes);
+    check_prescribed_motion(stage, true, model, notes);
     check_displacements_at_start(scene, model);
     check_loads(stage, model, notes);
     tell_of_loads_outside(model, notes);
@@ -427,6 +455,7 @@ namespace moraine
     tell_of_near_bodies(model, {}, notes);
     tell_of_narrow_gaps(model, {}, notes);
     tell_of_boundaries(scene, model, notes);
+    model.probes->tell_of_absent(*model.points, model.body_names, notes);
     model.probes->check_places(
       grid_evaluation<dim>(*model.space, model.state->nodal_increments()),
       model.points->exchanged());
@@ -458,9 +487,14 @@ namespace moraine
     // What absorbs from now on holds what it held so far.
     system.begin_step(t);
     std::vector<std::pair<std::string, LA::Vector>> held;
+    LA::Vector                                      x;
     for (const std::string &name : stage.absorbing)
       if (!contains(before.absorbing, name))
-        held.emplace_back(name, system.constraint_forces(name));
+        {
+          if (held.empty())
+            x = to_equilibrium(scene, before, model);
+          held.emplace_back(name, system.constraint_forces(name, x));
+        }
 
     std::vector<std::string> notes;
     if (stage.bodies != before.bodies)
@@ -499,8 +533,10 @@ namespace moraine
         model.probes->reset_displacements(*model.points);
         model.points->reset_displacements();
       }
+    if (stage.bodies != before.bodies)
+      model.probes->tell_of_absent(*model.points, model.body_names, notes);
     check_places_of_boundaries(stage, model);
-    check_prescribed_motion(stage, model, notes);
+    check_prescribed_motion(stage, false, model, notes);
     check_loads(stage, model, notes);
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);

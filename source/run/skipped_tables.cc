@@ -44,6 +44,9 @@ namespace moraine
         }
       return "";
     }
+
+
+
     /** Of steps as they are planned: the first that turns by half a circle or
      * more, which only its two ends cannot tell from less, in words; or "". */
     std::string
@@ -67,6 +70,73 @@ namespace moraine
         }
       return "";
     }
+
+
+
+    /** Whether a curve has one value throughout the run, at the ends of steps
+     * as they are planned and in rows. */
+    template <int dim>
+    bool
+    is_constant(const TimeCurve &curve, const Scene<dim> &scene)
+    {
+      const double first = curve.value(scene.start_time());
+      for (const auto &[name, stage] : scene.stages)
+        {
+          const TimeParameters &time = stage.time;
+          const double size = (time.end_time - time.start_time) / time.n_steps;
+          for (unsigned int step = 1; step <= time.n_steps; ++step)
+            if (curve.value(time.start_time + step * size) != first)
+              return false;
+        }
+      return std::none_of(curve.rows().begin(),
+                          curve.rows().end(),
+                          [&](const auto &row) {
+                            return row.first > scene.start_time() &&
+                                   row.first < scene.end_time() &&
+                                   row.second != first;
+                          });
+    }
+
+
+
+    /** What does nothing though it has a value. */
+    template <int dim>
+    void
+    tell_of_constants(const Scene<dim> &scene, std::vector<std::string> &notes)
+    {
+      for (const auto &[name, load] : scene.loads)
+        if (!load.curve.empty())
+          if (const TimeCurve curve(load.curve, name);
+              curve.value(scene.start_time()) == 0 && is_constant(curve, scene))
+            notes.push_back("load " + name +
+                            ": its 'Curve' is 0 from the start of the run to "
+                            "its end");
+      const auto check = [&](const std::string           &name,
+                             const MotionParameters<dim> &motion,
+                             const std::string           &what) {
+        std::vector<TimeCurve> curves;
+        if (!motion.translation.empty())
+          curves = time_curves(motion.translation, name, dim);
+        if (!motion.rotation_angle.empty())
+          curves.emplace_back(motion.rotation_angle, name);
+        bool moves = false, is_zero = true;
+        for (const TimeCurve &curve : curves)
+          {
+            moves   = moves || !is_constant(curve, scene);
+            is_zero = is_zero && curve.value(scene.start_time()) == 0;
+          }
+        if (!moves && !is_zero)
+          notes.push_back(
+            name +
+            ": its motion is the same from the start of the run to its "
+            "end, and only what changes over time moves " +
+            what + "; -0.1*t reaches -0.1 at t = 1");
+      };
+      for (const auto &[name, boundary] : scene.boundaries)
+        check(name, boundary.motion, "material; it places the surface");
+      for (const auto &[name, condition] : scene.grid_conditions)
+        check(name, condition.motion, "nodes");
+    }
   } // namespace
 
 
@@ -77,6 +147,8 @@ namespace moraine
                          const StageParameters    &stage,
                          std::vector<std::string> &notes)
   {
+    if (&stage == &scene.stages.front().second)
+      tell_of_constants(scene, notes);
     const TimeParameters &time = stage.time;
     const auto check = [&](const std::string &name, const TimeCurve &curve) {
       const std::string row =

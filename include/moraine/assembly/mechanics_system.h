@@ -66,10 +66,11 @@ namespace moraine
       sums.clear();
     }
 
-    /** The forces by which the constraint @p name holds the nodes in the
-     * committed state, in a step that has begun. Collective. */
+    /** The forces by which the constraint @p name holds the nodes, moved by
+     * @p x from the committed state, at the start of a step that has begun.
+     * Collective. */
     LA::Vector
-    constraint_forces(const std::string &name);
+    constraint_forces(const std::string &name, const LA::Vector &x);
 
     /** Let the absorbing surface @p name hold @p forces; see Term::hold().
      * @return what it cannot hold, as a fraction. Collective. */

@@ -78,6 +78,16 @@ namespace moraine
     check_places(const PlaceFunction<dim> &on_material,
                  const bool                bodies_are_away = false) const;
 
+    /** Add to @p notes which probes follow points of bodies that are not there.
+     * Collective.
+     * @param points those that are there
+     * @param body_names by number
+     * @param notes what is told */
+    void
+    tell_of_absent(const PointSet<dim>            &points,
+                   const std::vector<std::string> &body_names,
+                   std::vector<std::string>       &notes) const;
+
     /** Whether there are interpolated probes, which try_step() moves. */
     bool
     any_interpolated() const;

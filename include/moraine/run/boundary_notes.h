@@ -59,6 +59,19 @@ namespace moraine
                const std::vector<std::string> &known,
                const Model<dim>               &model,
                std::vector<std::string>       &notes);
+
+  /**
+   * Add to @p notes which of @p conditions hold nodes of which most are further
+   * from the bodies, as they were drawn, than a tenth of a cell: these do not
+   * reach what holds them, but their cells do. In a step that has begun, where
+   * the bodies are as they were drawn, at @p t. Collective.
+   */
+  template <int dim>
+  void
+  tell_of_nodes_off_bodies(const std::vector<GridCondition<dim>> &conditions,
+                           const Model<dim>                      &model,
+                           const double                           t,
+                           std::vector<std::string>              &notes);
 } // namespace moraine
 
 #endif
