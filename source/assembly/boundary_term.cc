@@ -127,7 +127,8 @@ namespace moraine
                         moves_points,
                         context.state.strain_measure(),
                         context.cells_moved,
-                        context.motion != nullptr,
+                        context.motion != nullptr &&
+                          context.motion->integrator().start_forces() == 0,
                         covers);
     // A form that is not definite feeds what one step leaves to the next: in
     // vibrations, and as points move. Elsewhere the larger factor costs

@@ -51,8 +51,8 @@ namespace moraine
       "it, unless it runs along the faces of the cell. places: the places that "
       "integrate exactly; cells of degree 1 that the surface cuts at an angle "
       "lock then with all but Nitsche's method. auto: mean, but places with "
-      "Nitsche's method, with degree 2 and, in dynamics, for a roller on a "
-      "curve.",
+      "Nitsche's method, with degree 2 and, in dynamics but by "
+      "generalised-alpha, for a roller on a curve.",
       Patterns::Selection("auto|mean|places"));
   }
 

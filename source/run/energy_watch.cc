@@ -18,8 +18,12 @@ namespace moraine
     /** And this is no error that can be lived with. */
     constexpr double most_allowed = 100;
 
-    /** What boundaries that hold or transfers make is told of. */
-    constexpr double told_share = 0.2;
+    /** What boundaries that hold or transfers make is told of, when it has been
+     * more in so many steps in a row without falling behind what is given: a
+     * motion that begins from rest has next to none at first. */
+    constexpr double       told_share   = 0.2;
+    constexpr unsigned int told_in_row  = 5;
+    constexpr double       falls_behind = 0.7;
   } // namespace
 
 
@@ -91,7 +95,20 @@ namespace moraine
   EnergyWatch::warning()
   {
     const double made = std::max(made_by_boundaries(), -works.lost_in_transfer);
-    if (told || total <= round_off || !(made > told_share * given))
+    if (told)
+      return "";
+    const double share = total > round_off ? made / given : 0.;
+    if (!(share > told_share))
+      {
+        in_a_row = 0;
+        return "";
+      }
+    if (in_a_row == 0 || share < falls_behind * share_at_first)
+      {
+        in_a_row       = 0;
+        share_at_first = share;
+      }
+    if (++in_a_row < told_in_row)
       return "";
     told = true;
     std::ostringstream text;
@@ -130,6 +147,8 @@ namespace moraine
     archive.write("checks/energy/moved", moved, "force length");
     archive.write("checks/energy/grows_since", grows_since, "time");
     archive.write("checks/energy/told", told ? 1u : 0u);
+    archive.write("checks/energy/steps_in_a_row", in_a_row);
+    archive.write("checks/energy/share_at_first", share_at_first);
   }
 
 
@@ -137,10 +156,12 @@ namespace moraine
   void
   EnergyWatch::read(const Archive &archive)
   {
-    given       = archive.number("checks/energy/given");
-    moved       = archive.number("checks/energy/moved");
-    grows_since = archive.number("checks/energy/grows_since");
-    told        = archive.integer("checks/energy/told") != 0;
-    total       = 0;
+    given          = archive.number("checks/energy/given");
+    moved          = archive.number("checks/energy/moved");
+    grows_since    = archive.number("checks/energy/grows_since");
+    told           = archive.integer("checks/energy/told") != 0;
+    in_a_row       = archive.integer("checks/energy/steps_in_a_row");
+    share_at_first = archive.number("checks/energy/share_at_first");
+    total          = 0;
   }
 } // namespace moraine

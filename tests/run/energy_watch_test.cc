@@ -49,17 +49,39 @@ namespace moraine
 
   TEST(EnergyWatch, what_boundaries_or_transfers_make_is_told_of_once)
   {
+    const auto after = [](EnergyWatch &watch, const Works &works) {
+      watch.count(works, 0, 1);
+      return watch.warning();
+    };
     EnergyWatch held(0), carried(0);
-    held.count(works_of(3.5, 0.7), 0, 1);
-    EXPECT_EQ(held.warning(), "");
-    held.count(works_of(4, 0.9), 0, 2);
-    EXPECT_NE(held.warning().find("boundaries that hold"), std::string::npos);
-    held.count(works_of(5, 2), 0, 3);
-    EXPECT_EQ(held.warning(), "");
+    EXPECT_EQ(after(held, works_of(3.5, 0.7)), "");
+    for (unsigned int step = 1; step < 5; ++step)
+      EXPECT_EQ(after(held, works_of(4, 0.9)), "");
+    EXPECT_NE(after(held, works_of(4, 0.9)).find("boundaries that hold"),
+              std::string::npos);
+    EXPECT_EQ(after(held, works_of(5, 2)), "");
     Works works            = works_of(4);
     works.lost_in_transfer = -0.9;
-    carried.count(works, 0, 1);
-    EXPECT_NE(carried.warning().find("carrying velocities"), std::string::npos);
+    for (unsigned int step = 1; step < 5; ++step)
+      EXPECT_EQ(after(carried, works), "");
+    EXPECT_NE(after(carried, works).find("carrying velocities"),
+              std::string::npos);
+  }
+
+
+
+  /** Of a motion from rest, which is small at first. */
+  TEST(EnergyWatch, what_falls_behind_what_is_given_is_not_told_of)
+  {
+    EnergyWatch watch(0);
+    Works       works;
+    for (unsigned int step = 1; step < 10; ++step)
+      {
+        works.kinetic                                   = step * step;
+        works.of_forces[unsigned(WorkKind::boundaries)] = step * step + 0.5;
+        watch.count(works, 2 * step - 1, step);
+        EXPECT_EQ(watch.warning(), "");
+      }
   }
 
 

@@ -59,8 +59,10 @@ namespace moraine
 
     /**
      * Means by default, but not with Nitsche's method and cells of degree 2,
-     * which do not lock, nor of a roller on a curve in dynamics, as vibrations
-     * feed on the turning normal of a single place.
+     * which do not lock, nor of a roller on a curve in dynamics by forces of a
+     * step alone (@p in_motion): places lose less of what slides along it. With
+     * forces of the start of a step, as in generalised-alpha, what multipliers
+     * of places do to each other lasts, and feeds vibrations as normals turn.
      */
     bool
     holds_means(const unsigned int degree,

@@ -158,7 +158,7 @@ namespace moraine
      * cells_changed says that pieces must be found again even if the surface
      * stands still.
      *
-     * @p in_motion says that it is dynamics; see
+     * @p in_motion says that it is dynamics by forces of this step alone; see
      * Enforcement::holds_means().
      *
      * Where @p covers finds no body behind a part of the surface in a cell,

@@ -55,7 +55,8 @@ namespace moraine
     }
 
     /** That boundaries that hold, or transfers between nodes and points, have
-     * made more than a fifth of what was given, once; or "". */
+     * made more than a fifth of what was given in five steps in a row, and no
+     * less and less of it; once; or "". To be asked after each count(). */
     std::string
     warning();
 
@@ -80,13 +81,15 @@ namespace moraine
     cause() const;
 
     const double      round_off;
-    const std::string of_method;       ///< the end of a sentence of remedies
-    double            given       = 0; ///< G [force length]
-    double            moved       = 0; ///< W_moved [force length]
-    double            total       = 0; ///< T + E + D [force length]
-    double            grows_since = 0; ///< total > 4 G
-    bool              starts_anew = false;
-    bool              told        = false; ///< by warning()
+    const std::string of_method;          ///< the end of a sentence of remedies
+    double            given          = 0; ///< G [force length]
+    double            moved          = 0; ///< W_moved [force length]
+    double            total          = 0; ///< T + E + D [force length]
+    double            grows_since    = 0; ///< total > 4 G
+    bool              starts_anew    = false;
+    bool              told           = false; ///< by warning()
+    unsigned int      in_a_row       = 0;     ///< steps with much without work
+    double            share_at_first = 0; ///< of what was given, in the first
     Works             works;
     double            time = 0;
   };
