@@ -75,10 +75,11 @@ namespace moraine
     const double made        = -works.out_of_balance();
     const double transferred = -works.lost_in_transfer;
     if (held >= std::max(made, transferred))
-      return "It comes from boundaries that hold: shorter steps, an "
-             "'Enforcement' that they do not have ('symmetric Nitsche', "
-             "'augmented Lagrangian', 'penalty') or, with Nitsche's methods, "
-             "a larger 'Nitsche factor'" +
+      return "It comes from boundaries that hold: shorter steps, what they do "
+             "not have yet of 'Integrator = generalised-alpha' and "
+             "'Enforcement' ('symmetric Nitsche', 'augmented Lagrangian', "
+             "'penalty') or, with Nitsche's methods, a larger 'Nitsche "
+             "factor'" +
              of_method;
     if (made >= transferred)
       return "It comes from the integrator: shorter steps, or 'Integrator = "

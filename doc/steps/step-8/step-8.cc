@@ -247,16 +247,18 @@ settle(const std::vector<GridCondition<dim>> &conditions,
 // From now on points have inertia, and the rock is compliant. Dashpots hold
 // nothing that is at rest, so the forces by which the rock held the embankment
 // become tractions on its base, which stay. We ask for them while the fixed
-// base is there, and hand them to the one that takes its place.
+// base is there, where the points are (no displacement from there), and hand
+// them to the one that takes its place.
 void
-release(AbsorbingBoundary<dim> &compliant_rock,
+release(const GridSpace<dim>   &space,
+        AbsorbingBoundary<dim> &compliant_rock,
         Loads<dim>             &weight,
         Motion<dim>            &motion,
         PointSet<dim>          &points,
         MechanicsSystem<dim>   &system)
 {
   system.begin_step(0);
-  const LA::Vector held = system.constraint_forces("rock");
+  const LA::Vector held = system.constraint_forces("rock", space.vector());
 
   std::vector<ImplicitBoundary<dim>> no_boundaries;
   Terms<dim>                         terms =
@@ -360,7 +362,7 @@ main(int argc, char **argv)
 
   MechanicsSystem<dim> system(state, {}, {"embankment"});
   settle(fixed_rock, weight, crest, system);
-  release(compliant_rock, weight, motion, points, system);
+  release(space, compliant_rock, weight, motion, points, system);
   shake(crest, base, motion, system);
   print_balance(motion.works());
 }
