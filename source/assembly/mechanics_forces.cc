@@ -37,7 +37,6 @@ namespace moraine
                                           const LA::Vector  &x)
   {
     LA::Vector result = state.grid().vector();
-    set_target(context.t_start);
     assemble(x, false);
     constraints.hand_over_ties(unbalanced);
     sums.begin(false);

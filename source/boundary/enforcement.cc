@@ -52,7 +52,7 @@ namespace moraine
       "integrate exactly; cells of degree 1 that the surface cuts at an angle "
       "lock then with all but Nitsche's method. auto: mean, but places with "
       "Nitsche's method, with degree 2 and, in dynamics but by "
-      "generalised-alpha, for a roller on a curve.",
+      "generalised-alpha (above a spectral radius of 0), for a roller on a curve.",
       Patterns::Selection("auto|mean|places"));
   }
 

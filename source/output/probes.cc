@@ -282,6 +282,7 @@ namespace moraine
               continue;
             }
           choose_point(where, points, probe);
+          probe.body = body_of(probe.point_id, points);
           probe.ahead =
             probe.displacement - displacement_of(probe.point_id, points);
         }

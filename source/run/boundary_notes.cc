@@ -307,6 +307,27 @@ namespace moraine
 
 
 
+    /** Whether all of a point's cube is between the ends of a boundary. */
+    template <int dim>
+    bool
+    is_within_ends(const ImplicitBoundary<dim> &boundary,
+                   const PointSet<dim>         &points,
+                   const unsigned int           p)
+    {
+      const double half = 0.5 * std::pow(points.volume(p), 1. / dim);
+      for (const unsigned int corner : GeometryInfo<dim>::vertex_indices())
+        {
+          Point<dim> x = points.position(p);
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] += (corner >> d) & 1 ? half : -half;
+          if (!boundary.nearest_at_start(x).in_extent)
+            return false;
+        }
+      return true;
+    }
+
+
+
     /** Whether another boundary of a stage goes on where one ends, so that it
      * is as deep below @p x. */
     template <int dim>
@@ -356,7 +377,7 @@ namespace moraine
             {
               const NearestPoint<dim> middle =
                 boundary.nearest_at_start(points.position(p));
-              if (middle.level <= 0)
+              if (middle.level <= 0 || is_within_ends(boundary, points, p))
                 continue;
               const Tensor<1, dim> out = (middle.level + step) * middle.normal;
               const double         part =
@@ -379,6 +400,73 @@ namespace moraine
         }
       past = Utilities::MPI::sum(past, model.space->communicator());
       return at.sum > 0 ? past / at.sum : 0.;
+    }
+
+
+
+    /** Whether a body has been drawn less than told_gap of a cell from @p x. */
+    template <int dim>
+    bool
+    is_near_a_body(const Point<dim> &x, const Model<dim> &model)
+    {
+      for (const unsigned int corner : GeometryInfo<dim>::vertex_indices())
+        {
+          Tensor<1, dim> way;
+          for (unsigned int d = 0; d < dim; ++d)
+            way[d] = ((corner >> d) & 1 ? told_gap : -told_gap) *
+                     model.mesh->cell_size();
+          if (in_a_body(x + way, model))
+            return true;
+        }
+      return false;
+    }
+
+
+
+    /** Whether a place of a face, of a lattice on it, is what @p is_it says. */
+    template <typename Face, typename Predicate>
+    bool
+    any_of_face(const Face &face, const Predicate &is_it)
+    {
+      constexpr unsigned int n = 5; // along an edge
+      const unsigned int     m = face->n_vertices() == 4 ? n : 1;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < m; ++j)
+          {
+            const double s = i / (n - 1.), t = j / (n - 1.);
+            auto         x = (1 - s) * face->vertex(0) + s * face->vertex(1);
+            if (m > 1)
+              x = (1 - t) * x +
+                  t * ((1 - s) * face->vertex(2) + s * face->vertex(3));
+            if (is_it(x))
+              return true;
+          }
+      return false;
+    }
+
+
+
+    /** Of the nodes of a condition: those off bodies, all. Collective. */
+    template <int dim>
+    std::vector<unsigned int>
+    nodes_off_bodies(const GridCondition<dim> &condition,
+                     const Model<dim>         &model,
+                     const double              t)
+    {
+      const GridSpace<dim>  &space = *model.space;
+      std::set<unsigned int> nodes;
+      for (const auto &entry :
+           find_prescribed_nodes<dim>({condition}, space, t).entries)
+        if (space.locally_owned().is_element(space.node_dof(entry.node)))
+          nodes.insert(entry.node);
+      std::vector<unsigned int> n(2, 0);
+      for (const unsigned int node : nodes)
+        {
+          n[0] += !is_near_a_body(space.node_position(node), model);
+          ++n[1];
+        }
+      Utilities::MPI::sum(n, space.communicator(), n);
+      return n;
     }
 
 
@@ -518,40 +606,36 @@ namespace moraine
   {
     if (!are_drawn(model.bodies))
       return;
-    const GridSpace<dim> &space    = *model.space;
-    const auto            is_at_it = [&](const Point<dim> &x) {
-      for (const unsigned int corner : GeometryInfo<dim>::vertex_indices())
-        {
-          Tensor<1, dim> way;
-          for (unsigned int d = 0; d < dim; ++d)
-            way[d] = ((corner >> d) & 1 ? told_gap : -told_gap) *
-                     model.mesh->cell_size();
-          if (in_a_body(x + way, model))
-            return true;
-        }
-      return false;
-    };
-    std::vector<std::set<unsigned int>> nodes(conditions.size());
-    for (const auto &entry :
-         find_prescribed_nodes(conditions, space, t).entries)
-      if (space.locally_owned().is_element(space.node_dof(entry.node)))
-        nodes[entry.condition].insert(entry.node);
-    for (unsigned int c = 0; c < conditions.size(); ++c)
+    for (const auto &condition : conditions)
       {
-        std::vector<unsigned int> n(2, 0); // off bodies, all
-        for (const unsigned int node : nodes[c])
-          {
-            n[0] += !is_at_it(space.node_position(node));
-            ++n[1];
-          }
-        Utilities::MPI::sum(n, space.communicator(), n);
-        if (2 * n[0] > n[1])
-          notes.push_back(
-            conditions[c].name + ": " + std::to_string(n[0]) + " of the " +
-            std::to_string(n[1]) +
-            " nodes that it holds are off the bodies, which end before these "
-            "and are held as if they went on to there; let them end on faces "
-            "of cells, or hold their rim in section 'Boundaries'");
+        // Pieces of the side, or nodes: off bodies, all.
+        std::vector<unsigned int> n(2, 0);
+        if (condition.side)
+          for (const auto &cell :
+               model.mesh->triangulation().active_cell_iterators())
+            {
+              if (model.space->is_active(cell))
+                for (const auto &face : cell->face_iterators())
+                  if (face->at_boundary() &&
+                      face->boundary_id() == *condition.side)
+                    {
+                      n[0] += !any_of_face(face, [&](const Point<dim> &x) {
+                        return is_near_a_body(x, model);
+                      });
+                      ++n[1];
+                    }
+            }
+        else
+          n = nodes_off_bodies(condition, model, t);
+        // A body may lie between the nodes that it moves.
+        if (n[0] == 0 || (condition.side ? 2 * n[0] <= n[1] : n[0] < n[1]))
+          continue;
+        notes.push_back(
+          condition.name + ": " + std::to_string(n[0]) + " of the " +
+          std::to_string(n[1]) + (condition.side ? " faces" : " nodes") +
+          " that it holds are off the bodies, which end before these and are "
+          "held as if they went on to there; let them end on faces of cells, "
+          "or hold their rim in section 'Boundaries'");
       }
   }
 

@@ -150,6 +150,7 @@ namespace moraine
     archive.write("checks/energy/told", told ? 1u : 0u);
     archive.write("checks/energy/steps_in_a_row", in_a_row);
     archive.write("checks/energy/share_at_first", share_at_first);
+    archive.write("checks/energy/starts_anew", starts_anew ? 1u : 0u);
   }
 
 
@@ -163,6 +164,7 @@ namespace moraine
     told           = archive.integer("checks/energy/told") != 0;
     in_a_row       = archive.integer("checks/energy/steps_in_a_row");
     share_at_first = archive.number("checks/energy/share_at_first");
+    starts_anew    = archive.integer("checks/energy/starts_anew") != 0;
     total          = 0;
   }
 } // namespace moraine

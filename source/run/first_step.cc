@@ -359,21 +359,31 @@ namespace moraine
      * The displacement from the places of an accepted step to equilibrium in
      * these: small strain has found it before points moved, and what holds
      * forces of another place would let go of the difference for good.
-     * In a step of the stage @p before that has begun; 0 with inertia.
+     * In a step of the stage @p before that has begun, which aims at its start
+     * then; 0 with inertia.
      */
     template <int dim>
     LA::Vector
-    to_equilibrium(const Scene<dim>      &scene,
-                   const StageParameters &before,
-                   Model<dim>            &model)
+    to_equilibrium(const Scene<dim>         &scene,
+                   const StageParameters    &before,
+                   Model<dim>               &model,
+                   std::vector<std::string> &notes)
     {
-      LA::Vector x = model.space->vector();
+      const double t = before.time.end_time;
+      LA::Vector   x = model.space->vector();
+      model.system->set_target(t);
       if (before.time.integrator.dynamic())
         return x;
-      model.system->set_target(model.system->step_context().t_start);
       const NewtonReport report =
         Newton(scene.newton).solve(*model.system, *model.linear_solver, x);
-      return report.converged() ? x : model.space->vector();
+      if (report.converged())
+        return x;
+      notes.push_back("what absorbs from now on holds what it held before "
+                      "points moved in the last step, as there is no "
+                      "equilibrium where they are: " +
+                      report.message);
+      model.system->set_target(t);
+      return model.space->vector();
     }
 
 
@@ -487,16 +497,16 @@ namespace moraine
     // What absorbs from now on holds what it held so far.
     system.begin_step(t);
     std::vector<std::pair<std::string, LA::Vector>> held;
+    std::vector<std::string>                        notes;
     LA::Vector                                      x;
     for (const std::string &name : stage.absorbing)
       if (!contains(before.absorbing, name))
         {
           if (held.empty())
-            x = to_equilibrium(scene, before, model);
+            x = to_equilibrium(scene, before, model, notes);
           held.emplace_back(name, system.constraint_forces(name, x));
         }
 
-    std::vector<std::string> notes;
     if (stage.bodies != before.bodies)
       {
         tell_of_removed_bodies(stage, before, model, notes);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace moraine
@@ -73,28 +74,34 @@ namespace moraine
 
 
 
-    /** Whether a curve has one value throughout the run, at the ends of steps
-     * as they are planned and in rows. */
-    template <int dim>
-    bool
-    is_constant(const TimeCurve &curve, const Scene<dim> &scene)
+    /** Whether a curve has one value in all stages of which @p acts is true, at
+     * the ends of steps as they are planned and in rows; and this value. */
+    template <int dim, typename Acts>
+    std::optional<double>
+    constant_value(const TimeCurve  &curve,
+                   const Scene<dim> &scene,
+                   const Acts       &acts)
     {
-      const double first = curve.value(scene.start_time());
+      std::optional<double> first;
+      const auto            differs = [&first](const double value) {
+        if (!first)
+          first = value;
+        return value != *first;
+      };
       for (const auto &[name, stage] : scene.stages)
         {
+          if (!acts(stage))
+            continue;
           const TimeParameters &time = stage.time;
           const double size = (time.end_time - time.start_time) / time.n_steps;
-          for (unsigned int step = 1; step <= time.n_steps; ++step)
-            if (curve.value(time.start_time + step * size) != first)
-              return false;
+          for (unsigned int step = 0; step <= time.n_steps; ++step)
+            if (differs(curve.value(time.start_time + step * size)))
+              return {};
+          for (const auto &[t, value] : curve.rows())
+            if (t > time.start_time && t < time.end_time && differs(value))
+              return {};
         }
-      return std::none_of(curve.rows().begin(),
-                          curve.rows().end(),
-                          [&](const auto &row) {
-                            return row.first > scene.start_time() &&
-                                   row.first < scene.end_time() &&
-                                   row.second != first;
-                          });
+      return first;
     }
 
 
@@ -104,38 +111,54 @@ namespace moraine
     void
     tell_of_constants(const Scene<dim> &scene, std::vector<std::string> &notes)
     {
-      for (const auto &[name, load] : scene.loads)
-        if (!load.curve.empty())
-          if (const TimeCurve curve(load.curve, name);
-              curve.value(scene.start_time()) == 0 && is_constant(curve, scene))
+      for (const auto &named : scene.loads)
+        if (const auto &[name, load] = named; !load.curve.empty())
+          if (constant_value(TimeCurve(load.curve, name),
+                             scene,
+                             [&](const StageParameters &stage) {
+                               return contains(stage.loads, named.first);
+                             }) == 0.)
             notes.push_back("load " + name +
-                            ": its 'Curve' is 0 from the start of the run to "
-                            "its end");
+                            ": its 'Curve' is 0 as long as it acts");
       const auto check = [&](const std::string           &name,
                              const MotionParameters<dim> &motion,
+                             const auto                  &acts,
                              const std::string           &what) {
         std::vector<TimeCurve> curves;
         if (!motion.translation.empty())
           curves = time_curves(motion.translation, name, dim);
         if (!motion.rotation_angle.empty())
           curves.emplace_back(motion.rotation_angle, name);
-        bool moves = false, is_zero = true;
+        bool is_zero = true;
         for (const TimeCurve &curve : curves)
           {
-            moves   = moves || !is_constant(curve, scene);
-            is_zero = is_zero && curve.value(scene.start_time()) == 0;
+            const auto value = constant_value(curve, scene, acts);
+            if (!value)
+              return;
+            is_zero = is_zero && *value == 0;
           }
-        if (!moves && !is_zero)
-          notes.push_back(
-            name +
-            ": its motion is the same from the start of the run to its "
-            "end, and only what changes over time moves " +
-            what + "; -0.1*t reaches -0.1 at t = 1");
+        if (!is_zero)
+          notes.push_back(name +
+                          ": its motion stays the same as long as it acts, and "
+                          "only what changes over time moves " +
+                          what + "; -0.1*t reaches -0.1 at t = 1");
       };
-      for (const auto &[name, boundary] : scene.boundaries)
-        check(name, boundary.motion, "material; it places the surface");
-      for (const auto &[name, condition] : scene.grid_conditions)
-        check(name, condition.motion, "nodes");
+      for (const auto &named : scene.boundaries)
+        check(
+          named.first,
+          named.second.motion,
+          [&](const StageParameters &stage) {
+            return contains(stage.boundaries, named.first);
+          },
+          "material; it places the surface");
+      for (const auto &named : scene.grid_conditions)
+        check(
+          named.first,
+          named.second.motion,
+          [&](const StageParameters &stage) {
+            return contains(stage.grid_conditions, named.first);
+          },
+          "nodes");
     }
   } // namespace
 

@@ -239,7 +239,8 @@ namespace moraine
         for (const BoundaryReport<dim> &report : reports)
           work_of_motions += report.work_of_motion;
         energy.count(model.motion->works(), work_of_motions, t);
-        found.push_back(energy.warning());
+        if (!time.between_parts())
+          found.push_back(energy.warning());
       }
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;

@@ -103,6 +103,7 @@ namespace moraine
       {
         if (is_to_end())
           return false;
+        const RunCounts before = sums;
         try
           {
             advance();
@@ -110,6 +111,7 @@ namespace moraine
         catch (const Interruption &)
           {
             undo();
+            sums = before;
             return false;
           }
         if (after_step && !time_control.between_parts())
@@ -124,7 +126,11 @@ namespace moraine
   bool
   StepDriver<dim>::is_to_end() const
   {
-    return !time_control.between_parts() && interrupted(communicator);
+    // A stiffness that the step under way has given to empty parts is no part
+    // of the last accepted state.
+    return !time_control.between_parts() &&
+           (!support || support->stiffness_fraction() == accepted_fraction) &&
+           interrupted(communicator);
   }
 
 
@@ -157,6 +163,8 @@ namespace moraine
       warn(warning);
     for (unsigned int n_rejections = 0;;)
       {
+        if (n_rejections > 0 && is_to_end())
+          throw Interruption();
         time_control.next();
         if (scene.stages[stage].second.time.integrator.dynamic())
           model.motion->set_integrator(time_control.integrator());

@@ -237,7 +237,12 @@ namespace moraine
     const auto          u = points.displacement_field();
     for (const auto &in_cell : points.cells())
       {
-        const unsigned int                   b = points.body(in_cell.first);
+        const unsigned int b         = points.body(in_cell.first);
+        bool               is_of_one = true;
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          is_of_one = is_of_one && points.body(p) == b;
+        if (!is_of_one)
+          continue;
         const LinearFit<dim, Tensor<1, dim>> linear(
           points,
           in_cell,

@@ -105,8 +105,27 @@ soft = run(scene, {
     "Boundaries/stop/Points": "6 4.5; 6 0.5", "Loads/weight/Value": "0; -1e-8*t"})
 text("soft body and a stiff band", soft.summary["status"])
 
-# Surfaces that are allowed, but worth a word.
+# What is allowed, but worth a word; a curve has no value before it acts.
+column = "prm/geotechnics/fill-and-dig.prm"
 for name, file, settings in (
+        ("column", column, {}),
+        ("base off the column", column, {"Bodies/ground/Lower corner": "0, 0.3"}),
+        ("column off the sides", column, {
+            "Bodies/ground/Lower corner": "0.2, 0",
+            "Bodies/ground/Upper corner": "0.7, 10"}),
+        ("nodes off the column", column, {
+            "Grid conditions/base/Side": "",
+            "Grid conditions/base/Lower corner": "0, 0",
+            "Grid conditions/base/Upper corner": "1, 0",
+            "Bodies/ground/Lower corner": "0, 0.3"}),
+        ("motion that stays the same", column, {
+            "Grid conditions/base/Translation": "0; -0.1"}),
+        ("curve that is 0", column, {"Loads/weight/Curve": "5: 0, 6: 1"}),
+        ("curve of a later stage", column, {
+            "Loads/more/Type": "gravity", "Loads/more/Value": "0; -1",
+            "Loads/more/Curve": "sqrt(t - 2)", "Stages/alone/Loads": "weight",
+            "Stages/filled/Loads": "weight", "Stages/dug/Loads": "weight, more"}),
+        ("probe of a body for later", column, {"Probes/top/Location": "0.5, 15"}),
         ("surface that ends with the body", scene, {}),
         ("surface that runs on", scene, {"Boundaries/left/Points": "0.5 5.5; 0.5 0.5"}),
         ("surface for later", "prm/cortis-2017/footing.prm", {})):

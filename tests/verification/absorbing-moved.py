@@ -184,3 +184,25 @@ for method in ("finite element", "GIMP", "CPDI1"):
     rows = result.history()
     bound(f"soft column on a side, {method}: rises, over its settlement",
           rows[-1]["u_y at top"] / rows[0]["u_y at top"], 0.02)
+
+# The same on a surface.
+SURFACE = COLUMN.replace("""  subsection base
+    set Side = bottom
+  end
+end
+""", """end
+subsection Boundaries
+  subsection base
+    set Points      = 0 0; 1 0
+    set Enforcement = augmented Lagrangian
+  end
+end
+""").replace("set Lower corner = 0, 0\n  set Upper corner = 1, 20\n  set Cell",
+             "set Lower corner = 0, -1.3\n  set Upper corner = 1, 20.7\n  set Cell")
+surface = folder / "surface.prm"
+surface.write_text(SURFACE)
+for method in ("finite element", "GIMP"):
+    result = run(surface, {"Method/Method": method, "Method/Strain": "small"})
+    rows = result.history()
+    bound(f"soft column on a surface, {method}: rises, over its settlement",
+          rows[-1]["u_y at top"] / rows[0]["u_y at top"], 0.02)

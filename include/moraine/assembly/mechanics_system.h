@@ -67,8 +67,8 @@ namespace moraine
     }
 
     /** The forces by which the constraint @p name holds the nodes, moved by
-     * @p x from the committed state, at the start of a step that has begun.
-     * Collective. */
+     * @p x from the committed state, in a step that has begun and aims at its
+     * own start. Collective. */
     LA::Vector
     constraint_forces(const std::string &name, const LA::Vector &x);
 

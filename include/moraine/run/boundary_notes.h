@@ -61,10 +61,11 @@ namespace moraine
                std::vector<std::string>       &notes);
 
   /**
-   * Add to @p notes which of @p conditions hold nodes of which most are further
-   * from the bodies, as they were drawn, than a tenth of a cell: these do not
-   * reach what holds them, but their cells do. In a step that has begun, where
-   * the bodies are as they were drawn, at @p t. Collective.
+   * Add to @p notes which of @p conditions hold faces of cells of which most,
+   * or nodes which all, are further from the bodies, as they were drawn, than a
+   * tenth of a cell: these do not reach what holds them, but their cells do. In
+   * a step that has begun, where the bodies are as they were drawn, at @p t.
+   * Collective.
    */
   template <int dim>
   void

@@ -14,8 +14,9 @@ namespace moraine
   /**
    * Steps of the largest size may pass over a pulse, and with it over a whole
    * load: add to @p notes each table over time, of a load, a wave or a motion
-   * that acts in @p stage, of which they miss a row by more than half of its
-   * largest change since the stage began.
+   * that acts in @p stage, of which they miss a row by more than a tenth of its
+   * largest change since the stage began. In the first stage also what does
+   * nothing in the whole run: curves that are 0, motions that stay the same.
    */
   template <int dim>
   void

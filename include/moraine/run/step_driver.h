@@ -39,7 +39,8 @@ namespace moraine
     bool
     run(const std::function<void()> &after_step = {});
 
-    /** Go back to the last accepted step after run() threw. Collective. */
+    /** Go back to the last accepted step, after run() threw or where a step is
+     * given up. Collective. */
     void
     undo()
     {
@@ -89,8 +90,9 @@ namespace moraine
     void
     begin_next_stage();
 
-    /** Whether the user wants the run to end where it can: not between the two
-     * parts of a step. Collective. */
+    /** Whether the user wants the run to end, and it can: not between the two
+     * parts of a step, nor in one that gives empty parts of cells another
+     * stiffness. Collective. */
     bool
     is_to_end() const;
 

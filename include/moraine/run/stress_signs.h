@@ -51,8 +51,8 @@ namespace moraine
   /**
    * @f$|\varepsilon| = \sqrt{\varepsilon : \varepsilon}@f$ of the displacements
    * of points, of the linear function of where they were at first that fits
-   * best in each cell: the mean over each body. Cells whose points are not
-   * spread in all directions do not count. Collective.
+   * best in each cell of one body: the mean over each body. Cells whose points
+   * are not spread in all directions do not count. Collective.
    *
    * @param points where they are now, with displacements
    * @param cell_size of the mesh

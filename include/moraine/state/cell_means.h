@@ -53,9 +53,8 @@ namespace moraine
     };
 
     /** Of the points as @p basis has batched them; @p roots are those of cells
-     * that have some. This
-     * rank knows the cells of groups of which it owns or touches one.
-     * Collective. */
+     * that have some. This rank knows the cells of groups of which it owns or
+     * touches one. Collective. */
     void
     update(const GridSpace<dim> &space,
            const Basis<dim>     &basis,
