@@ -4,7 +4,7 @@
 """Volume that hardly changes: Cook's membrane, and the bearing capacity of a strip
 footing, with the mean change of volume of each cell and, on one rank, without."""
 
-from math import pi
+from math import atan2, pi
 
 from mean_stress import alternating
 
@@ -73,6 +73,40 @@ for title, scene, allowed in (
         else:
             number(f"bearing, {title}: mean stress of {name}, root of the mean "
                    "square of what alternates over the range", usual, 2)
+
+
+
+class Prandtl:
+    """The exact field about the edge of the footing at x = 1, by means over the
+    squares of points: triangles with -k and -(1 + pi) k, a fan between them."""
+
+    def __init__(self, h):
+        n, size = 8, h / 2
+        self.rows = []
+        for i in range(round(3 / size)):
+            for j in range(1, round(1.5 / size)):
+                mean = sum(self.mean_stress((i + (a + 0.5) / n) * size,
+                                            ((b + 0.5) / n - j) * size)
+                           for a in range(n) for b in range(n)) / n**2
+                place = ((i + 0.5) * size, (0.5 - j) * size)
+                self.rows.append((place, (0, 0), mean, mean, size**2))
+
+    @staticmethod
+    def mean_stress(x, y):
+        angle = atan2(-y, x - 1) - pi / 4
+        return -1 - 2 * min(max(angle, 0), pi / 2)
+
+    def points(self, *_):
+        return self.rows
+
+
+# What no method can be below: the stress jumps at the edge.
+for title, beside in (("", None), (" beyond 3 h of the edge", (1, 0))):
+    for name, values in alternating(Prandtl(0.125), 0.125,
+                                    beside=beside).items():
+        if name != "smoothed":
+            number(f"bearing, exact: mean stress of {name}{title}, the largest of "
+                   "what alternates over the range", values[3], 2)
 
 # Domains that reach over faces of cells in a uniform strain: their parts in cells
 # are found by where those faces cross them.
