@@ -143,14 +143,16 @@ namespace moraine
                           "only what changes over time moves " +
                           what + "; -0.1*t reaches -0.1 at t = 1");
       };
+      // A motion before they begin is where later ones are placed.
       for (const auto &named : scene.boundaries)
-        check(
-          named.first,
-          named.second.motion,
-          [&](const StageParameters &stage) {
-            return contains(stage.boundaries, named.first);
-          },
-          "material; it places the surface");
+        if (contains(scene.stages.front().second.boundaries, named.first))
+          check(
+            named.first,
+            named.second.motion,
+            [&](const StageParameters &stage) {
+              return contains(stage.boundaries, named.first);
+            },
+            "material; it places the surface");
       for (const auto &named : scene.grid_conditions)
         check(
           named.first,
