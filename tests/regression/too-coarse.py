@@ -122,6 +122,8 @@ for title, bottom, surfaces in (
         ("footing to 0.85", 0, [("footing", "0.85, 3; 0, 3")]),
         ("footing to 1.1 with a side", 0, [("footing", "1.1, 3; 0, 3"),
                                              ("side", "1.1, 3.9; 1.1, 3")]),
+        ("footing to 1.1 and one beside it", 0, [("footing", "1.1, 3; 0, 3"),
+                                                 ("beside", "2.1, 3; 1.1, 3")]),
         ("floor and walls", 0.1, [("floor", "0, 0.1; 2.1, 0.1"),
                                   ("left", "0, 3; 0, 0.1"),
                                   ("right", "2.1, 0.1; 2.1, 3")]),
@@ -130,6 +132,44 @@ for title, bottom, surfaces in (
          "subsection Boundaries\n  " + "".join(
              SURFACE.format(name=name, points=points) for name, points in surfaces)
          + "end\n")
+
+# Of the rim of a body nothing is past the ends, also where points are those of cells
+# of degree 2.
+scene.write_text("""
+subsection Mesh
+  set Lower corner = -6, -6
+  set Upper corner = 6, 6
+  set Cell size    = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection rock
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape          = box
+    set Lower corner   = 0, 0
+    set Upper corner   = 3, 4
+    set Rotation angle = 30
+    set Translation    = 0.013, 0.027
+  end
+end
+subsection Boundaries
+  subsection base
+    set Body = block
+    set Part = bottom
+  end
+end
+""")
+for degree in (1, 2):
+    result = run(scene, {"Method/Degree": degree}, command="check")
+    text(f"base of a turned block, degree {degree}: notes",
+         result.output.count("  note "))
 
 # Steps that end on the peaks of a table, and beside them.
 PEAKS = """
