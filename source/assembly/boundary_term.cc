@@ -62,7 +62,8 @@ namespace moraine
               volume += part->share * sums[part->cell];
               area += part->share * sums[sums.size() / 2 + part->cell];
             }
-          inverse += area / volume;
+          if (area > 0)
+            inverse += area / volume;
         }
       return inverse > 0 ? n_groups / inverse : without;
     }

@@ -250,8 +250,8 @@ namespace moraine
   InputFile
   InputFile::read(const std::string &path)
   {
-    std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown))
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
       throw InputError(path + ": cannot be read: it is a directory");
     std::ifstream      file(path);
     std::ostringstream text;

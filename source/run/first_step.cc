@@ -9,7 +9,9 @@
 #include <moraine/core/words.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/boundary_ends.h>
 #include <moraine/run/boundary_notes.h>
+#include <moraine/run/held_off_bodies.h>
 #include <moraine/run/held_stress.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/initial_stress.h>
@@ -94,7 +96,7 @@ namespace moraine
         active, *model.space, time.start_time, time.end_time, time.n_steps);
       note_idle_conditions(active, *model.space, time.start_time, notes);
       if (first)
-        tell_of_nodes_off_bodies(active, model, time.start_time, notes);
+        tell_of_held_off_bodies(active, model, time.start_time, notes);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
           boundary.is_far(model.points->position(in_cell.first), 0.);
@@ -378,9 +380,9 @@ namespace moraine
         Newton(scene.newton).solve(*model.system, *model.linear_solver, x);
       if (report.converged())
         return x;
-      notes.push_back("what absorbs from now on holds what it held before "
-                      "points moved in the last step, as there is no "
-                      "equilibrium where they are: " +
+      notes.push_back("what absorbs from now on holds forces that are out of "
+                      "balance, as there is no equilibrium where points are by "
+                      "now: " +
                       report.message);
       model.system->set_target(t);
       return model.space->vector();

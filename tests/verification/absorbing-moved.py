@@ -111,86 +111,29 @@ for step in (2, 3):
          "the same bits" if history(halted) == history(whole) else "NO")
 
 # Small strain has found equilibrium before points moved: a soft column on a side of
-# the mesh, 20 m high, that has settled by 0.15 m. Forces of where it was then would
-# lift it by 0.1 m in this time, and on for ever.
-COLUMN = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 20
-  set Cell size = 1
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 20000
-    set Poisson ratio = 0.3
-    set Density = 2
-  end
-end
-subsection Bodies
-  subsection layer
-    set Lower corner = 0, 0
-    set Upper corner = 1, 20
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection right
-    set Side = right
-    set Components = x
-  end
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-subsection Stages
-  subsection rest
-    subsection Time
-      set Steps = 1
-    end
-  end
-  subsection absorbing
-    set Absorbing = base
-    set Reset displacements = true
-    subsection Time
-      set Integrator = Newmark
-      set End time = 5
-      set Steps = 80
-    end
-  end
-end
-subsection Output
-  set Write = end
-end
-subsection Probes
-  subsection top
-    set Location = 0.5, 20
-    set Kind = interpolated
-  end
-end
-"""
-column = folder / "column.prm"
-column.write_text(COLUMN)
-for method in ("finite element", "GIMP", "CPDI1"):
-    result = run(column, {"Method/Method": method, "Method/Strain": "small"})
-    rows = result.history()
-    bound(f"soft column on a side, {method}: rises, over its settlement",
+# the mesh, 20 m high, that has settled by 0.12 m. Forces of where it was then would
+# lift it by 0.07 m in this time, and on for ever.
+COLUMN = root / "prm/dynamics/gravity-then-wave.prm"
+AT_REST = {"Method/Mesh after step": "default", "Stages/pulse/Loads": "weight",
+           "Stages/pulse/Time/End time": 5, "Stages/pulse/Time/Steps": 80,
+           "Probes/top/Location": "0.5, 20", "Probes/top/Kind": "interpolated"}
+
+
+def rises(name, scene, method):
+    rows = run(scene, {**AT_REST, "Method/Method": method}).history()
+    bound(f"soft column on a {name}, {method}: rises, over its settlement",
           rows[-1]["u_y at top"] / rows[0]["u_y at top"], 0.02)
 
-# The same on a surface.
-SURFACE = COLUMN.replace("""  subsection base
+
+for method in ("finite element", "GIMP", "CPDI1"):
+    rises("side", COLUMN, method)
+surface = folder / "surface.prm"
+surface.write_text(COLUMN.read_text().replace("""  subsection base
     set Side = bottom
   end
 end
 """, """end
+
 subsection Boundaries
   subsection base
     set Points      = 0 0; 1 0
@@ -198,11 +141,6 @@ subsection Boundaries
   end
 end
 """).replace("set Lower corner = 0, 0\n  set Upper corner = 1, 20\n  set Cell",
-             "set Lower corner = 0, -1.3\n  set Upper corner = 1, 20.7\n  set Cell")
-surface = folder / "surface.prm"
-surface.write_text(SURFACE)
+             "set Lower corner = 0, -1.3\n  set Upper corner = 1, 20.7\n  set Cell"))
 for method in ("finite element", "GIMP"):
-    result = run(surface, {"Method/Method": method, "Method/Strain": "small"})
-    rows = result.history()
-    bound(f"soft column on a surface, {method}: rises, over its settlement",
-          rows[-1]["u_y at top"] / rows[0]["u_y at top"], 0.02)
+    rises("surface", surface, method)

@@ -12,9 +12,9 @@ namespace moraine
 {
   /**
    * As long as it lives, the first Ctrl-C (SIGINT) or SIGTERM only asks to end
-   * with the last accepted step, and a second one of its kind ends the program at
-   * once. Afterwards signals do what they did before: a launcher that ends the
-   * other ranks of a program that has failed asks for no step.
+   * with the last accepted step, and a second one of its kind ends the program
+   * at once. Afterwards signals do what they did before: a launcher that ends
+   * the other ranks of a program that has failed asks for no step.
    */
   class InterruptHandler
   {

@@ -47,32 +47,6 @@ namespace moraine
                const StageParameters    &before,
                const Model<dim>         &model,
                std::vector<std::string> &notes);
-
-  /**
-   * Add to @p notes which boundaries begin in @p stage, not @p known from the
-   * one before, and end inside cells that have more of a body's rim: functions
-   * of these cells hold that, too. In a step that has begun. Collective.
-   */
-  template <int dim>
-  void
-  tell_of_ends(const StageParameters          &stage,
-               const std::vector<std::string> &known,
-               const Model<dim>               &model,
-               std::vector<std::string>       &notes);
-
-  /**
-   * Add to @p notes which of @p conditions hold faces of cells of which most,
-   * or nodes which all, are further from the bodies, as they were drawn, than a
-   * tenth of a cell: these do not reach what holds them, but their cells do. In
-   * a step that has begun, where the bodies are as they were drawn, at @p t.
-   * Collective.
-   */
-  template <int dim>
-  void
-  tell_of_nodes_off_bodies(const std::vector<GridCondition<dim>> &conditions,
-                           const Model<dim>                      &model,
-                           const double                           t,
-                           std::vector<std::string>              &notes);
 } // namespace moraine
 
 #endif
