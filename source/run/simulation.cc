@@ -14,6 +14,7 @@
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
 #include <moraine/run/step_driver.h>
+#include <moraine/run/strain_signs.h>
 #include <moraine/run/stress_signs.h>
 
 #include <deal.II/base/mpi.h>

@@ -47,30 +47,6 @@ namespace moraine
   template <int dim>
   std::vector<std::string>
   doubts_of_stress(const Scene<dim> &scene, const Model<dim> &model);
-
-  /**
-   * @f$|\varepsilon| = \sqrt{\varepsilon : \varepsilon}@f$ of the displacements
-   * of points, of the linear function of where they were at first that fits
-   * best in each cell of one body: the mean over each body. Cells whose points
-   * are not spread in all directions do not count. Collective.
-   *
-   * @param points where they are now, with displacements
-   * @param cell_size of the mesh
-   * @param n_bodies of the scene
-   * @param communicator of the ranks that have the points
-   */
-  template <int dim>
-  std::vector<double>
-  mean_strains(const PointSet<dim> &points,
-               const double         cell_size,
-               const unsigned int   n_bodies,
-               const MPI_Comm      &communicator);
-
-  /** That small strain was taken for what is none: for each body that is
-   * strained by more than 5 % while points move. Collective. */
-  template <int dim>
-  std::vector<std::string>
-  doubts_of_strain(const Model<dim> &model);
 } // namespace moraine
 
 #endif
