@@ -1,3 +1,4 @@
+# debug: no
 # ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
