@@ -430,6 +430,7 @@ namespace moraine
     std::vector<ConstraintState<dim>> states;
     evaluate(context, tractions, states);
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
+    held_places.clear();
     for (unsigned int q = 0; q < tractions.size(); ++q)
       {
         const auto          &point = boundary.points()[q];
@@ -442,6 +443,13 @@ namespace moraine
         prepared.violation =
           std::max(prepared.violation, states[q].violation.norm());
         violations.push_back(states[q].violation);
+        if (point.holds)
+          held_places.push_back({point.cell,
+                                 states[q].place,
+                                 force,
+                                 states[q].normal,
+                                 states[q].M,
+                                 point.JxW});
       }
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);

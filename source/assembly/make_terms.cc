@@ -9,6 +9,7 @@
 #include <moraine/assembly/inertia.h>
 #include <moraine/assembly/internal_force.h>
 #include <moraine/assembly/load_terms.h>
+#include <moraine/assembly/shared_cells_term.h>
 
 namespace moraine
 {
@@ -40,9 +41,17 @@ namespace moraine
     if (fictitious_stiffness > 0)
       terms.push_back(
         std::make_unique<FictitiousStiffness<dim>>(fictitious_stiffness));
+    std::vector<const BoundaryTerm<dim> *> without_flux;
     for (auto &boundary : boundaries)
       if (acts("Boundaries", boundary.name()))
-        terms.push_back(std::make_unique<BoundaryTerm<dim>>(boundary, shapes));
+        {
+          auto term = std::make_unique<BoundaryTerm<dim>>(boundary, shapes);
+          if (!boundary.enforcement().is_nitsche())
+            without_flux.push_back(term.get());
+          terms.push_back(std::move(term));
+        }
+    if (without_flux.size() > 1)
+      terms.push_back(std::make_unique<SharedCellsTerm<dim>>(without_flux));
     std::vector<GridCondition<dim>> acting;
     for (const auto &condition : conditions)
       if (acts("Grid conditions", condition.name))

@@ -398,6 +398,9 @@ namespace moraine
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
             << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
+    if (summary.stress_error)
+      console << "  estimated error of stress: " << std::setprecision(2)
+              << 100 * *summary.stress_error << " % in the energy norm\n";
     if (summary.ghost_term)
       console << "  ghost term: at most " << std::setprecision(2)
               << 100 * summary.ghost_term->of_forces << " % of the forces and "

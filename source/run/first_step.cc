@@ -21,6 +21,7 @@
 #include <moraine/run/near_bodies.h>
 #include <moraine/run/removed_bodies.h>
 #include <moraine/run/scene_conditions.h>
+#include <moraine/run/point_volumes.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>
 #include <moraine/solver/newton.h>
@@ -41,14 +42,6 @@ namespace moraine
     /** Forces out of balance at the start that are more than this are said to
      * move something. */
     constexpr double told_share_of_forces = 0.01;
-
-    /** Of the volume of points: what cells have no room for. A grid of points
-     * has at most 0.20 in 2D and 0.26 in 3D, if it is nearly as coarse as the
-     * cells: those near a face reach into the next cell. */
-    template <int dim>
-    constexpr double told_excess = dim == 2 ? 0.22 : 0.3;
-
-
 
     /** Bodies may come to a condition later, so that none need be there now. */
     template <int dim>
@@ -198,34 +191,6 @@ namespace moraine
                      "without inertia; let it hold here, and name it in "
                      "'Absorbing' of the stage with waves");
         }
-    }
-
-
-
-    /** Points that are given may have volumes that are not theirs. */
-    template <int dim>
-    void
-    tell_of_full_cells(const Model<dim> &model, std::vector<std::string> &notes)
-    {
-      if (std::all_of(model.bodies.begin(),
-                      model.bodies.end(),
-                      [](const auto &body) { return body.shape; }))
-        return;
-      const std::vector<double> volumes = model.points->volumes_in_cells();
-      double                    all = 0, too_much = 0;
-      for (const auto &cell :
-           model.mesh->triangulation().active_cell_iterators())
-        {
-          const double volume = volumes[cell->active_cell_index()];
-          all += volume;
-          too_much += std::max(0., volume - cell->measure());
-        }
-      if (too_much > told_excess<dim> * all)
-        notes.push_back(
-          "points: cells have no room for " +
-          std::to_string(std::lround(100 * too_much / all)) +
-          " % of their volume; the points of a file are in it twice, or their "
-          "volumes are wrong");
     }
 
 
@@ -432,7 +397,8 @@ namespace moraine
             boundary.n_points(communicator) == 0)
           throw InputError("section 'Boundaries/" + boundary.name() +
                            "': found a surface that touches no body, allowed: "
-                           "a surface on or in a body");
+                           "a surface on or in a body, which is behind it: "
+                           "points the other way round, or 'Flip', turn it");
       for (const auto &boundary : model.absorbing_boundaries)
         if (boundary.has_cells() && boundary.n_on_material() == 0)
           throw InputError(
@@ -460,7 +426,7 @@ namespace moraine
     check_displacements_at_start(scene, model);
     check_loads(stage, model, notes);
     tell_of_loads_outside(model, notes);
-    tell_of_full_cells(model, notes);
+    tell_of_point_volumes(model, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_absorbing_at_rest(scene, stage, model, notes);
     tell_of_thin_bodies(model, {}, notes);
@@ -550,6 +516,7 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, false, model, notes);
     check_loads(stage, model, notes);
+    tell_of_volume_twice(model, stage.bodies, before.bodies, notes);
     tell_of_thin_bodies(model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);
     tell_of_narrow_gaps(model, before.bodies, notes);

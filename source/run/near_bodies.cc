@@ -91,6 +91,26 @@ namespace moraine
       Utilities::MPI::min(gaps, model.space->communicator(), gaps);
       return gaps;
     }
+
+
+
+    /** How far points of each body have moved, at most: shapes are as they were
+     * drawn. Collective. */
+    template <int dim>
+    std::vector<double>
+    largest_displacements(const Model<dim> &model)
+    {
+      std::vector<double>  largest(model.bodies.size(), 0.);
+      const PointSet<dim> &points = *model.points;
+      const auto           u      = points.displacement_field();
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          double &of_body = largest[points.body(p)];
+          of_body         = std::max(of_body, u(points.values(p)).norm());
+        }
+      Utilities::MPI::max(largest, model.space->communicator(), largest);
+      return largest;
+    }
   } // namespace
 
 
@@ -106,11 +126,17 @@ namespace moraine
                              model.bodies.end(),
                              [](const auto &body) { return !body.shape; }))
       return;
-    const std::vector<double> gaps = gaps_between(model);
+    // Bodies that come to cells that have moved fill those.
+    if (!known.empty() &&
+        model.state->mesh_after_step() == MeshAfterStep::follow_material)
+      return;
+    const std::vector<double> gaps  = gaps_between(model);
+    const std::vector<double> moved = largest_displacements(model);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = a + 1; b < n; ++b)
         {
-          const double gap = std::max(gaps[a * n + b], gaps[b * n + a]);
+          const double gap =
+            std::max(gaps[a * n + b], gaps[b * n + a]) - moved[a] - moved[b];
           if (!std::isfinite(gap) ||
               gap < least_gap * model.mesh->cell_size() ||
               (contains(known, model.body_names[a]) &&

@@ -29,8 +29,9 @@ namespace moraine
                       point_grid,
                       "Of a box: its points are the middles of this many equal "
                       "parts in each direction of the box, turned and moved "
-                      "with it, whatever the cells of the mesh are. If left "
-                      "out, each cell is divided (section 'Method').",
+                      "with it, whatever the cells of the mesh are: standard "
+                      "MPM wants as many in each cell. If left out, each cell "
+                      "is divided (section 'Method').",
                       patterns::positive_integers(0, dim));
     prm.add_parameter("Aggregate below",
                       aggregate_below,

@@ -77,6 +77,7 @@ namespace moraine
                       exact,
                       driver.time().time(),
                       model.state->mesh_after_step() != MeshAfterStep::keep);
+      summary.stress_error = stress_error(model);
       if (model.motion)
         summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
@@ -311,7 +312,8 @@ namespace moraine
       summary.message = message;
       if (summary.steps > 0)
         for (const auto &doubts :
-             {doubts_of_stress(scene, model), doubts_of_strain(model)})
+             {doubts_of_stress(scene, model, summary.stress_error),
+              doubts_of_strain(model)})
           for (const std::string &doubt : doubts)
             {
               summary.warnings.push_back(doubt);

@@ -143,9 +143,10 @@ namespace moraine
                           "only what changes over time moves " +
                           what + "; -0.1*t reaches -0.1 at t = 1");
       };
-      // A motion before they begin is where later ones are placed.
+      // An angle alone places a surface, and so does a motion before it begins.
       for (const auto &named : scene.boundaries)
-        if (contains(scene.stages.front().second.boundaries, named.first))
+        if (!named.second.motion.translation.empty() &&
+            contains(scene.stages.front().second.boundaries, named.first))
           check(
             named.first,
             named.second.motion,

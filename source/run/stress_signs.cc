@@ -3,6 +3,7 @@
 
 #include <moraine/run/stress_signs.h>
 
+#include <moraine/output/stress_error.h>
 #include <moraine/points/linear_fit.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -42,6 +43,9 @@ namespace moraine
      * over the largest part of the energy of motion. */
     constexpr double no_stress = 1e-6;
     constexpr double no_energy = 1e-3;
+
+    /** Estimated error of stress: healthy scenes have up to 0.2. */
+    constexpr double told_error = 0.25;
 
 
 
@@ -206,6 +210,17 @@ namespace moraine
 
   namespace
   {
+    /** Whether what moves has next to none of the energy as strain. */
+    template <int dim>
+    bool
+    has_no_energy(const Model<dim> &model)
+    {
+      return model.motion && model.motion->works().stored <
+                               no_energy * model.motion->works().largest();
+    }
+
+
+
     template <int dim>
     bool
     is_at_rest(const Model<dim> &model, const StressSigns &signs)
@@ -213,18 +228,31 @@ namespace moraine
       double mu = std::numeric_limits<double>::max();
       for (const auto &material : model.materials)
         mu = std::min(mu, material->elastic_stiffness().mu);
-      if (!(signs.deviatoric > no_stress * mu))
-        return true;
-      return model.motion && model.motion->works().stored <
-                               no_energy * model.motion->works().largest();
+      return !(signs.deviatoric > no_stress * mu) || has_no_energy(model);
     }
   } // namespace
 
 
 
   template <int dim>
+  std::optional<double>
+  stress_error(const Model<dim> &model)
+  {
+    if (has_no_energy(model))
+      return {};
+    std::vector<LameConstants> moduli;
+    for (const auto &material : model.materials)
+      moduli.push_back(material->elastic_stiffness());
+    return estimated_stress_error(*model.points, moduli);
+  }
+
+
+
+  template <int dim>
   std::vector<std::string>
-  doubts_of_stress(const Scene<dim> &scene, const Model<dim> &model)
+  doubts_of_stress(const Scene<dim>            &scene,
+                   const Model<dim>            &model,
+                   const std::optional<double> &error)
   {
     const StressSigns signs = stress_signs(*model.space, *model.points);
     if (is_at_rest(model, signs))
@@ -261,15 +289,32 @@ namespace moraine
                << "' in section 'Method' helps";
         doubts.push_back(text.str());
       }
+    else if (error && *error > told_error)
+      {
+        text << "cells do not resolve the stress: its error is estimated at "
+             << 100 * *error
+             << " % in the energy norm, of an elastic body by forces "
+             << 100 * *error * *error
+             << " % of the deflection; smaller cells help";
+        doubts.push_back(text.str());
+      }
     return doubts;
   }
 
 
 
   template std::vector<std::string>
-  doubts_of_stress(const Scene<2> &, const Model<2> &);
+  doubts_of_stress(const Scene<2> &,
+                   const Model<2> &,
+                   const std::optional<double> &);
+  template std::optional<double>
+  stress_error(const Model<2> &);
   template std::vector<std::string>
-  doubts_of_stress(const Scene<3> &, const Model<3> &);
+  doubts_of_stress(const Scene<3> &,
+                   const Model<3> &,
+                   const std::optional<double> &);
+  template std::optional<double>
+  stress_error(const Model<3> &);
   template StressSigns
   stress_signs(const GridSpace<2> &, const PointSet<2> &);
   template StressSigns

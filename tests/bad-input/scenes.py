@@ -120,6 +120,7 @@ for name, file, settings in (
             "Bodies/ground/Lower corner": "0, 0.3"}),
         ("motion that stays the same", column, {
             "Grid conditions/base/Translation": "0; -0.1"}),
+        ("angle that places a surface", "prm/boundaries/tilted-roller.prm", {}),
         ("curve that is 0", column, {"Loads/weight/Curve": "5: 0, 6: 1"}),
         ("curve of a later stage", column, {
             "Loads/more/Type": "gravity", "Loads/more/Value": "0; -1",

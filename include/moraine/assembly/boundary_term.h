@@ -18,6 +18,17 @@ namespace moraine
   class BoundaryTerm : public Term<dim>
   {
   public:
+    /** A force that held a place at the end of the last step. */
+    struct Held
+    {
+      unsigned int                    cell; ///< active_cell_index()
+      dealii::Point<dim>              x;    ///< where the force acts
+      dealii::Tensor<1, dim>          force;
+      dealii::Tensor<1, dim>          normal;
+      dealii::SymmetricTensor<2, dim> M;
+      double                          area;
+    };
+
     /** @p shapes of the bodies, null where the points are given: the boundary
      * ends where they do. Without any it holds all of its cells. */
     explicit BoundaryTerm(ImplicitBoundary<dim>     &boundary,
@@ -101,6 +112,34 @@ namespace moraine
     report(const StepContext<dim>           &context,
            std::vector<BoundaryReport<dim>> &reports) const override;
 
+    const std::string &
+    name() const
+    {
+      return boundary.name();
+    }
+
+    const Enforcement &
+    enforcement() const
+    {
+      return boundary.enforcement();
+    }
+
+    /** See BoundaryReport::moment. */
+    double
+    moment(const dealii::Point<dim>     &x,
+           const dealii::Tensor<1, dim> &force,
+           const double                  t) const
+    {
+      return boundary.rigid_motion().moment(x, force, t);
+    }
+
+    /** Of this rank, cell by cell; places that let go are not among them. */
+    const std::vector<Held> &
+    held() const
+    {
+      return held_places;
+    }
+
   private:
     /** Let @p how, that of the boundary, be that in a cell. */
     void
@@ -131,6 +170,7 @@ namespace moraine
     ImplicitBoundary<dim> &boundary;
     ShapesOfBodies<dim>    shapes;
     BoundaryReport<dim>    prepared;
+    std::vector<Held>      held_places;
     /** By active_cell_index(), of the cells g with one mean:
      * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points
      * and the area A of the boundary. Empty where means are not penalised. */

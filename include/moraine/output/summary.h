@@ -64,7 +64,9 @@ namespace moraine
     std::optional<double> condition_number;
     /** Left out without a ghost term. */
     std::optional<GhostShares> ghost_term;
-    double                     wall_seconds = 0;
+    /** See estimated_stress_error(). */
+    std::optional<double> stress_error;
+    double                wall_seconds = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */

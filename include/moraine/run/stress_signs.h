@@ -6,6 +6,7 @@
 
 #include <moraine/run/model.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,12 +42,26 @@ namespace moraine
   StressSigns
   stress_signs(const GridSpace<dim> &space, const PointSet<dim> &points);
 
-  /** That results look as if volume locked or cells were crossed, or as if they
-   * depended on where the mesh cuts the material, and which keys help; nothing
-   * where there is next to no stress. Collective. */
+  /** estimated_stress_error() of all bodies; nothing where there is next to no
+   * stress, or next to none of the energy is that of strain. Collective. */
+  template <int dim>
+  std::optional<double>
+  stress_error(const Model<dim> &model);
+
+  /** That results look as if volume locked or cells were crossed, as if they
+   * depended on where the mesh cuts the material, or as if cells did not
+   * resolve them, and which keys help; nothing where there is next to no
+   * stress. Collective.
+   *
+   * @param scene method and keys
+   * @param model after the last step
+   * @param error what stress_error() says of it
+   */
   template <int dim>
   std::vector<std::string>
-  doubts_of_stress(const Scene<dim> &scene, const Model<dim> &model);
+  doubts_of_stress(const Scene<dim>            &scene,
+                   const Model<dim>            &model,
+                   const std::optional<double> &error);
 } // namespace moraine
 
 #endif

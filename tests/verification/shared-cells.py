@@ -1,0 +1,157 @@
+# debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What boundaries report that hold the same cells. By multipliers each cell knows the
+sum of their forces alone, and what is left of a motion on a curve or across a corner is
+a pair of opposite forces: of the ring's 0.17 to 1.08 of what is right, of a side of the
+square 0.91."""
+
+from math import cos, hypot, log, radians, sin
+
+# A ring of inner radius 1 and outer radius 2, shear strength 1, of which the bore
+# moves: at the limit its pressure is 2 ln 2 (Hill 1950).
+RING = """
+subsection Mesh
+  set Upper corner = 2.3, 2.3
+end
+subsection Method
+  set Strain          = small
+  set Mesh after step = keep
+end
+subsection Materials
+  subsection soil
+    set Model              = von Mises
+    set Young modulus      = 1000
+    set Poisson ratio      = 0.49
+    set Shear yield stress = 1
+  end
+end
+subsection Bodies
+  subsection quarter
+    set Shape        = box
+    set Lower corner = 0, 0
+    set Upper corner = 3, 3
+  end
+  subsection outer
+    set Shape  = disc
+    set Centre = 0, 0
+    set Radius = 2
+  end
+  subsection inner
+    set Shape  = disc
+    set Centre = 0, 0
+    set Radius = 1
+  end
+  subsection whole
+    set Shape    = intersection
+    set Operands = quarter, outer
+  end
+  subsection ring
+    set Shape    = difference
+    set Operands = whole, inner
+  end
+end
+subsection Boundaries
+  subsection left
+    set Surface    = plane
+    set Point      = 0, 0
+    set Normal     = -1, 0
+    set Constraint = roller
+  end
+  subsection bottom
+    set Surface    = plane
+    set Point      = 0, 0
+    set Normal     = 0, -1
+    set Constraint = roller
+  end
+  subsection bore
+    set Body         = ring
+    set Part         = inner
+    set Constraint   = fixed
+    set Displacement = 0.03*t*x/sqrt(x^2+y^2); 0.03*t*y/sqrt(x^2+y^2)
+  end
+end
+subsection Time
+  set Steps = 10
+end
+"""
+ring = folder / "ring.prm"
+ring.write_text(RING)
+
+
+def pressure(h, offset, settings):
+    n = -(-2.3 // h)
+    result = run(ring, {
+        "Mesh/Cell size": h, "Mesh/Lower corner": f"{-offset}, {-offset}",
+        "Mesh/Upper corner": f"{n * h - offset!r}, {n * h - offset!r}", **settings})
+    forces = result.summary["reactions"]
+    for axis, side in (0, "left"), (1, "bottom"):
+        if abs(forces["bore"][axis] + forces[side][axis]) > 1e-6:
+            text("balance of forces", f"NO, {forces}")
+    return [abs(row["reaction_x of left"]) / (2 * log(2))
+            for row in result.history()[4:]]
+
+
+BORE = "Boundaries/bore/Enforcement"
+for method, h, offset, enforcement, allowed in (
+        ("GIMP", 0.2, 0.06, "augmented Lagrangian", 0.03),
+        ("GIMP", 0.2, 0.06, "penalty", 0.06),
+        ("GIMP", 0.1, 0.05, "augmented Lagrangian", 0.015),
+        ("GIMP", 0.1, 0.03, "augmented Lagrangian", 0.015),
+        ("finite element", 0.1, 0.05, "augmented Lagrangian", 0.015)):
+    values = pressure(h, offset, {"Method/Method": method, BORE: enforcement})
+    bound(f"ring, {method}, {enforcement}, h = {h}, moved by {offset}: "
+          "pressure over the limit - 1",
+          max(abs(value - 1) for value in values), allowed)
+
+# A square turned by 30 degrees, its rims moved so that it is stretched along its one
+# side and pressed along the other: all of it has one stress.
+SQUARE = """
+subsection Mesh
+  set Lower corner = -1, -1
+  set Upper corner = 2, 2
+  set Cell size    = 0.1
+end
+subsection Method
+  set Strain          = small
+  set Mesh after step = keep
+end
+subsection Materials
+  subsection soil
+    set Model              = von Mises
+    set Young modulus      = 1000
+    set Poisson ratio      = 0.3
+    set Shear yield stress = 1
+  end
+end
+subsection Bodies
+  subsection square
+    set Shape          = box
+    set Lower corner   = 0, 0
+    set Upper corner   = 1, 1
+    set Rotation angle = 30
+  end
+end
+subsection Boundaries
+RIMS
+end
+subsection Time
+  set Steps = 4
+end
+"""
+square = folder / "square.prm"
+c, s = cos(radians(30)), sin(radians(30))
+# In the axes of the square u = (e x', -e y').
+MOTION = (f"0.03*t*({c * c - s * s!r}*x + {2 * c * s!r}*y); "
+          f"0.03*t*({2 * c * s!r}*x - {c * c - s * s!r}*y)")
+square.write_text(SQUARE.replace("RIMS", "\n".join(
+    f"  subsection {side}\n    set Body = square\n    set Part = {side}\n"
+    f"    set Constraint = fixed\n    set Displacement = {MOTION}\n  end"
+    for side in ("left", "right", "bottom", "top"))))
+for method in "GIMP", "finite element":
+    forces = run(square, {"Method/Method": method}).summary["reactions"]
+    worst = max(
+        hypot(forces[side][0] - x, forces[side][1] - y)
+        for side, x, y in (("left", -c, -s), ("right", c, s),
+                           ("bottom", -s, c), ("top", s, -c)))
+    bound(f"square, {method}: largest error of a force over it", worst, 0.02)
