@@ -43,8 +43,8 @@ namespace moraine
       json["pseudo_transient_steps"] = summary.n_pseudo_transient;
       json["newton_iterations"]      = summary.newton_iterations;
       json["linear_iterations"]      = summary.linear.iterations;
-      if (summary.condition_number)
-        json["condition_number"] = *summary.condition_number;
+      if (summary.linear.condition_number)
+        json["condition_number"] = *summary.linear.condition_number;
       if (summary.ghost_term)
         json["ghost_term"] = object_of(Summary::List<double>{
           {"share_of_forces", summary.ghost_term->of_forces},

@@ -3,8 +3,8 @@
 
 #include <moraine/run/stress_signs.h>
 
-#include <moraine/output/stress_error.h>
 #include <moraine/points/linear_fit.h>
+#include <moraine/run/stress_error.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>

@@ -92,8 +92,8 @@ namespace moraine
       number("rejected_steps", summary.rejected_steps);
       number("newton_iterations", summary.newton_iterations);
       number("linear_iterations", summary.linear.iterations);
-      if (summary.condition_number)
-        number("condition_number", *summary.condition_number);
+      if (summary.linear.condition_number)
+        number("condition_number", *summary.linear.condition_number);
       number("bytes_per_point", summary.sizes.bytes_per_point);
       number("peak_memory_mib", summary.sizes.peak_memory_mib);
       number("ranks", summary.sizes.ranks);
@@ -239,7 +239,7 @@ namespace moraine
     const auto paths = choice_paths(cases);
     const bool conditioned =
       std::any_of(results.begin(), results.end(), [](const auto &result) {
-        return result.summary.condition_number.has_value();
+        return result.summary.linear.condition_number.has_value();
       });
     TableHandler table;
     for (std::size_t i = 0; i < results.size(); ++i)
@@ -280,8 +280,8 @@ namespace moraine
                         or_dash(ok, std::to_string(summary.linear.iterations)));
         if (conditioned)
           table.add_value("condition",
-                          or_dash(summary.condition_number.has_value(),
-                                  text_of(summary.condition_number.value_or(0.),
+                          or_dash(summary.linear.condition_number.has_value(),
+                                  text_of(summary.linear.condition_number.value_or(0.),
                                           3)));
         table.add_value("status", summary.status);
       }

@@ -45,6 +45,8 @@ namespace moraine
     {
       unsigned int             iterations = 0;
       std::vector<std::string> solvers; ///< see LinearSolver::choices()
+      /** Left out if not asked for. */
+      std::optional<double> condition_number;
     };
 
     /** "ok", "not converged", "interrupted" or "failed". */
@@ -60,8 +62,6 @@ namespace moraine
     /** Steps that ended by Newton::pseudo_transient(). */
     unsigned int n_pseudo_transient = 0;
     unsigned int newton_iterations  = 0;
-    /** Left out if not asked for. */
-    std::optional<double> condition_number;
     /** Left out without a ghost term. */
     std::optional<GhostShares> ghost_term;
     /** See estimated_stress_error(). */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/output/stress_error.h>
+#include <moraine/run/stress_error.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -21,13 +21,13 @@ namespace moraine
 
     /** Of the points around a vertex along a direction, in cell sizes squared.
      */
-    constexpr double least_spread = 0.01;
+    constexpr double least_spread_around = 0.01;
 
     /** Least share of a vertex in its cell: points on the face opposite. */
-    constexpr double least_share = 1e-3;
+    constexpr double least_share_of_vertex = 1e-3;
 
     /** Next to no stress, over the shear modulus. */
-    constexpr double no_stress = 1e-9;
+    constexpr double next_to_no_stress = 1e-9;
 
 
 
@@ -90,7 +90,7 @@ namespace moraine
                 entry[1 + d] / v - centre[d] * mean.access_raw_entry(c);
           }
         for (const auto &[square, direction] : eigenvectors(spread))
-          if (square > least_spread)
+          if (square > least_spread_around)
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
                 slope[d] +=
@@ -217,7 +217,7 @@ namespace moraine
             const StressAround<dim> around(
               &sums[n_sums<dim> * number(in_cell, a)]);
             const double weight =
-              std::max(least_share,
+              std::max(least_share_of_vertex,
                        GeometryInfo<dim>::d_linear_shape_function(
                          points.reference_position(p), a)) *
               std::pow(around.volume(), 3);
@@ -261,8 +261,8 @@ namespace moraine
       BodyError<dim>(points, body, numbers, n_vertices)
         .add(moduli[body], totals[0], totals[1]);
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      totals[2] +=
-        points.volume(p) * moduli[points.body(p)].mu * no_stress * no_stress;
+      totals[2] += points.volume(p) * moduli[points.body(p)].mu *
+                   next_to_no_stress * next_to_no_stress;
     for (double &total : totals)
       total = Utilities::MPI::sum(total, communicator);
     if (!(totals[1] > totals[2]))

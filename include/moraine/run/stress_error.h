@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_output_stress_error_h
-#define moraine_output_stress_error_h
+#ifndef moraine_run_stress_error_h
+#define moraine_run_stress_error_h
 
 #include <moraine/material/material.h>
 #include <moraine/points/point_set.h>
