@@ -5,7 +5,6 @@
 
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools_cache.h>
 
 #include <algorithm>
 #include <utility>
@@ -26,12 +25,12 @@ namespace moraine
 
     constexpr unsigned int no_patch = numbers::invalid_unsigned_int;
 
-    /** By active_cell_index(), whether several boundaries hold places in a
-     * cell, on any rank. Collective. */
+    /** By active_cell_index(), how many boundaries hold places in a cell.
+     * Collective. */
     template <int dim>
     std::vector<unsigned int>
-    shared_cells(const std::vector<const BoundaryTerm<dim> *> &boundaries,
-                 const GridSpace<dim>                         &space)
+    count_in_cells(const std::vector<const BoundaryTerm<dim> *> &boundaries,
+                   const GridSpace<dim>                         &space)
     {
       std::vector<unsigned int> n_in_cells(
         space.mesh().triangulation().n_active_cells(), 0);
@@ -46,74 +45,109 @@ namespace moraine
             }
         }
       Utilities::MPI::max(n_in_cells, space.communicator(), n_in_cells);
-      for (unsigned int &n : n_in_cells)
-        n = n > 1;
       return n_in_cells;
     }
 
 
 
-    /** Number of the patch of each cell: those that are shared and the cells
-     * around them, as far as they hang together by vertices. */
+    /**
+     * Cells of patches, the same on all ranks. A patch is a shared cell, those
+     * that touch it, and of the other cells that are held those of some layers
+     * around which no second patch has reached as soon.
+     */
     template <int dim>
-    std::vector<unsigned int>
-    number_patches(std::vector<unsigned int> in_patch,
-                   const GridSpace<dim>     &space,
-                   unsigned int             &n_patches)
+    class Patches
     {
-      const auto &tria = space.mesh().triangulation();
-      for (unsigned int layer = 0; layer < n_layers; ++layer)
-        {
-          std::vector<bool> touched(tria.n_vertices(), false);
-          for (const auto &cell : tria.active_cell_iterators())
-            if (in_patch[cell->active_cell_index()])
-              for (const unsigned int v : cell->vertex_indices())
-                touched[cell->vertex_index(v)] = true;
-          for (const auto &cell : tria.active_cell_iterators())
+    public:
+      Patches(const std::vector<unsigned int> &n_in_cells,
+              const GridSpace<dim>            &space)
+        : numbers(n_in_cells.size(), no_patch)
+        , at_vertex(space.mesh().triangulation().n_vertices(), no_patch)
+      {
+        for (const auto &cell :
+             space.mesh().triangulation().active_cell_iterators())
+          if (n_in_cells[cell->active_cell_index()] > 0)
+            cells.push_back(cell);
+        for (const auto &cell : cells)
+          if (n_in_cells[cell->active_cell_index()] > 1)
+            take_shared(cell);
+        for (unsigned int layer = 0; layer < n_layers; ++layer)
+          grow();
+      }
+
+      unsigned int
+      n() const
+      {
+        return n_patches;
+      }
+
+      /** By active_cell_index(); no_patch if there is none. */
+      unsigned int
+      operator[](const unsigned int cell) const
+      {
+        return numbers[cell];
+      }
+
+    private:
+      using Cell = typename Triangulation<dim>::active_cell_iterator;
+
+      /** More than one. */
+      static constexpr unsigned int several = no_patch - 1;
+
+      void
+      take_shared(const Cell &cell)
+      {
+        unsigned int &number = numbers[cell->active_cell_index()];
+        for (const unsigned int v : cell->vertex_indices())
+          number = std::min(number, at_vertex[cell->vertex_index(v)]);
+        if (number != no_patch)
+          return;
+        number = n_patches++;
+        for (const unsigned int v : cell->vertex_indices())
+          at_vertex[cell->vertex_index(v)] = number;
+      }
+
+      void
+      grow()
+      {
+        const auto meet = [](unsigned int &at, const unsigned int other) {
+          if (other != no_patch && other != at)
+            at = at == no_patch ? other : several;
+        };
+        std::fill(at_vertex.begin(), at_vertex.end(), no_patch);
+        for (const Cell &cell : cells)
+          for (const unsigned int v : cell->vertex_indices())
+            meet(at_vertex[cell->vertex_index(v)],
+                 numbers[cell->active_cell_index()]);
+        for (const Cell &cell : cells)
+          {
+            unsigned int &number = numbers[cell->active_cell_index()];
+            if (number != no_patch)
+              continue;
             for (const unsigned int v : cell->vertex_indices())
-              if (touched[cell->vertex_index(v)])
-                in_patch[cell->active_cell_index()] = 1;
-        }
+              meet(number, at_vertex[cell->vertex_index(v)]);
+          }
+        for (unsigned int &number : numbers)
+          if (number == several)
+            number = no_patch;
+      }
 
-      const auto &cells_at_vertex =
-        space.mesh().search_cache().get_vertex_to_cell_map();
-      std::vector<unsigned int> patches(in_patch.size(), no_patch);
-      n_patches = 0;
-      for (const auto &first : tria.active_cell_iterators())
-        {
-          if (!in_patch[first->active_cell_index()] ||
-              patches[first->active_cell_index()] != no_patch)
-            continue;
-          patches[first->active_cell_index()]             = n_patches;
-          std::vector<std::decay_t<decltype(first)>> todo = {first};
-          while (!todo.empty())
-            {
-              const auto cell = todo.back();
-              todo.pop_back();
-              for (const unsigned int v : cell->vertex_indices())
-                for (const auto &near : cells_at_vertex[cell->vertex_index(v)])
-                  {
-                    const unsigned int c = near->active_cell_index();
-                    if (in_patch[c] && patches[c] == no_patch)
-                      {
-                        patches[c] = n_patches;
-                        todo.push_back(near);
-                      }
-                  }
-            }
-          ++n_patches;
-        }
-      return patches;
-    }
+      std::vector<Cell>         cells; ///< that are held
+      std::vector<unsigned int> numbers;
+      std::vector<unsigned int> at_vertex;
+      unsigned int              n_patches = 0;
+    };
 
 
 
-    /** @f$\bar\sigma@f$, zero if there is no point. */
+    /** @f$M \bar\sigma n@f$ at a place; what holds it where points have left
+     * its cell. */
     template <int dim>
-    SymmetricTensor<2, dim>
-    mean_stress(const PointSet<dim> &points, const unsigned int cell)
+    Tensor<1, dim>
+    traction_of_stress(const PointSet<dim>                         &points,
+                       const typename BoundaryTerm<dim>::HeldPlace &place)
     {
-      const auto [first, last] = points.points_in(cell);
+      const auto [first, last] = points.points_in(place.cell);
       SymmetricTensor<2, dim> sum;
       double                  volume = 0;
       for (unsigned int p = first; p < last; ++p)
@@ -125,7 +159,8 @@ namespace moraine
               sum[d][e] += points.volume(p) * sigma[d][e];
           volume += points.volume(p);
         }
-      return volume > 0 ? sum / volume : sum;
+      return volume > 0 ? place.M * (sum * place.normal) / volume :
+                          place.force / place.area;
     }
 
 
@@ -161,35 +196,42 @@ namespace moraine
   {
     const GridSpace<dim>           &space  = context.state.grid();
     const PointSet<dim>            &points = context.state.material_points();
-    const std::vector<unsigned int> shared = shared_cells(boundaries, space);
-    if (std::find(shared.begin(), shared.end(), 1) == shared.end())
+    const std::vector<unsigned int> n_in_cells =
+      count_in_cells(boundaries, space);
+    if (std::none_of(n_in_cells.begin(), n_in_cells.end(), [](const auto n) {
+          return n > 1;
+        }))
       return;
-    unsigned int                    n_patches;
-    const std::vector<unsigned int> patches =
-      number_patches(shared, space, n_patches);
+    const Patches<dim> patches(n_in_cells, space);
 
-    struct Sums
-    {
-      SymmetricTensor<2, dim> S;
-      Tensor<1, dim>          b;
-    };
-    std::vector<Sums> sums(n_patches);
-    const auto        traction = [&](const auto &place) {
-      return place.M * (mean_stress(points, place.cell) * place.normal);
-    };
+    // The entries of S, then those of b.
+    constexpr unsigned int n_of_S =
+      SymmetricTensor<2, dim>::n_independent_components;
+    std::vector<double> sums((n_of_S + dim) * patches.n(), 0.);
     for (const auto *boundary : boundaries)
       for (const auto &place : boundary->held())
         if (patches[place.cell] != no_patch)
           {
-            Sums &of = sums[patches[place.cell]];
-            of.S += place.area * place.M;
-            of.b += place.force - place.area * traction(place);
+            double *of = &sums[(n_of_S + dim) * patches[place.cell]];
+            for (unsigned int i = 0; i < n_of_S; ++i)
+              of[i] += place.area * place.M.access_raw_entry(i);
+            const Tensor<1, dim> b =
+              place.force - place.area * traction_of_stress(points, place);
+            for (unsigned int d = 0; d < dim; ++d)
+              of[n_of_S + d] += b[d];
           }
+    Utilities::MPI::sum(sums, space.communicator(), sums);
     std::vector<Tensor<1, dim>> a;
-    for (const Sums &of : sums)
-      a.push_back(
-        least_solution(Utilities::MPI::sum(of.S, space.communicator()),
-                       Utilities::MPI::sum(of.b, space.communicator())));
+    for (auto of = sums.begin(); of != sums.end(); of += n_of_S + dim)
+      {
+        SymmetricTensor<2, dim> S;
+        Tensor<1, dim>          b;
+        for (unsigned int i = 0; i < n_of_S; ++i)
+          S.access_raw_entry(i) = of[i];
+        for (unsigned int d = 0; d < dim; ++d)
+          b[d] = of[n_of_S + d];
+        a.push_back(least_solution(S, b));
+      }
 
     std::vector<BoundaryReport<dim>> changes;
     for (const auto *boundary : boundaries)
@@ -199,8 +241,8 @@ namespace moraine
           if (patches[place.cell] != no_patch)
             {
               const Tensor<1, dim> force =
-                place.area *
-                (traction(place) + place.M * a[patches[place.cell]]);
+                place.area * (traction_of_stress(points, place) +
+                              place.M * a[patches[place.cell]]);
               const Tensor<1, dim> change = force - place.force;
               of.reaction += change;
               of.force_magnitude += force.norm() - place.force.norm();

@@ -564,11 +564,10 @@ namespace moraine
           const Entry &entry = found_entries[e];
           if ((entry.section == constants_section) != is_constant)
             continue;
-          all[e] = with_constants(
-            entry.value,
-            entry.origin + ": " + place(entry.section, entry.key) +
-              (is_constant ? " (a constant sees those above it)" : ""),
-            constants);
+          all[e] = with_constants(entry.value,
+                                  entry.origin + ": " +
+                                    place(entry.section, entry.key),
+                                  constants);
           if (is_constant)
             constants.emplace_back(entry.key, with_numbers(all[e], ""));
         }

@@ -117,8 +117,10 @@ namespace moraine
               constant = &other_text;
           }
         if (constant == nullptr)
-          throw InputError(where + ": found '$" + name + "'" +
-                           suggest("$" + name, known));
+          throw InputError(
+            where + ": found '$" + name + "'" +
+            (known.empty() ? "; no constant is defined before it" : "") +
+            suggest("$" + name, known));
         const std::string inserted =
           insertion(*constant, value.substr(0, at), value.substr(end));
         value.replace(at, end - at, inserted);

@@ -103,10 +103,11 @@ namespace moraine
       std::vector<double>  largest(model.bodies.size(), 0.);
       const PointSet<dim> &points = *model.points;
       const auto           u      = points.displacement_field();
+      const double         before = points.forgotten_displacement();
       for (unsigned int p = 0; p < points.n_local(); ++p)
         {
           double &of_body = largest[points.body(p)];
-          of_body         = std::max(of_body, u(points.values(p)).norm());
+          of_body = std::max(of_body, before + u(points.values(p)).norm());
         }
       Utilities::MPI::max(largest, model.space->communicator(), largest);
       return largest;
@@ -126,19 +127,14 @@ namespace moraine
                              model.bodies.end(),
                              [](const auto &body) { return !body.shape; }))
       return;
-    // Bodies that come to cells that have moved fill those.
-    if (!known.empty() &&
-        model.state->mesh_after_step() == MeshAfterStep::follow_material)
-      return;
     const std::vector<double> gaps  = gaps_between(model);
     const std::vector<double> moved = largest_displacements(model);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = a + 1; b < n; ++b)
         {
-          const double gap =
-            std::max(gaps[a * n + b], gaps[b * n + a]) - moved[a] - moved[b];
+          const double gap = std::max(gaps[a * n + b], gaps[b * n + a]);
           if (!std::isfinite(gap) ||
-              gap < least_gap * model.mesh->cell_size() ||
+              gap < least_gap * model.mesh->cell_size() + moved[a] + moved[b] ||
               (contains(known, model.body_names[a]) &&
                contains(known, model.body_names[b])))
             continue;

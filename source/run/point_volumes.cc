@@ -70,8 +70,9 @@ namespace moraine
 
 
 
-    /** Cells in the inside of bodies have points in all cells around; at the
-     * edge of the mesh nothing tells whether the body fills them. */
+    /** Cells in the inside of bodies whose points are given have points in all
+     * cells around; at the edge of the mesh nothing tells whether the body
+     * fills them. */
     template <int dim>
     void
     tell_of_uneven_cells(const Model<dim>          &model,
@@ -80,6 +81,12 @@ namespace moraine
     {
       const auto &cells_at_vertex =
         model.mesh->search_cache().get_vertex_to_cell_map();
+      std::vector<double> drawn(volumes.size(), 0.); // points of shapes
+      for (const auto &in_cell : model.points->cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          if (model.bodies[model.points->body(p)].shape)
+            drawn[in_cell.cell->active_cell_index()] = 1;
+      Utilities::MPI::max(drawn, model.space->communicator(), drawn);
       double all = 0, squares = 0, most = 0;
       double least = std::numeric_limits<double>::max();
       for (const auto &cell :
@@ -89,7 +96,7 @@ namespace moraine
             return volumes[near->active_cell_index()] > 0;
           };
           const auto vertices = cell->vertex_indices();
-          if (cell->at_boundary() ||
+          if (cell->at_boundary() || drawn[cell->active_cell_index()] > 0 ||
               !std::all_of(vertices.begin(), vertices.end(), [&](const auto a) {
                 const auto &near = cells_at_vertex[cell->vertex_index(a)];
                 return std::all_of(near.begin(), near.end(), has_points);
@@ -151,27 +158,23 @@ namespace moraine
             model.points->volume(p);
         }
     Utilities::MPI::sum(volumes, model.space->communicator(), volumes);
-    double of_new = 0, of_shared_cells = 0, in_shared_cells = 0;
+    double of_new = 0, twice = 0;
     for (const auto &cell : tria.active_cell_iterators())
       {
-        const unsigned int c = cell->active_cell_index();
-        of_new += volumes[n + c];
-        if (volumes[c] > 0 && volumes[n + c] > 0)
-          {
-            of_shared_cells += cell->measure();
-            in_shared_cells += volumes[c] + volumes[n + c];
-          }
+        const double of_known = volumes[cell->active_cell_index()];
+        const double comes    = volumes[n + cell->active_cell_index()];
+        of_new += comes;
+        if (of_known > 0 && comes > 0 &&
+            of_known + comes > told_fill * cell->measure())
+          twice += of_known + comes - cell->measure();
       }
-    if (!(of_shared_cells > 0) ||
-        in_shared_cells < told_fill * of_shared_cells ||
-        in_shared_cells - of_shared_cells < told_share * of_new)
+    if (!(twice > told_share * of_new))
       return;
     std::string names;
     for (const std::string &body : bodies)
       if (!contains(known, body))
         names += (names.empty() ? "" : ", ") + body;
-    notes.push_back(names + ": about " +
-                    per_cent((in_shared_cells - of_shared_cells) / of_new) +
+    notes.push_back(names + ": about " + per_cent(twice / of_new) +
                     " of what comes stands where material is that has moved "
                     "since it was drawn, which is there twice; draw it from "
                     "where the surface is now");

@@ -89,8 +89,9 @@ namespace moraine
               covariance[d].access_raw_entry(c) =
                 entry[1 + d] / v - centre[d] * mean.access_raw_entry(c);
           }
-        for (const auto &[square, direction] : eigenvectors(spread))
-          if (square > least_spread_around)
+        const auto spreads = eigenvectors(spread);
+        for (const auto &[square, direction] : spreads)
+          if (square > least_spread_around * spreads[0].first)
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
                 slope[d] +=
@@ -113,7 +114,7 @@ namespace moraine
       }
 
     private:
-      const double            v;
+      double                  v;
       Tensor<1, dim>          centre;
       Stress                  mean;
       std::array<Stress, dim> slope;
@@ -172,14 +173,20 @@ namespace moraine
       void
       add(const LameConstants &C, double &of_error, double &of_stress) const
       {
+        std::vector<StressAround<dim>> around;
         for (const auto &in_cell : points.cells())
-          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-            if (points.body(p) == body)
-              {
-                of_error +=
-                  points.volume(p) * energy(stress(p) - smooth(p, in_cell), C);
-                of_stress += points.volume(p) * energy(stress(p), C);
-              }
+          {
+            around.clear();
+            for (const unsigned int a : GeometryInfo<dim>::vertex_indices())
+              around.emplace_back(&sums[n_sums<dim> * number(in_cell, a)]);
+            for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+              if (points.body(p) == body)
+                {
+                  of_error += points.volume(p) *
+                              energy(stress(p) - smooth(p, in_cell, around), C);
+                  of_stress += points.volume(p) * energy(stress(p), C);
+                }
+          }
       }
 
     private:
@@ -208,21 +215,21 @@ namespace moraine
       }
 
       Stress
-      smooth(const unsigned int p, const CellPoints &in_cell) const
+      smooth(const unsigned int                    p,
+             const CellPoints                     &in_cell,
+             const std::vector<StressAround<dim>> &around) const
       {
         Stress sum;
         double weights = 0;
         for (const unsigned int a : GeometryInfo<dim>::vertex_indices())
           {
-            const StressAround<dim> around(
-              &sums[n_sums<dim> * number(in_cell, a)]);
             const double weight =
               std::max(least_share_of_vertex,
                        GeometryInfo<dim>::d_linear_shape_function(
                          points.reference_position(p), a)) *
-              std::pow(around.volume(), 3);
+              std::pow(around[a].volume(), 3);
             weights += weight;
-            sum += weight * around.at(from_vertex(p, in_cell, a));
+            sum += weight * around[a].at(from_vertex(p, in_cell, a));
           }
         return sum / weights;
       }

@@ -291,11 +291,12 @@ namespace moraine
       }
     else if (error && *error > told_error)
       {
-        text << "cells do not resolve the stress: its error is estimated at "
-             << 100 * *error
-             << " % in the energy norm, of an elastic body by forces "
-             << 100 * *error * *error
-             << " % of the deflection; smaller cells help";
+        text
+          << "cells do not resolve the stress: its error is estimated at "
+          << 100 * *error
+          << " % in the energy norm, of an elastic body by forces "
+          << 100 * *error * *error
+          << " % of the deflection; smaller cells help, but where bands form";
         doubts.push_back(text.str());
       }
     return doubts;

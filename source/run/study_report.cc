@@ -279,10 +279,10 @@ namespace moraine
         table.add_value("linear",
                         or_dash(ok, std::to_string(summary.linear.iterations)));
         if (conditioned)
-          table.add_value("condition",
-                          or_dash(summary.linear.condition_number.has_value(),
-                                  text_of(summary.linear.condition_number.value_or(0.),
-                                          3)));
+          table.add_value(
+            "condition",
+            or_dash(summary.linear.condition_number.has_value(),
+                    text_of(summary.linear.condition_number.value_or(0.), 3)));
         table.add_value("status", summary.status);
       }
     std::ostringstream text;

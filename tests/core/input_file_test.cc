@@ -320,13 +320,11 @@ TEST(InputFile, ConstantsDoNotUseLaterOnesOrThemselves)
     });
   };
   EXPECT_EQ(message("  set size = $digit\n  set digit = 7\n"),
-            "s.prm:2: section 'Constants', key 'size' (a constant sees those "
-            "above it): found '$digit'. "
-            "Allowed here: nothing");
+            "s.prm:2: section 'Constants', key 'size': found '$digit'; no "
+            "constant is defined before it. Allowed here: nothing");
   EXPECT_EQ(message("  set size = 2*$size\n"),
-            "s.prm:2: section 'Constants', key 'size' (a constant sees those "
-            "above it): found '$size'. "
-            "Allowed here: nothing");
+            "s.prm:2: section 'Constants', key 'size': found '$size'; no "
+            "constant is defined before it. Allowed here: nothing");
 }
 
 

@@ -94,8 +94,8 @@ def pressure(h, offset, settings):
 
 BORE = "Boundaries/bore/Enforcement"
 for method, h, offset, enforcement, allowed in (
-        ("GIMP", 0.2, 0.06, "augmented Lagrangian", 0.03),
-        ("GIMP", 0.2, 0.06, "penalty", 0.06),
+        ("GIMP", 0.2, 0.06, "augmented Lagrangian", 0.015),
+        ("GIMP", 0.2, 0.06, "penalty", 0.04),
         ("GIMP", 0.1, 0.05, "augmented Lagrangian", 0.015),
         ("GIMP", 0.1, 0.03, "augmented Lagrangian", 0.015),
         ("finite element", 0.1, 0.05, "augmented Lagrangian", 0.015)):
@@ -155,3 +155,111 @@ for method in "GIMP", "finite element":
         for side, x, y in (("left", -c, -s), ("right", c, s),
                            ("bottom", -s, c), ("top", s, -c)))
     bound(f"square, {method}: largest error of a force over it", worst, 0.02)
+
+# A cube that is pressed between six plates, anywhere in its mesh.
+CUBE = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -0.07, -0.11, -0.05
+  set Upper corner = 1.43, 1.39, 1.45
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Materials
+  subsection soil
+    set Model              = von Mises
+    set Young modulus      = 1000
+    set Poisson ratio      = 0.3
+    set Shear yield stress = 1
+  end
+end
+subsection Bodies
+  subsection cube
+    set Shape        = box
+    set Lower corner = 0, 0, 0
+    set Upper corner = 1, 1, 1
+  end
+end
+subsection Boundaries
+RIMS
+end
+subsection Time
+  set End time = 0.1
+  set Steps    = 4
+end
+"""
+cube = folder / "cube.prm"
+cube.write_text(CUBE.replace("RIMS", "\n".join(
+    f"  subsection {side}\n    set Body = cube\n    set Part = {side}\n"
+    "    set Constraint = fixed\n    set Displacement = "
+    "0.01*t*(x-0.5); -0.01*t*(y-0.5); 0\n  end"
+    for side in ("left", "right", "front", "back", "bottom", "top"))))
+forces = run(cube, {"Method/Strain": "small"}).summary["reactions"]
+G = 1000 / 2.6
+for side, direction, sign in (("left", 0, -1), ("right", 0, 1),
+                              ("front", 1, 1), ("back", 1, -1),
+                              ("bottom", 2, 0), ("top", 2, 0)):
+    exact = [0., 0., 0.]
+    exact[direction] = sign * 2 * G * 0.001
+    bound(f"cube, {side}: largest error of the force over that of the sides",
+          max(abs(a - b) for a, b in zip(forces[side], exact)) / (2 * G * 0.001),
+          0.02)
+
+# Ground between walls four cells apart, which push with nu/(1 - nu) of its weight.
+BOX = """
+subsection Mesh
+  set Lower corner = -0.1, -0.15
+  set Upper corner = 1.4, 2.35
+  set Cell size    = 0.25
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 1e5
+    set Poisson ratio = 0.3
+    set Density       = 2
+  end
+end
+subsection Bodies
+  subsection ground
+    set Shape        = box
+    set Lower corner = 0, 0
+    set Upper corner = 1, 2
+  end
+end
+subsection Boundaries
+  subsection left
+    set Body       = ground
+    set Part       = left
+    set Constraint = roller
+  end
+  subsection right
+    set Body       = ground
+    set Part       = right
+    set Constraint = roller
+  end
+  subsection base
+    set Body       = ground
+    set Part       = bottom
+    set Constraint = CONSTRAINT
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10
+  end
+end
+"""
+box = folder / "box.prm"
+for constraint, allowed in ("roller", 1e-3), ("fixed", 1e-2):
+    box.write_text(BOX.replace("CONSTRAINT", constraint))
+    for method in "GIMP", "finite element":
+        forces = run(box, {"Method/Method": method}).summary["reactions"]
+        push = 0.3 / 0.7 * 40
+        bound(f"ground, {method}, base {constraint}: push of a wall over that of "
+              "rest - 1", max(abs(forces["left"][0] / push - 1),
+                              abs(forces["right"][0] / push + 1)), allowed)
+        bound(f"ground, {method}, base {constraint}: weight on the base over it - 1",
+              forces["base"][1] / 40 - 1, 1e-6)

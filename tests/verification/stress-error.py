@@ -5,7 +5,7 @@
 cells hold back (Galerkin's orthogonality: by forces, the energy of the error is the
 energy that is missing)."""
 
-from math import cos, hypot, radians, sin, sqrt
+from math import cos, hypot, radians, sin
 
 # Cantilever of length 10 and height 1, anywhere in its mesh.
 BEAM = """

@@ -19,7 +19,7 @@ namespace moraine
   {
   public:
     /** A force that held a place at the end of the last step. */
-    struct Held
+    struct HeldPlace
     {
       unsigned int                    cell; ///< active_cell_index()
       dealii::Point<dim>              x;    ///< where the force acts
@@ -118,12 +118,6 @@ namespace moraine
       return boundary.name();
     }
 
-    const Enforcement &
-    enforcement() const
-    {
-      return boundary.enforcement();
-    }
-
     /** See BoundaryReport::moment. */
     double
     moment(const dealii::Point<dim>     &x,
@@ -134,7 +128,7 @@ namespace moraine
     }
 
     /** Of this rank, cell by cell; places that let go are not among them. */
-    const std::vector<Held> &
+    const std::vector<HeldPlace> &
     held() const
     {
       return held_places;
@@ -170,7 +164,7 @@ namespace moraine
     ImplicitBoundary<dim> &boundary;
     ShapesOfBodies<dim>    shapes;
     BoundaryReport<dim>    prepared;
-    std::vector<Held>      held_places;
+    std::vector<HeldPlace> held_places;
     /** By active_cell_index(), of the cells g with one mean:
      * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points
      * and the area A of the boundary. Empty where means are not penalised. */

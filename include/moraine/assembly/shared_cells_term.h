@@ -15,7 +15,8 @@ namespace moraine
    * it. Multipliers and penalties of two boundaries that hold the same nodes in
    * one direction find the sum of their forces alone, and a motion that the
    * functions of the cell meet on both sides only nearly is a large pair of
-   * opposite ones. The sum is shared out by the stress in the cell,
+   * opposite ones. In the cells around it alternates. In patches of such cells
+   * the sum is shared out by the stress of each cell,
    *
    * @f[ f_q = w_q M_q (\bar\sigma n_q + a), \qquad
    *     \sum_q w_q M_q\, a = \sum_q (t_q - M_q \bar\sigma n_q)\, w_q, @f]
