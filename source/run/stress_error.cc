@@ -19,8 +19,8 @@ namespace moraine
     using Stress                     = SymmetricTensor<2, 3>;
     constexpr unsigned int n_entries = Stress::n_independent_components;
 
-    /** Of the points around a vertex along a direction, in cell sizes squared.
-     */
+    /** Of the points around a vertex along a direction, the mean of squares
+     * over that of the shortest edge of a cell: slivers are not continued. */
     constexpr double least_spread_around = 0.01;
 
     /** Least share of a vertex in its cell: points on the face opposite. */
@@ -67,7 +67,7 @@ namespace moraine
     class StressAround
     {
     public:
-      explicit StressAround(const double *sums)
+      StressAround(const double *sums, const double edge)
         : v(sums[0])
       {
         if (!(v > 0))
@@ -89,9 +89,8 @@ namespace moraine
               covariance[d].access_raw_entry(c) =
                 entry[1 + d] / v - centre[d] * mean.access_raw_entry(c);
           }
-        const auto spreads = eigenvectors(spread);
-        for (const auto &[square, direction] : spreads)
-          if (square > least_spread_around * spreads[0].first)
+        for (const auto &[square, direction] : eigenvectors(spread))
+          if (square > least_spread_around * edge * edge)
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
                 slope[d] +=
@@ -177,8 +176,10 @@ namespace moraine
         for (const auto &in_cell : points.cells())
           {
             around.clear();
+            const double edge = in_cell.cell->minimum_vertex_distance();
             for (const unsigned int a : GeometryInfo<dim>::vertex_indices())
-              around.emplace_back(&sums[n_sums<dim> * number(in_cell, a)]);
+              around.emplace_back(&sums[n_sums<dim> * number(in_cell, a)],
+                                  edge);
             for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
               if (points.body(p) == body)
                 {
@@ -204,14 +205,12 @@ namespace moraine
         return points.stress_field()(points.values(p));
       }
 
-      /** In cell sizes. */
       Tensor<1, dim>
       from_vertex(const unsigned int p,
                   const CellPoints  &in_cell,
                   const unsigned int a) const
       {
-        return (points.position(p) - in_cell.cell->vertex(a)) /
-               points.mesh().cell_size();
+        return points.position(p) - in_cell.cell->vertex(a);
       }
 
       Stress

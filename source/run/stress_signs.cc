@@ -292,6 +292,7 @@ namespace moraine
     else if (error && *error > told_error)
       {
         text
+          << std::setprecision(2)
           << "cells do not resolve the stress: its error is estimated at "
           << 100 * *error
           << " % in the energy norm, of an elastic body by forces "
