@@ -80,11 +80,8 @@ namespace moraine
       const double size = (time.end_time - time.start_time) / time.n_steps;
       for (unsigned int step = 0; step <= time.n_steps; ++step)
         model.system->check_values(time.start_time + step * size);
-      std::vector<GridCondition<dim>> active;
-      for (const auto &condition : model.grid_conditions)
-        if (contains(stage.grid_conditions, condition.name) &&
-            !contains(stage.absorbing, condition.name))
-          active.push_back(condition);
+      const std::vector<GridCondition<dim>> active =
+        acting_conditions(model.grid_conditions, stage);
       check_agreement(
         active, *model.space, time.start_time, time.end_time, time.n_steps);
       note_idle_conditions(active, *model.space, time.start_time, notes);
@@ -125,28 +122,26 @@ namespace moraine
     {
       const double           t     = scene.start_time();
       const StageParameters &stage = scene.stages.front().second;
-      for (const auto &condition : model.grid_conditions)
-        if (contains(stage.grid_conditions, condition.name) &&
-            !contains(stage.absorbing, condition.name))
-          {
-            double largest = 0;
-            for (const auto &entry :
-                 find_prescribed_nodes<dim>({condition}, *model.space, t)
-                   .entries)
-              {
-                const Point<dim> x = model.space->node_position(entry.node);
-                largest =
-                  std::max(largest,
-                           std::abs(
-                             condition.displacement(x, t)[entry.component]));
-              }
-            for (const auto &[name, parameters] : scene.grid_conditions)
-              if (name == condition.name)
-                refuse_displacement_at_start("Grid conditions/" + name,
-                                             parameters.displacement,
-                                             largest,
-                                             model);
-          }
+      for (const auto &condition :
+           acting_conditions(model.grid_conditions, stage))
+        {
+          double largest = 0;
+          for (const auto &entry :
+               find_prescribed_nodes<dim>({condition}, *model.space, t).entries)
+            {
+              const Point<dim> x = model.space->node_position(entry.node);
+              largest =
+                std::max(largest,
+                         std::abs(
+                           condition.displacement(x, t)[entry.component]));
+            }
+          for (const auto &[name, parameters] : scene.grid_conditions)
+            if (name == condition.name)
+              refuse_displacement_at_start("Grid conditions/" + name,
+                                           parameters.displacement,
+                                           largest,
+                                           model);
+        }
       for (const auto &boundary : model.boundaries)
         for (const auto &[name, parameters] : scene.boundaries)
           if (name == boundary.name() && contains(stage.boundaries, name) &&
@@ -429,7 +424,7 @@ namespace moraine
     tell_of_point_volumes(model, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_absorbing_at_rest(scene, stage, model, notes);
-    tell_of_thin_bodies(model, {}, notes);
+    tell_of_thin_bodies(stage, model, {}, notes);
     tell_of_near_bodies(model, {}, notes);
     tell_of_narrow_gaps(model, {}, notes);
     tell_of_boundaries(scene, model, notes);
@@ -517,7 +512,7 @@ namespace moraine
     check_prescribed_motion(stage, false, model, notes);
     check_loads(stage, model, notes);
     tell_of_volume_twice(model, stage.bodies, before.bodies, notes);
-    tell_of_thin_bodies(model, before.bodies, notes);
+    tell_of_thin_bodies(stage, model, before.bodies, notes);
     tell_of_near_bodies(model, before.bodies, notes);
     tell_of_narrow_gaps(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);

@@ -148,11 +148,7 @@ namespace moraine
   void
   HoldWatch<dim>::count(const StageParameters &stage, const double t)
   {
-    conditions.clear();
-    for (const auto &condition : model.grid_conditions)
-      if (contains(stage.grid_conditions, condition.name) &&
-          !contains(stage.absorbing, condition.name))
-        conditions.push_back(condition);
+    conditions = acting_conditions(model.grid_conditions, stage);
     std::vector<std::vector<HeldPlace>> now(conditions.size());
     n_nodes.assign(conditions.size(), 0);
     for (const auto &entry :

@@ -117,11 +117,6 @@ namespace moraine
         if (contains(stage.boundaries, boundary.name()) &&
             !contains(stage.absorbing, boundary.name()))
           acting.push_back(&boundary);
-      std::vector<GridCondition<dim>> acting_conditions;
-      for (const auto &condition : conditions)
-        if (contains(stage.grid_conditions, condition.name) &&
-            !contains(stage.absorbing, condition.name))
-          acting_conditions.push_back(condition);
       const TimeParameters &time = stage.time;
       const unsigned int    n    = std::min(time.n_steps, most_spans);
       std::vector<double>   times;
@@ -130,9 +125,8 @@ namespace moraine
         times.push_back(time.start_time +
                         std::pow(double(k) / n, n < most_spans ? 1. : 1.3) *
                           (time.end_time - time.start_time));
-      return std::make_unique<MeetingTerm<dim>>(acting,
-                                                acting_conditions,
-                                                times);
+      return std::make_unique<MeetingTerm<dim>>(
+        acting, acting_conditions(conditions, stage), times);
     }
   } // namespace
 
@@ -402,6 +396,27 @@ namespace moraine
 
 
 
+  template <int dim>
+  std::vector<GridCondition<dim>>
+  acting_conditions(const std::vector<GridCondition<dim>> &conditions,
+                    const StageParameters                 &stage)
+  {
+    std::vector<GridCondition<dim>> acting;
+    for (const auto &condition : conditions)
+      if (contains(stage.grid_conditions, condition.name) &&
+          !contains(stage.absorbing, condition.name))
+        acting.push_back(condition);
+    return acting;
+  }
+
+
+
+  template std::vector<GridCondition<2>>
+  acting_conditions(const std::vector<GridCondition<2>> &,
+                    const StageParameters &);
+  template std::vector<GridCondition<3>>
+  acting_conditions(const std::vector<GridCondition<3>> &,
+                    const StageParameters &);
   template struct Model<2>;
   template struct Model<3>;
 } // namespace moraine

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -20,6 +19,10 @@ namespace moraine
   {
     /** What a body has of a cell of its own is more than this. */
     constexpr double least_share = 0.01, most_share = 0.5;
+
+    /** Of the vertices of a body along the edge of the mesh: from here on what
+     * holds them does not let it bend. */
+    constexpr double held_share = 0.4;
 
     /** Of shear moduli: a soft and a stiff body. */
     constexpr double contrast = 10;
@@ -53,6 +56,67 @@ namespace moraine
             parts[b][cell->active_cell_index()] /= cell->measure();
         }
       return parts;
+    }
+
+
+
+    /** Vertices of cells that a boundary or a condition of the stage holds in
+     * any direction; the same on all ranks. */
+    template <int dim>
+    std::vector<double>
+    held_vertices(const StageParameters &stage, const Model<dim> &model)
+    {
+      const auto         &tria = model.mesh->triangulation();
+      std::vector<double> held(tria.n_vertices(), 0.);
+      for (const auto &entry :
+           find_prescribed_nodes(acting_conditions(model.grid_conditions,
+                                                   stage),
+                                 *model.space,
+                                 stage.time.start_time)
+             .entries)
+        for (const unsigned int v : model.space->node_vertices(entry.node))
+          held[v] = 1;
+      std::vector<bool> holds(tria.n_active_cells(), false);
+      for (const auto &boundary : model.boundaries)
+        for (const auto &point : boundary.points())
+          holds[point.cell] = true;
+      for (const auto &cell : tria.active_cell_iterators())
+        if (holds[cell->active_cell_index()])
+          for (const unsigned int a : cell->vertex_indices())
+            held[cell->vertex_index(a)] = 1;
+      Utilities::MPI::max(held, tria.get_communicator(), held);
+      return held;
+    }
+
+
+
+    /** Whether a body, of which @p parts fill the cells, is nowhere as thick as
+     * one and a half cells, or as a cell if the mesh is as thick and hardly
+     * any of its vertices are @p held. */
+    template <int dim>
+    bool
+    is_thin(const Model<dim>          &model,
+            const std::vector<double> &parts,
+            const std::vector<double> &held)
+    {
+      const std::vector<bool> in_bulk = vertices_in_bulk(*model.space, parts);
+      std::vector<bool>       at_edge(in_bulk.size(), false);
+      for (const auto &cell :
+           model.mesh->triangulation().active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+            for (unsigned int a = 0; a < face->n_vertices(); ++a)
+              at_edge[face->vertex_index(a)] = true;
+      unsigned int n = 0, n_held = 0;
+      for (unsigned int v = 0; v < in_bulk.size(); ++v)
+        if (in_bulk[v])
+          {
+            if (!at_edge[v])
+              return false;
+            ++n;
+            n_held += held[v] > 0;
+          }
+      return n == 0 || n_held < held_share * n;
     }
 
 
@@ -129,11 +193,13 @@ namespace moraine
 
   template <int dim>
   void
-  tell_of_thin_bodies(const Model<dim>               &model,
+  tell_of_thin_bodies(const StageParameters          &stage,
+                      const Model<dim>               &model,
                       const std::vector<std::string> &known,
                       std::vector<std::string>       &notes)
   {
     const auto          parts = filled_parts(model);
+    const auto          held  = held_vertices(stage, model);
     std::vector<double> volumes;
     for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
       volumes.push_back(cell->measure());
@@ -141,16 +207,16 @@ namespace moraine
       {
         if (!model.present[b])
           continue;
-        const std::string &name    = model.body_names[b];
-        const bool         is_new  = !contains(known, name);
-        const auto         in_bulk = vertices_in_bulk(*model.space, parts[b]);
+        const std::string &name   = model.body_names[b];
+        const bool         is_new = !contains(known, name);
         if (is_new && model.space->degree() == 1 &&
-            std::find(in_bulk.begin(), in_bulk.end(), true) == in_bulk.end())
+            is_thin(model, parts[b], held))
           notes.push_back(
             name +
-            ": nowhere as thick as one and a half cells; linear functions make "
-            "what bends much too stiff there, smaller cells or 'Degree = 2' "
-            "with method 'finite element' do not");
+            ": nowhere as thick as one and a half cells; what bends comes out "
+            "much too stiff there, with means over cells as 'Volumetric "
+            "strain' much too soft; smaller cells, or 'Degree = 2' with method "
+            "'finite element', help");
         const double mu = model.materials[b]->elastic_stiffness().mu;
         for (unsigned int a = 0; a < parts.size(); ++a)
           if (model.present[a] &&
@@ -167,11 +233,13 @@ namespace moraine
 
 
   template void
-  tell_of_thin_bodies(const Model<2> &,
+  tell_of_thin_bodies(const StageParameters &,
+                      const Model<2> &,
                       const std::vector<std::string> &,
                       std::vector<std::string> &);
   template void
-  tell_of_thin_bodies(const Model<3> &,
+  tell_of_thin_bodies(const StageParameters &,
+                      const Model<3> &,
                       const std::vector<std::string> &,
                       std::vector<std::string> &);
 } // namespace moraine

@@ -171,6 +171,26 @@ for degree in (1, 2):
     text(f"base of a turned block, degree {degree}: notes",
          result.output.count("  note "))
 
+# A body as thick as the mesh and one cell, that bends, or cannot, or is thicker.
+SIDE = """subsection {side}
+    set Side       = {side}
+    set Components = {components}
+  end
+  """
+for title, size, held in (
+        ("beam one cell thick", 1, [("left", "x, y")]),
+        ("layer one cell thick", 1, [("bottom", "x, y")]),
+        ("column one cell wide", 1, [("left", "x, y"), ("bottom", "y"), ("top", "y")]),
+        ("beam two cells thick", 0.5, [("left", "x, y")])):
+    scene.write_text(SCENE.format(bodies=BODY.format(
+        name="block", material="firm", lower="0, 0", upper="6, 1"), more="").replace(
+            "-1, 0\n  set Upper corner = 4, 4\n  set Cell size    = 0.25",
+            f"0, 0\n  set Upper corner = 6, 1\n  set Cell size    = {size}").replace(
+                "  subsection base\n    set Side = bottom\n  end\n", "".join(
+                    SIDE.format(side=side, components=components)
+                    for side, components in held)))
+    text(title + ": told", "nowhere as thick" in run(scene, command="check").output)
+
 # Steps that end on the peaks of a table, and beside them.
 PEAKS = """
 subsection Loads

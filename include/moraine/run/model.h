@@ -89,6 +89,12 @@ namespace moraine
     std::vector<std::vector<typename PointSet<dim>::Record>> later;
   };
 
+  /** Of @p conditions those that prescribe displacements in @p stage. */
+  template <int dim>
+  std::vector<GridCondition<dim>>
+  acting_conditions(const std::vector<GridCondition<dim>> &conditions,
+                    const StageParameters                 &stage);
+
   /**
    * Find cells and pieces for the first step, and what cannot be right: that
    * boundaries touch a body and have it on their inner side, that what is

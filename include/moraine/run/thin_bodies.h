@@ -13,15 +13,17 @@ namespace moraine
 {
   /**
    * Add to @p notes what cells are too coarse for and no equation tells: bodies
-   * that are nowhere as thick as one and a half linear cells, which hardly
-   * bend, and cells that a stiff body fills in part beside a soft one, as one
-   * displacement makes all of such a cell stiff, also if it is much of the soft
-   * body that is in such cells. Only of bodies that are not
+   * that are nowhere as thick as one and a half linear cells, which bend as
+   * they should not unless @p stage holds their sides, and cells that a stiff
+   * body fills in part beside a soft one, as one displacement makes all of such
+   * a cell stiff, also if it is much of the soft body that is in such cells.
+   * Only of bodies that are not
    * @p known from a stage before. Collective.
    */
   template <int dim>
   void
-  tell_of_thin_bodies(const Model<dim>               &model,
+  tell_of_thin_bodies(const StageParameters          &stage,
+                      const Model<dim>               &model,
                       const std::vector<std::string> &known,
                       std::vector<std::string>       &notes);
 } // namespace moraine
