@@ -221,6 +221,24 @@ namespace moraine
 
 
 
+    /** Whether no point has moved or has a stress. Collective. */
+    template <int dim>
+    bool
+    nothing_happened(const Model<dim> &model)
+    {
+      const PointSet<dim> &points = *model.points;
+      const auto           u      = points.displacement_field();
+      const auto           stress = points.stress_field();
+      bool                 any    = false;
+      for (const auto &in_cell : points.cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          any = any || u(points.values(p)).norm() > 0 ||
+                stress(points.values(p)).norm() > 0;
+      return !Utilities::MPI::logical_or(any, model.space->communicator());
+    }
+
+
+
     template <int dim>
     bool
     is_at_rest(const Model<dim> &model, const StressSigns &signs)
@@ -254,6 +272,9 @@ namespace moraine
                    const Model<dim>            &model,
                    const std::optional<double> &error)
   {
+    if (nothing_happened(model))
+      return {"nothing has moved or been stressed: no load, motion or initial "
+              "value of this scene acts on its bodies"};
     const StressSigns signs = stress_signs(*model.space, *model.points);
     if (is_at_rest(model, signs))
       return {};

@@ -214,9 +214,9 @@ namespace moraine
           notes.push_back(
             name +
             ": nowhere as thick as one and a half cells; what bends comes out "
-            "much too stiff there, with means over cells as 'Volumetric "
-            "strain' much too soft; smaller cells, or 'Degree = 2' with method "
-            "'finite element', help");
+            "much too stiff there, by 'Volumetric strain = cell mean' much too "
+            "soft; smaller cells, or 'Degree = 2' with method 'finite element',"
+            " help");
         const double mu = model.materials[b]->elastic_stiffness().mu;
         for (unsigned int a = 0; a < parts.size(); ++a)
           if (model.present[a] &&

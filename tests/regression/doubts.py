@@ -48,6 +48,10 @@ show("footing, MPM, pointwise", "prm/hard-cases/bearing-gimp.prm",
 show("slope, pointwise", "prm/geotechnics/slope.prm",
      {**POINT, "Mesh/Cell size": 1, "Time/End time": 1, "Time/Steps": 20})
 
+# A scene in which no load acts.
+result = run(BLOCK, {"Loads/weight/Value": "0; 0", "Loads/end/Value": "0; 0"})
+text("nothing acts: warnings", told(result))
+
 # Ground at rest that hardly changes its volume: mean stress grows with depth from
 # cell to cell, by more than the deviatoric stress, and is right.
 for volumetric in ("pointwise", "cell mean"):

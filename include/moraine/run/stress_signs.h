@@ -48,10 +48,10 @@ namespace moraine
   std::optional<double>
   stress_error(const Model<dim> &model);
 
-  /** That results look as if volume locked or cells were crossed, as if they
-   * depended on where the mesh cuts the material, or as if cells did not
-   * resolve them, and which keys help; nothing where there is next to no
-   * stress. Collective.
+  /** That nothing has acted; or that results look as if volume locked or cells
+   * were crossed, as if they depended on where the mesh cuts the material, or
+   * as if cells did not resolve them, and which keys help; nothing where there
+   * is next to no stress. Collective.
    *
    * @param scene method and keys
    * @param model after the last step
