@@ -177,7 +177,6 @@ namespace moraine
         auto &report = prepared[entries[first].condition];
         report.reaction += force;
         report.force_magnitude += force.norm();
-        report.work_of_motion += force * context.increments()[node];
         report.moment += conditions[entries[first].condition].motion.moment(
           space.node_position(node) + context.increments()[node],
           force,

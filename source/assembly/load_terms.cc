@@ -51,18 +51,19 @@ namespace moraine
 
 
 
-    /** A traction on the faces of one cell that lie on the side. */
+    /** A traction on the faces of one cell that lie on the side. @param
+     * on_faces places, face by face */
     template <int dim, int degree>
     void
     add_side_traction(const State<dim>                            &state,
                       const SideTraction<dim>                     &load,
+                      const std::vector<Quadrature<dim>>          &on_faces,
                       const double                                 t,
                       const typename GridSpace<dim>::CellIterator &cell,
                       LocalSystem<dim>                            &local)
     {
       constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
       const unsigned int    *nodes = state.grid().cell_nodes(cell);
-      const QGauss<dim - 1>  quadrature(degree + 1);
       Point<dim>             X[n];
       double                 N[n];
       Tensor<1, dim>         grad_N[n];
@@ -74,16 +75,15 @@ namespace moraine
         if (cell->face(f)->at_boundary() &&
             cell->face(f)->boundary_id() == load.side)
           {
-            const auto on_face = QProjector<dim>::project_to_face(
-              ReferenceCells::get_hypercube<dim>(), quadrature, f);
+            const Quadrature<dim> &on_face = on_faces[f];
             for (unsigned int q = 0; q < on_face.size(); ++q)
               {
                 CellShapes<dim, degree>::evaluate(on_face.point(q),
                                                   X,
                                                   N,
                                                   grad_N);
-                const double JxW = quadrature.weight(q) *
-                                   face_jacobian(map, f, on_face.point(q));
+                const double JxW =
+                  on_face.weight(q) * face_jacobian(map, f, on_face.point(q));
                 Point<dim> x;
                 for (unsigned int a = 0; a < n; ++a)
                   x += N[a] * X[a];
@@ -95,6 +95,15 @@ namespace moraine
           }
     }
   } // namespace
+
+
+
+  template <int dim>
+  Quadrature<dim - 1>
+  side_quadrature(const unsigned int degree)
+  {
+    return QIterated<dim - 1>(QGauss<1>(degree + 1), 4);
+  }
 
 
 
@@ -208,8 +217,14 @@ namespace moraine
                              const bool,
                              GlobalSystem<dim> &system) const
   {
-    const GridSpace<dim> &space = context.state.grid();
-    LocalSystem<dim>      local;
+    const GridSpace<dim>        &space = context.state.grid();
+    std::vector<Quadrature<dim>> on_faces;
+    for (const unsigned int f : GeometryInfo<dim>::face_indices())
+      on_faces.push_back(
+        QProjector<dim>::project_to_face(ReferenceCells::get_hypercube<dim>(),
+                                         side_quadrature<dim>(space.degree()),
+                                         f));
+    LocalSystem<dim> local;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary() &&
@@ -221,10 +236,10 @@ namespace moraine
                        false);
           if (space.degree() == 1)
             add_side_traction<dim, 1>(
-              context.state, load, context.t_end, cell, local);
+              context.state, load, on_faces, context.t_end, cell, local);
           else
             add_side_traction<dim, 2>(
-              context.state, load, context.t_end, cell, local);
+              context.state, load, on_faces, context.t_end, cell, local);
           system.add(local, false);
         }
   }
@@ -322,10 +337,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                 \
-  template class BodyForceTerm<dim>;     \
-  template class ForceOnPointsTerm<dim>; \
-  template class SideTractionTerm<dim>;  \
+#define INSTANTIATE(dim)                                                 \
+  template Quadrature<dim - 1> side_quadrature<dim>(const unsigned int); \
+  template class BodyForceTerm<dim>;                                     \
+  template class ForceOnPointsTerm<dim>;                                 \
+  template class SideTractionTerm<dim>;                                  \
   template class CarriedLoadTerm<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -22,12 +22,14 @@ namespace moraine
                             const std::vector<bool> &is_seeded,
                             const DomainUpdate       update,
                             const bool               split,
-                            const std::string       &name)
+                            const std::string       &name,
+                            const std::vector<Tensor<2, dim>> &half_edges)
     : Basis<dim>(space, points)
     , name(name)
     , neighbours((require_box_mesh(space, name), space.mesh()))
     , points_per_direction(points_per_direction)
     , is_seeded(is_seeded)
+    , half_edges_of_body(half_edges)
     , update(DomainTools::finite_strain(points) ? update : DomainUpdate::frozen)
     , split(split)
     , half_length_field(points.fields().find(half_length_name))
@@ -38,20 +40,65 @@ namespace moraine
 
 
 
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim>
+    edges_of(const BoxGrid<dim> &grid)
+    {
+      Tensor<1, dim> edges;
+      for (unsigned int d = 0; d < dim; ++d)
+        edges[d] = grid.cell_size[d];
+      return edges;
+    }
+
+
+
+    /** Half the edges of the box along the axes around a parallelepiped. */
+    template <int dim>
+    Tensor<1, dim>
+    half_box_around(const Tensor<2, dim> &half_edges)
+    {
+      Tensor<1, dim> half_box;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          half_box[d] += std::abs(half_edges[d][e]);
+      return half_box;
+    }
+
+
+
+    /** Half the edges of a box of @p volume with the same proportions. */
+    template <int dim>
+    Tensor<1, dim>
+    scaled_to(const double volume, const Tensor<1, dim> &half_edges)
+    {
+      double of_edges = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        of_edges *= 2 * half_edges[d];
+      return std::pow(volume / of_edges, 1. / dim) * half_edges;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   GimpBasis<dim>::initialise_points(PointSet<dim> &points) const
   {
-    const BoxGrid<dim> &grid            = this->grid();
-    double              sub_cell_volume = 1;
-    for (unsigned int d = 0; d < dim; ++d)
-      sub_cell_volume *= grid.cell_size[d] / points_per_direction;
+    const BoxGrid<dim>         &grid = this->grid();
+    std::vector<Tensor<1, dim>> half_boxes;
+    for (const Tensor<2, dim> &half_edges : half_edges_of_body)
+      half_boxes.push_back(half_box_around(half_edges));
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        double      *half_length = points.values(p) + half_length_offset;
-        const double scale =
-          std::pow(points.volume(p) / sub_cell_volume, 1. / dim);
-        const unsigned int body = points.body(p);
+        double            *half_length = points.values(p) + half_length_offset;
+        const unsigned int body        = points.body(p);
+        const bool         has_part =
+          body < half_boxes.size() && half_boxes[body].norm() > 0;
+        const Tensor<1, dim> of_volume =
+          scaled_to(points.volume(p),
+                    has_part ? half_boxes[body] : 0.5 * edges_of(grid));
         for (unsigned int d = 0; d < dim; ++d)
           if (body < is_seeded.size() && is_seeded[body])
             {
@@ -62,8 +109,7 @@ namespace moraine
               half_length[d] = length * std::min(from_face, 1. - from_face);
             }
           else
-            half_length[d] = 0.5 * grid.cell_size[d] *
-                             std::min(1., scale / points_per_direction);
+            half_length[d] = std::min(0.5 * grid.cell_size[d], of_volume[d]);
         if (update == DomainUpdate::stretch)
           initial_half_length_field.store(half_length_field(points.values(p)),
                                           points.values(p));

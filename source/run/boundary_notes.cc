@@ -206,10 +206,7 @@ namespace moraine
     {
       const bool finite =
         model.state->strain_measure() == StrainMeasure::finite;
-      const bool any_yields =
-        std::any_of(scene.materials.begin(),
-                    scene.materials.end(),
-                    [](const auto &named) { return named.second.yields(); });
+      const bool any_yields = scene.any_yields();
       for (const auto &boundary : model.boundaries)
         if (boundary.enforcement().w_constrained > 0 && (finite || any_yields))
           notes.push_back(

@@ -43,14 +43,15 @@ namespace moraine
     works = of_run;
     time  = t;
     moved += work_of_motions;
-    total           = works.kinetic + works.stored + works.dissipated;
-    const auto work = [this](const WorkKind kind) {
+    const double of_motions = moved + works.of_prescribed;
+    total                   = works.kinetic + works.stored + works.dissipated;
+    const auto work         = [this](const WorkKind kind) {
       return works.of_forces[unsigned(kind)];
     };
     given       = std::max({given,
                             works.kinetic_at_start + works.stored_at_start,
                             std::abs(work(WorkKind::external)),
-                            std::abs(moved),
+                            std::abs(of_motions),
                             work(WorkKind::absorbed),
                       starts_anew ? total : 0.});
     starts_anew = false;
@@ -63,7 +64,8 @@ namespace moraine
   double
   EnergyWatch::made_by_boundaries() const
   {
-    return works.of_forces[unsigned(WorkKind::boundaries)] - moved;
+    return works.of_forces[unsigned(WorkKind::boundaries)] -
+           works.of_prescribed - moved;
   }
 
 

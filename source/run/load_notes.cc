@@ -3,11 +3,19 @@
 
 #include <moraine/run/load_notes.h>
 
+#include <moraine/assembly/load_terms.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 #include <moraine/run/hold_watch.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace moraine
 {
@@ -27,6 +35,147 @@ namespace moraine
         partly[cell->active_cell_index()] =
           filled[cell->active_cell_index()] < 0.9 * cell->measure();
       return partly;
+    }
+
+
+
+    /** By how much the force of a load may change with finer places. */
+    constexpr double told_force = 0.03;
+
+    /** More points than this are not looked at. */
+    constexpr unsigned int most_points = 100000;
+
+
+
+    /** The force of a load by the places that count and by finer ones, and what
+     * it would be by these without signs. */
+    template <int dim>
+    struct Forces
+    {
+      Tensor<1, dim> counts, finer;
+      double         size = 0;
+
+      void
+      add_finer(const Tensor<1, dim> &force)
+      {
+        finer += force;
+        size += force.norm();
+      }
+
+      double
+      error() const
+      {
+        return size > 0 ? (counts - finer).norm() / size : 0.;
+      }
+    };
+
+
+
+    template <int dim>
+    Forces<dim>
+    forces_of(const SideTraction<dim> &load,
+              const Model<dim>        &model,
+              const double             t)
+    {
+      const FE_Nothing<dim>    no_functions;
+      const QIterated<dim - 1> finer(QGauss<1>(2), dim == 2 ? 64 : 16);
+      const UpdateFlags flags = update_quadrature_points | update_JxW_values;
+      FEFaceValues<dim> at_places(no_functions,
+                                  side_quadrature<dim>(model.space->degree()),
+                                  flags);
+      FEFaceValues<dim> at_finer(no_functions, finer, flags);
+      Forces<dim>       forces;
+      for (const auto &cell :
+           model.mesh->triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary() &&
+            model.space->is_active(cell))
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() &&
+                cell->face(f)->boundary_id() == load.side)
+              {
+                at_places.reinit(cell, f);
+                at_finer.reinit(cell, f);
+                for (const unsigned int q :
+                     at_places.quadrature_point_indices())
+                  forces.counts += at_places.JxW(q) *
+                                   load.value(at_places.quadrature_point(q), t);
+                for (const unsigned int q : at_finer.quadrature_point_indices())
+                  forces.add_finer(at_finer.JxW(q) *
+                                   load.value(at_finer.quadrature_point(q), t));
+              }
+      return forces;
+    }
+
+
+
+    /** Each point stands for a cube of its volume. */
+    template <int dim>
+    Forces<dim>
+    forces_of(const BodyForce<dim> &load,
+              const Model<dim>     &model,
+              const double          t)
+    {
+      const PointSet<dim> &points = *model.points;
+      const QIterated<dim> of_cube(QMidpoint<1>(), dim == 2 ? 6 : 4);
+      Forces<dim>          forces;
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        if (load.acts_on[points.body(p)])
+          {
+            const double     V    = points.volume(p);
+            const double     edge = std::pow(V, 1. / dim);
+            const Point<dim> x    = load.at_start ?
+                                      model.state->original_position(p) :
+                                      points.position(p);
+            forces.counts += V * load.value(x, t);
+            for (const Point<dim> &xi : of_cube.get_points())
+              {
+                Tensor<1, dim> way = xi;
+                for (unsigned int d = 0; d < dim; ++d)
+                  way[d] -= 0.5;
+                forces.add_finer(V / of_cube.size() *
+                                 load.value(x + edge * way, t));
+              }
+          }
+      return forces;
+    }
+
+
+
+    /** That an expression changes so much between the places where it is
+     * evaluated that its force is another one. */
+    template <int dim, typename Load>
+    void
+    tell_of_coarse_places(const StageParameters    &stage,
+                          const Load               &load,
+                          const Model<dim>         &model,
+                          std::vector<std::string> &notes)
+    {
+      const MPI_Comm communicator = model.space->communicator();
+      Forces<dim>    worst;
+      for (const double part : {0.3, 0.6, 1.})
+        {
+          Forces<dim> forces =
+            forces_of(load,
+                      model,
+                      stage.time.start_time +
+                        part * (stage.time.end_time - stage.time.start_time));
+          forces.counts = Utilities::MPI::sum(forces.counts, communicator);
+          forces.finer  = Utilities::MPI::sum(forces.finer, communicator);
+          forces.size   = Utilities::MPI::sum(forces.size, communicator);
+          if (forces.error() > worst.error())
+            worst = forces;
+        }
+      if (!(worst.error() > told_force))
+        return;
+      std::ostringstream text;
+      text
+        << std::setprecision(3) << "load " << load.name << ": its force is "
+        << worst.counts.norm()
+        << " by the places where its expression is evaluated, and "
+        << worst.finer.norm()
+        << " by finer ones; let it change on mesh lines, take smaller cells, "
+           "or let it act on a drawn surface or body alone";
+      notes.push_back(text.str());
     }
   } // namespace
 
@@ -64,7 +213,13 @@ namespace moraine
             " faces of cells that it pushes on belong to cells that material "
             "fills in part, and are pushed on as a whole; 'surface traction' "
             "acts on the rim of a body");
+        tell_of_coarse_places(stage, traction, model, notes);
       }
+    if (Utilities::MPI::sum(model.points->n_local(),
+                            model.space->communicator()) <= most_points)
+      for (const auto &force : model.loads.body_forces)
+        if (contains(stage.loads, force.name))
+          tell_of_coarse_places(stage, force, model, notes);
   }
 
 

@@ -135,16 +135,21 @@ namespace moraine
     std::unique_ptr<Basis<dim>>
     box_basis(const typename Method<dim>::Ingredients &of)
     {
-      std::vector<bool> is_seeded;
+      std::vector<bool>           is_seeded;
+      std::vector<Tensor<2, dim>> half_edges;
       for (const Body<dim> &body : of.bodies)
-        is_seeded.push_back(body.shape != nullptr);
+        {
+          is_seeded.push_back(body.shape != nullptr);
+          half_edges.push_back(body.listed.half_edges);
+        }
       return std::make_unique<BoxBasis>(of.space,
                                         of.points,
                                         of.parameters.points_per_direction,
                                         is_seeded,
                                         of.parameters.update_of_domains(),
                                         of.parameters.splits_domains(),
-                                        of.parameters.method);
+                                        of.parameters.method,
+                                        half_edges);
     }
 
 

@@ -348,9 +348,7 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
-    const auto yields = [](const auto &named) { return named.second.yields(); };
-    if (method.strain_measure() == StrainMeasure::finite ||
-        std::any_of(materials.begin(), materials.end(), yields))
+    if (method.strain_measure() == StrainMeasure::finite || any_yields())
       choose_enforcement("augmented Lagrangian", input);
     else if (is_dynamic())
       choose_enforcement("symmetric Nitsche", input);
@@ -369,6 +367,17 @@ namespace moraine
       if (stage.time.integrator.dynamic())
         return stage;
     return stages.front().second;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::any_yields() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const auto &named) { return named.second.yields(); });
   }
 
 

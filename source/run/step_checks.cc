@@ -152,6 +152,7 @@ namespace moraine
     , holds(scene, model)
     , crossings(scene, model)
     , turns(scene, model)
+    , slides(scene.any_yields(), model.mesh->cell_size(), scene.start_time())
   {}
 
 
@@ -163,6 +164,7 @@ namespace moraine
   {
     holds.stage_begins();
     crossings.stage_begins();
+    slides.stage_begins();
     if (motion_starts)
       energy.motion_starts();
     if (!bodies_change)
@@ -230,6 +232,10 @@ namespace moraine
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
     found.push_back(turns.look(t, reports));
+    found.push_back(slides.look(t,
+                                largest_motion,
+                                !model.system->step_context().motion &&
+                                  !time.follows_path()));
     if (!time.between_parts())
       found.push_back(energy_made(t));
     // Works are of dynamics alone.
@@ -432,6 +438,7 @@ namespace moraine
     holds.write(archive);
     crossings.write(archive);
     turns.write(archive);
+    slides.write(archive);
   }
 
 
@@ -457,6 +464,7 @@ namespace moraine
     holds.read(archive);
     crossings.read(archive);
     turns.read(archive);
+    slides.read(archive);
   }
 
 

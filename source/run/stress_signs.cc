@@ -40,7 +40,7 @@ namespace moraine
     constexpr double told_saw = 2;
 
     /** Next to no stress, over the shear modulus; next to no strain energy,
-     * over the largest part of the energy of motion. */
+     * over the kinetic energy. */
     constexpr double no_stress = 1e-6;
     constexpr double no_energy = 1e-3;
 
@@ -216,7 +216,7 @@ namespace moraine
     has_no_energy(const Model<dim> &model)
     {
       return model.motion && model.motion->works().stored <
-                               no_energy * model.motion->works().largest();
+                               no_energy * model.motion->works().kinetic;
     }
 
 

@@ -24,10 +24,10 @@ namespace moraine
      * holds them does not let it bend. */
     constexpr double held_share = 0.4;
 
-    /** Of shear moduli: a soft and a stiff body. */
+    /** Of shear moduli: a stiff body makes cells stiff beside a soft one. */
     constexpr double contrast = 10;
 
-    /** Of the volume of a soft body: what does not give way is told of. */
+    /** Of the compression of a soft body: what is held back is told of. */
     constexpr double told_share_of_soft = 0.05;
 
 
@@ -121,22 +121,28 @@ namespace moraine
 
 
 
-    /** What share of the soft body is in cells that the stiff one has a part
-     * of. @param volumes of cells */
+    /** What cells of both hold back of the compression of a soft body, over all
+     * of it: layers in a row give way by the mean of their compliances, the one
+     * displacement of a cell by that of their stiffnesses.
+     * @param ratio of the stiffnesses
+     * @param volumes of cells */
     double
-    share_beside(const std::vector<double> &stiff,
-                 const std::vector<double> &soft,
-                 const std::vector<double> &volumes)
+    share_held_back(const std::vector<double> &stiff,
+                    const std::vector<double> &soft,
+                    const double               ratio,
+                    const std::vector<double> &volumes)
     {
-      double beside = 0, all = 0;
+      double held = 0, all = 0;
       for (unsigned int c = 0; c < stiff.size(); ++c)
         {
-          const double volume = soft[c] * volumes[c];
-          all += volume;
-          if (stiff[c] > least_share)
-            beside += volume;
+          all += soft[c] * volumes[c];
+          if (!(stiff[c] > least_share) || !(soft[c] > 0))
+            continue;
+          const double both = soft[c] + stiff[c];
+          held += volumes[c] * (soft[c] + stiff[c] / ratio -
+                                both * both / (soft[c] + ratio * stiff[c]));
         }
-      return beside / all;
+      return held / all;
     }
 
 
@@ -156,7 +162,7 @@ namespace moraine
 
 
     /** That a stiff body fills @p n cells by less than half beside a soft one,
-     * of which @p share is in cells of both. */
+     * and that cells of both hold back @p share of the compression of that. */
     void
     tell_of_shared_cells(const std::string        &stiff,
                          const std::string        &soft,
@@ -178,12 +184,11 @@ namespace moraine
         }
       if (share > told_share_of_soft)
         {
-          text
-            << soft << ": " << std::lround(100 * share)
-            << " % of its volume is in cells that '" << stiff
-            << "', much stiffer, has a share of, and hardly gives way there; "
-               "settlements come out too small by about as much: let it end "
-               "on mesh lines, or take smaller cells";
+          text << soft << ": cells that '" << stiff
+               << "', stiffer, has a share of hold back about "
+               << std::lround(100 * share)
+               << " % of its compression across them, and settlements: let it "
+                  "end on mesh lines, or take smaller cells";
           notes.push_back(text.str());
         }
     }
@@ -217,16 +222,22 @@ namespace moraine
             "much too stiff there, by 'Volumetric strain = cell mean' much too "
             "soft; smaller cells, or 'Degree = 2' with method 'finite element',"
             " help");
-        const double mu = model.materials[b]->elastic_stiffness().mu;
+        const auto modulus = [&model](const unsigned int body) {
+          return model.materials[body]->elastic_stiffness().mu;
+        };
         for (unsigned int a = 0; a < parts.size(); ++a)
           if (model.present[a] &&
               (is_new || !contains(known, model.body_names[a])) &&
-              mu > contrast * model.materials[a]->elastic_stiffness().mu)
-            tell_of_shared_cells(name,
-                                 model.body_names[a],
-                                 n_shared(parts[b], parts[a]),
-                                 share_beside(parts[b], parts[a], volumes),
-                                 notes);
+              modulus(b) > modulus(a))
+            {
+              const double ratio = modulus(b) / modulus(a);
+              tell_of_shared_cells(
+                name,
+                model.body_names[a],
+                ratio > contrast ? n_shared(parts[b], parts[a]) : 0,
+                share_held_back(parts[b], parts[a], ratio, volumes),
+                notes);
+            }
       }
   }
 

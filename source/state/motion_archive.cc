@@ -21,6 +21,7 @@ namespace moraine
                                       std::end(done.of_forces)),
                   1,
                   energy);
+    archive.write("motion/work_of_prescribed", done.of_prescribed, energy);
     archive.write("motion/lost_in_transfer", done.lost_in_transfer, energy);
     archive.write("motion/kinetic_at_start", done.kinetic_at_start, energy);
     archive.write("motion/kinetic", done.kinetic, energy);
@@ -54,6 +55,7 @@ namespace moraine
     const auto &works = archive.numbers("motion/works");
     AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
     std::copy(works.begin(), works.end(), done.of_forces);
+    done.of_prescribed    = archive.number("motion/work_of_prescribed");
     done.lost_in_transfer = archive.number("motion/lost_in_transfer");
     done.kinetic_at_start = archive.number("motion/kinetic_at_start");
     done.kinetic          = archive.number("motion/kinetic");

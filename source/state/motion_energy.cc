@@ -127,6 +127,7 @@ namespace moraine
         const double of_end =
           (1 - share) * (at_end - step.on_prescribed_at_end);
         done.of_forces[unsigned(WorkKind::boundaries)] += of_start + of_end;
+        done.of_prescribed += of_start + of_end;
         missing -= of_start;
       }
     // Only Newmark's rule has accelerations that balance the forces.

@@ -25,7 +25,8 @@ namespace moraine
     /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
      */
     double force_magnitude;
-    /** Of these forces in the motion that is prescribed in the step. */
+    /** Of these forces in the motion that is prescribed in the step; of nodes
+     * Works::of_prescribed has it. */
     double work_of_motion = 0;
   };
 

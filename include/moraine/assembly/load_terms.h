@@ -7,6 +7,8 @@
 #include <moraine/assembly/term.h>
 #include <moraine/load/load.h>
 
+#include <deal.II/base/quadrature.h>
+
 namespace moraine
 {
   /** @f$\sum_p N_a b\, v_p@f$, or gravity @f$\sum_p N_a g\, m_p@f$. */
@@ -67,6 +69,12 @@ namespace moraine
   private:
     ForceOnPoints<dim> &force;
   };
+
+  /** Where the traction on a face of a side is evaluated: finer than functions
+   * of @p degree need, as an expression may jump inside of a face. */
+  template <int dim>
+  dealii::Quadrature<dim - 1>
+  side_quadrature(const unsigned int degree);
 
   /** @f$\int N_a t\,d\Gamma@f$ over a side of the mesh. */
   template <int dim>

@@ -68,7 +68,8 @@ namespace moraine
      * boxes their shape. @p is_seeded says which bodies were seeded that way;
      * the others, all if left out, have points of their own (a file). With
      * @p split, boxes that grow too long are halved, see split_domains().
-     * @p name is the method's in messages.
+     * @p name is the method's in messages. @p half_edges, as columns, of the
+     * parts that such points of each body stand for, 0 where not known.
      * @throws InputError if the mesh is not a box of equal cells.
      */
     GimpBasis(const GridSpace<dim>    &space,
@@ -77,14 +78,17 @@ namespace moraine
               const std::vector<bool> &is_seeded = {},
               const DomainUpdate       update    = DomainUpdate::frozen,
               const bool               split     = false,
-              const std::string       &name      = "GIMP");
+              const std::string       &name      = "GIMP",
+              const std::vector<dealii::Tensor<2, dim>> &half_edges = {});
 
     /**
      * Half lengths. Of a seeded point: its distance to the nearer face of its
      * sub-cell, so that the box never leaves the sub-cell and boxes tile a body
      * whose faces follow the mesh; averages over a box within one cell are the
      * values at its centre, so at the start GIMP integrates what points do. Of
-     * other points: a box of the point's volume, at most half a cell.
+     * other points: a box of the point's volume, with the proportions of the
+     * box around the part that it stands for, else of a cell; at most half a
+     * cell.
      */
     void
     initialise_points(PointSet<dim> &points) const override;
@@ -165,17 +169,18 @@ namespace moraine
     void
     append_batch(const Window &window);
 
-    const std::string         name;
-    const CellNeighbours<dim> neighbours;
-    const unsigned int        points_per_direction;
-    const std::vector<bool>   is_seeded;
-    const DomainUpdate        update;
-    const bool                split;
-    const HalfLength          half_length_field;
-    const HalfLength          initial_half_length_field;
-    const unsigned int        half_length_offset;
-    const LocalFunctions<dim> local_functions;
-    std::vector<Window>       windows;
+    const std::string                         name;
+    const CellNeighbours<dim>                 neighbours;
+    const unsigned int                        points_per_direction;
+    const std::vector<bool>                   is_seeded;
+    const std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
+    const DomainUpdate                        update;
+    const bool                                split;
+    const HalfLength                          half_length_field;
+    const HalfLength                          initial_half_length_field;
+    const unsigned int                        half_length_offset;
+    const LocalFunctions<dim>                 local_functions;
+    std::vector<Window>                       windows;
   };
 } // namespace moraine
 

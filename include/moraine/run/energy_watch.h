@@ -35,8 +35,8 @@ namespace moraine
                          const std::string &remedies = "");
 
     /** Take the sums of @p works in dynamics up to time @p t and, of the step
-     * that ended there, @p work_of_motions, by boundaries in their prescribed
-     * motion. */
+     * that ended there, @p work_of_motions, by implicit boundaries in their
+     * prescribed motion. */
     void
     count(const Works &works, const double work_of_motions, const double t);
 

@@ -209,6 +209,10 @@ namespace moraine
     bool
     is_dynamic() const;
 
+    /** Whether a material yields. */
+    bool
+    any_yields() const;
+
     /** Whether some integrator divides steps into two parts. */
     bool
     divides_steps() const;

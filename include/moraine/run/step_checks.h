@@ -8,6 +8,7 @@
 #include <moraine/run/energy_watch.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/model.h>
+#include <moraine/run/slide_watch.h>
 #include <moraine/run/turn_watch.h>
 #include <moraine/time/time_control.h>
 
@@ -45,8 +46,8 @@ namespace moraine
      * What is to be told of the step that @p time has accepted, with the
      * boundaries' @p reports: that the material misses one of them, with @p
      * largest_motion of a node in the step; that points of a body drift apart;
-     * that a body moves far or is turned at small strain; that energy grows
-     * without work.
+     * that a body moves far or is turned at small strain; that material that
+     * yields slides; that energy grows without work.
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
@@ -101,6 +102,7 @@ namespace moraine
     HoldWatch<dim>            holds;
     CrossingWatch<dim>        crossings;
     TurnWatch<dim>            turns;
+    SlideWatch                slides;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

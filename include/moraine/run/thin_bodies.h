@@ -16,9 +16,8 @@ namespace moraine
    * that are nowhere as thick as one and a half linear cells, which bend as
    * they should not unless @p stage holds their sides, and cells that a stiff
    * body fills in part beside a soft one, as one displacement makes all of such
-   * a cell stiff, also if it is much of the soft body that is in such cells.
-   * Only of bodies that are not
-   * @p known from a stage before. Collective.
+   * a cell stiff, also if that holds back much of the compression of the soft
+   * body. Only of bodies that are not @p known from a stage before. Collective.
    */
   template <int dim>
   void

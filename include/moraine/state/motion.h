@@ -57,6 +57,8 @@ namespace moraine
     static constexpr unsigned int n_kinds = 5;
     /** By WorkKind, positive where forces push the material along. */
     double of_forces[n_kinds] = {0, 0, 0, 0, 0};
+    /** Of those of boundaries: by nodes that follow a prescribed motion. */
+    double of_prescribed = 0;
     /** Energy that went as velocities went from nodes to points and back, with
      * accelerations that are out of balance after that, and as the weights of
      * points changed. */

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_slide_watch_h
+#define moraine_run_slide_watch_h
+
+#include <moraine/core/simulation_state.h>
+
+#include <string>
+
+namespace moraine
+{
+  /**
+   * Looks whether bodies that yield slide from one equilibrium to another in a
+   * quasi-static step. Beyond its limit load soil may come to rest in another
+   * shape, where points or nodes move with it, and the run goes on as if it had
+   * stood.
+   */
+  class SlideWatch : public StatePart
+  {
+  public:
+    /** @p yields: whether a material of the scene does; else nothing is told.
+     * @p cell_size [length] */
+    SlideWatch(const bool yields, const double cell_size, const double start);
+
+    /** Loads may begin at once: motions of the stages before say nothing. */
+    void
+    stage_begins();
+
+    /**
+     * After a step to @p t in which the node that moved furthest did so by
+     * @p motion [length]: what is to be told, once in a run; or "".
+     * @param counts whether the step was quasi-static, along no path of an arc
+     * length
+     */
+    std::string
+    look(const double t, const double motion, const bool counts);
+
+    /** Data sets "checks/slides/...". */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+  private:
+    bool         yields;
+    double       cell_size;
+    double       last;        ///< end of the step before
+    double       fastest = 0; ///< motion over time of the steps before
+    unsigned int n_steps = 0; ///< of the stage that counted
+    bool         told    = false;
+  };
+} // namespace moraine
+
+#endif
