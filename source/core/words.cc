@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <iomanip>
 #include <numeric>
+#include <sstream>
 
 namespace moraine
 {
@@ -81,6 +84,19 @@ namespace moraine
     return (near.empty() ? std::string(".") :
                            "; did you mean '" + near + "'?") +
            " Allowed here: " + list_of(known);
+  }
+
+
+
+  std::string
+  per_cent(const double share)
+  {
+    std::ostringstream text;
+    if (std::abs(share) < 0.095)
+      text << std::setprecision(2) << 100 * share;
+    else
+      text << std::round(100 * share);
+    return text.str() + " %";
   }
 
 

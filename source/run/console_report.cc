@@ -4,6 +4,7 @@
 #include <moraine/run/console_report.h>
 
 #include <moraine/core/version.h>
+#include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
@@ -399,8 +400,8 @@ namespace moraine
             << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
     if (summary.stress_error)
-      console << "  estimated error of stress: " << std::setprecision(2)
-              << 100 * *summary.stress_error << " % in the energy norm\n";
+      console << "  estimated error of stress: "
+              << per_cent(*summary.stress_error) << " in the energy norm\n";
     if (summary.ghost_term)
       console << "  ghost term: at most " << std::setprecision(2)
               << 100 * summary.ghost_term->of_forces << " % of the forces and "

@@ -75,8 +75,8 @@ namespace moraine
     ++sums.n_fictitious_stiffness;
     std::ostringstream text;
     text << reason
-         << ": probably too few points touch some nodes; from here on empty "
-            "parts of cells have "
+         << ": in case too few points touch some nodes, empty parts of cells "
+            "have from here on "
          << fraction
          << " of the material's stiffness (Method / Fictitious stiffness)";
     tell(text.str());

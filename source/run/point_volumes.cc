@@ -38,14 +38,6 @@ namespace moraine
 
 
 
-    std::string
-    per_cent(const double share)
-    {
-      return std::to_string(std::lround(100 * share)) + " %";
-    }
-
-
-
     template <int dim>
     void
     tell_of_full_cells(const Model<dim>          &model,

@@ -232,10 +232,11 @@ namespace moraine
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
     found.push_back(turns.look(t, reports));
-    found.push_back(slides.look(t,
-                                largest_motion,
-                                !model.system->step_context().motion &&
-                                  !time.follows_path()));
+    found.push_back(slides.look(
+      t,
+      largest_motion,
+      !model.system->step_context().motion && !time.follows_path() &&
+        model.state->mesh_after_step() != MeshAfterStep::keep));
     if (!time.between_parts())
       found.push_back(energy_made(t));
     // Works are of dynamics alone.

@@ -3,6 +3,7 @@
 
 #include <moraine/run/stress_signs.h>
 
+#include <moraine/core/words.h>
 #include <moraine/points/linear_fit.h>
 #include <moraine/run/stress_error.h>
 
@@ -42,7 +43,7 @@ namespace moraine
     /** Next to no stress, over the shear modulus; next to no strain energy,
      * over the kinetic energy. */
     constexpr double no_stress = 1e-6;
-    constexpr double no_energy = 1e-3;
+    constexpr double no_energy = 1e-6;
 
     /** Estimated error of stress: healthy scenes have up to 0.2. */
     constexpr double told_error = 0.25;
@@ -312,13 +313,12 @@ namespace moraine
       }
     else if (error && *error > told_error)
       {
-        text
-          << std::setprecision(2)
-          << "cells do not resolve the stress: its error is estimated at "
-          << 100 * *error
-          << " % in the energy norm, of an elastic body by forces "
-          << 100 * *error * *error
-          << " % of the deflection; smaller cells help, but where bands form";
+        text << "cells do not resolve the stress: its error is estimated at "
+             << per_cent(*error) << " in the energy norm";
+        if (*error < 1)
+          text << ", of an elastic body by forces " << per_cent(*error * *error)
+               << " of the deflection";
+        text << "; smaller cells help, but where bands form";
         doubts.push_back(text.str());
       }
     return doubts;

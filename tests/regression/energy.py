@@ -111,3 +111,49 @@ for offset, angle, degree, steps in ((0, 0, 1, 1000), (0.13, 17, 1, 500),
     title = f"column at {offset}, {angle} degrees, degree {degree}"
     bound(f"{title}: energy over that of the start - 1",
           max(abs(e / total[0] - 1) for e in total), 0.01)
+
+# A base that moves by a condition of nodes gives what it gives, in coarse steps too.
+moving_base = folder / "moving-base.prm"
+moving_base.write_text("""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 0.5
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection bar
+    set Young modulus = 1
+    set Poisson ratio = 0
+    set Density       = 1
+  end
+end
+subsection Bodies
+  subsection bar
+    set Lower corner = 0, 0
+    set Upper corner = 2, 0.5
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side         = left
+    set Displacement = 0.001*sin(0.5*t)*(1-exp(-0.1*t)); 0
+  end
+end
+subsection Time
+  set Integrator = Newmark
+  set End time   = 60
+  set Steps      = 400
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+""")
+result = run(moving_base, on_ranks=1)
+text("moving base: told of energy of boundaries",
+     "It comes from boundaries that hold" in result.output)
+energy = result.summary["energy"]
+bound("moving base: out of balance, of the largest", energy["balance_error"], 0.03)

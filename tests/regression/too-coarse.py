@@ -191,6 +191,18 @@ for title, size, held in (
                     for side, components in held)))
     text(title + ": told", "nowhere as thick" in run(scene, command="check").output)
 
+# Loads that are some where and not elsewhere, by an expression.
+for title, load in (
+        ("narrow strip", "set Type = side traction\n set Side = top\n "
+         "set Value = 0; x > 1.31 && x < 1.36 ? -10 : 0"),
+        ("strip to 1.1", "set Type = side traction\n set Side = top\n "
+         "set Value = 0; x < 1.1 ? -10 : 0"),
+        ("layer from 3.8", "set Type = body force\n set Value = 0; y > 3.8 ? -10 : 0"),
+        ("layer from 3.5", "set Type = body force\n set Value = 0; y > 3.5 ? -10 : 0"),
+        ("growing with depth", "set Type = body force\n set Value = 0; y^2 - 16")):
+    show(title, [("block", "firm", "0, 0", "2, 4")],
+         f"subsection Loads\n  subsection p\n {load}\n  end\nend\n")
+
 # Steps that end on the peaks of a table, and beside them.
 PEAKS = """
 subsection Loads

@@ -270,6 +270,15 @@ for grid, method in (("8, 8", "material point"), ("10, 10", "material point"),
     text(f"{grid} points in 4 x 4 cells, {method}: told of",
          "integrates as if there were that much" in result.output)
 
+# Boxes of points in rows have their proportions, turned with the body.
+for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):
+    result = run("tests/bad-input/base.prm", {
+        "Bodies/block/Point grid": grid, "Bodies/block/Rotation angle": angle,
+        "Bodies/block/Rotation centre": "2.5, 2.5", "Method/Method": "GIMP"})
+    (lengths,) = zip(*result.points("half_length"))
+    for x, y in sorted({(round(x, 6), round(y, 6)) for x, y, _ in lengths}):
+        text(f"{grid} points turned by {angle}: half lengths", f"{x} {y}")
+
 # What is filled up from the old level, above ground that has risen meanwhile.
 HEAVE = """
 subsection Mesh

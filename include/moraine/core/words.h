@@ -28,6 +28,10 @@ namespace moraine
   std::string
   suggest(const std::string &word, const std::vector<std::string> &known);
 
+  /** A @p share as "0.12 %", "7.5 %" or "130 %". */
+  std::string
+  per_cent(const double share);
+
   /** The words joined by ", "; "nothing" if there are none. */
   std::string
   list_of(const std::vector<std::string> &words);

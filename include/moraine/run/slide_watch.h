@@ -31,7 +31,7 @@ namespace moraine
      * After a step to @p t in which the node that moved furthest did so by
      * @p motion [length]: what is to be told, once in a run; or "".
      * @param counts whether the step was quasi-static, along no path of an arc
-     * length
+     * length, and points or nodes move
      */
     std::string
     look(const double t, const double motion, const bool counts);
