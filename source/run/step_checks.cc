@@ -153,6 +153,7 @@ namespace moraine
     , crossings(scene, model)
     , turns(scene, model)
     , slides(scene.any_yields(), model.mesh->cell_size(), scene.start_time())
+    , passes(model)
   {}
 
 
@@ -181,7 +182,8 @@ namespace moraine
   {
     std::vector<std::string> found = holds.look(stage, t);
     const std::string        apart = separation();
-    for (const std::string &text : {apart, crossings.look(stage, t)})
+    for (const std::string &text :
+         {apart, crossings.look(stage, t), passes.look(stage, t)})
       if (!text.empty())
         found.push_back(text);
     return found;
@@ -232,11 +234,12 @@ namespace moraine
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
     found.push_back(turns.look(t, reports));
-    found.push_back(slides.look(
-      t,
-      largest_motion,
-      !model.system->step_context().motion && !time.follows_path() &&
-        model.state->mesh_after_step() != MeshAfterStep::keep));
+    found.push_back(
+      slides.look(t,
+                  largest_motion,
+                  !model.system->step_context().motion &&
+                    !time.follows_path() &&
+                    model.state->mesh_after_step() != MeshAfterStep::keep));
     if (!time.between_parts())
       found.push_back(energy_made(t));
     // Works are of dynamics alone.
@@ -440,6 +443,7 @@ namespace moraine
     crossings.write(archive);
     turns.write(archive);
     slides.write(archive);
+    passes.write(archive);
   }
 
 
@@ -466,6 +470,7 @@ namespace moraine
     crossings.read(archive);
     turns.read(archive);
     slides.read(archive);
+    passes.read(archive);
   }
 
 

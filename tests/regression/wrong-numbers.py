@@ -270,6 +270,57 @@ for grid, method in (("8, 8", "material point"), ("10, 10", "material point"),
     text(f"{grid} points in 4 x 4 cells, {method}: told of",
          "integrates as if there were that much" in result.output)
 
+# Bodies of elements that move into each other, and through a floor with none at it.
+FLIGHT = """
+subsection Mesh
+  set Lower corner = -3, 0
+  set Upper corner = 3, 1
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = {method}
+end
+subsection Materials
+  subsection bar
+    set Young modulus = 100
+    set Poisson ratio = 0
+    set Density       = 1
+  end
+end
+subsection Bodies
+  subsection left
+    set Lower corner     = -2, 0.5
+    set Upper corner     = -1, 1
+    set Initial velocity = {velocity}
+  end
+  subsection right
+    set Lower corner = 0, 0.5
+    set Upper corner = 1, 1
+  end
+end
+subsection Grid conditions
+  subsection floor
+    set Side = bottom
+  end
+end
+subsection Time
+  set Integrator = Newmark
+  set End time   = 2
+  set Steps      = 20
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+flight = folder / "flight.prm"
+for method, velocity in (("finite element", "1; 0"), ("finite element", "0; -0.5"),
+                         ("finite element", "0.2; 0"), ("GIMP", "1; 0")):
+    flight.write_text(FLIGHT.format(method=method, velocity=velocity))
+    output = run(flight, expect=None).output
+    text(f"{method}, {velocity}: told of passing",
+         f"{output.count('moved into each other')} {output.count('moved through')}")
+
 # Boxes of points in rows have their proportions, turned with the body.
 for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):
     result = run("tests/bad-input/base.prm", {

@@ -8,6 +8,7 @@
 #include <moraine/run/energy_watch.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/model.h>
+#include <moraine/run/pass_watch.h>
 #include <moraine/run/slide_watch.h>
 #include <moraine/run/turn_watch.h>
 #include <moraine/time/time_control.h>
@@ -36,7 +37,7 @@ namespace moraine
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
-     * body came apart before, and what HoldWatch and CrossingWatch find.
+     * body came apart before, and what HoldWatch, CrossingWatch and PassWatch find.
      * @throws ComputationError if the run cannot go on or should not.
      */
     std::vector<std::string>
@@ -103,6 +104,7 @@ namespace moraine
     CrossingWatch<dim>        crossings;
     TurnWatch<dim>            turns;
     SlideWatch                slides;
+    PassWatch<dim>            passes;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

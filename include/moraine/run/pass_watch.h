@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_pass_watch_h
+#define moraine_run_pass_watch_h
+
+#include <moraine/run/model.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * Looks whether bodies whose nodes stay with the material, which know nothing
+   * of each other, move into each other, or through a side of the mesh that has
+   * a condition and no body at it. Goes by the boxes around bodies along the
+   * axes: what was apart at the start and overlaps by now.
+   */
+  template <int dim>
+  class PassWatch : public StatePart
+  {
+  public:
+    explicit PassWatch(const Model<dim> &model);
+
+    /** As a step of @p stage begins at @p t: what is to be told, of each pair
+     * once; or "". Collective. */
+    std::string
+    look(const StageParameters &stage, const double t);
+
+    /** Data set "checks/passes/told". */
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+  private:
+    using Box = dealii::BoundingBox<dim>;
+
+    /** Around the points of each body at the start, or with @p moved, by now.
+     */
+    std::vector<Box>
+    boxes_of_bodies(const bool moved) const;
+
+    std::string
+    pair_that_met(const std::vector<Box> &start, const std::vector<Box> &now);
+
+    std::string
+    side_passed(const StageParameters &stage, const std::vector<Box> &now);
+
+    const Model<dim>     &model;
+    std::set<std::string> told; ///< pairs, or body and condition
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/pass_watch.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of a cell: less is no passing. */
+    constexpr double told_overlap = 0.1;
+
+    /** Of a cell: those that are nearer may share nodes, and hang together. */
+    constexpr double apart = 2.1;
+
+
+
+    /** The least of the overlaps of two boxes in the directions; negative if
+     * they are apart. */
+    template <int dim>
+    double
+    overlap(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (unsigned int d = 0; d < dim; ++d)
+        least = std::min(least,
+                         std::min(a.upper_bound(d), b.upper_bound(d)) -
+                           std::max(a.lower_bound(d), b.lower_bound(d)));
+      return least;
+    }
+
+
+
+    const char *const remedy =
+      ": nodes that stay with the material know nothing of what comes in their "
+      "way; 'Method = GIMP' or another one whose points move through the mesh "
+      "does";
+  } // namespace
+
+
+
+  template <int dim>
+  PassWatch<dim>::PassWatch(const Model<dim> &model)
+    : model(model)
+  {}
+
+
+
+  template <int dim>
+  std::vector<typename PassWatch<dim>::Box>
+  PassWatch<dim>::boxes_of_bodies(const bool moved) const
+  {
+    const PointSet<dim> &points = *model.points;
+    const auto           u      = points.displacement_field();
+    const unsigned int   n      = model.body_names.size();
+    // Lower bounds, and upper ones with the other sign.
+    std::vector<double> bounds(2 * dim * n, std::numeric_limits<double>::max());
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      {
+        Point<dim> x = model.state->original_position(p);
+        if (moved)
+          x += u(points.values(p));
+        double *of_body = &bounds[2 * dim * points.body(p)];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            of_body[d]       = std::min(of_body[d], x[d]);
+            of_body[dim + d] = std::min(of_body[dim + d], -x[d]);
+          }
+      }
+    Utilities::MPI::min(bounds, model.space->communicator(), bounds);
+    std::vector<Box> boxes;
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        Point<dim> lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = bounds[2 * dim * b + d];
+            upper[d] = -bounds[2 * dim * b + dim + d];
+          }
+        boxes.push_back(lower[0] <= upper[0] ? Box({lower, upper}) : Box());
+      }
+    return boxes;
+  }
+
+
+
+  template <int dim>
+  std::string
+  PassWatch<dim>::pair_that_met(const std::vector<Box> &start,
+                                const std::vector<Box> &now)
+  {
+    const auto &names = model.body_names;
+    for (unsigned int a = 0; a < now.size(); ++a)
+      for (unsigned int b = a + 1; b < now.size(); ++b)
+        if (model.present[a] && model.present[b] &&
+            overlap(start[a], start[b]) < -apart * model.mesh->cell_size() &&
+            overlap(now[a], now[b]) > told_overlap * model.mesh->cell_size() &&
+            told.insert(names[a] + " and " + names[b]).second)
+          return names[a] + " and " + names[b] + " have moved into each other" +
+                 remedy;
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
+  PassWatch<dim>::side_passed(const StageParameters  &stage,
+                              const std::vector<Box> &now)
+  {
+    const BoxGrid<dim> &grid = *model.mesh->box_grid();
+    for (const auto &condition :
+         acting_conditions(model.grid_conditions, stage))
+      {
+        if (!condition.side ||
+            Utilities::MPI::sum(
+              find_prescribed_nodes<dim>({condition},
+                                         *model.space,
+                                         stage.time.start_time)
+                .entries.size(),
+              model.space->communicator()) > 0)
+          continue;
+        const unsigned int d        = *condition.side / 2;
+        const bool         is_upper = *condition.side % 2 == 1;
+        const double       side =
+          grid.lower_corner[d] +
+          (is_upper ? grid.n_cells[d] * grid.cell_size[d] : 0.);
+        for (unsigned int b = 0; b < now.size(); ++b)
+          {
+            const double out = is_upper ? now[b].upper_bound(d) - side :
+                                          side - now[b].lower_bound(d);
+            if (model.present[b] &&
+                out > told_overlap * model.mesh->cell_size() &&
+                told.insert(model.body_names[b] + " through " + condition.name)
+                  .second)
+              return model.body_names[b] + " has moved through '" +
+                     condition.name + "', which holds no node" + remedy;
+          }
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
+  PassWatch<dim>::look(const StageParameters &stage, const double t)
+  {
+    if (model.state->mesh_after_step() == MeshAfterStep::reset ||
+        model.points->forgotten_displacement() > 0)
+      return "";
+    const std::vector<Box> start = boxes_of_bodies(false);
+    const std::vector<Box> now   = boxes_of_bodies(true);
+    std::string            found = pair_that_met(start, now);
+    if (found.empty() && model.mesh->box_grid())
+      found = side_passed(stage, now);
+    if (found.empty())
+      return "";
+    std::ostringstream text;
+    text << "by t = " << t << " " << found;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  void
+  PassWatch<dim>::write(Archive &archive) const
+  {
+    std::string names;
+    for (const std::string &name : told)
+      names += name + "\n";
+    archive.write_text("checks/passes/told", names);
+  }
+
+
+
+  template <int dim>
+  void
+  PassWatch<dim>::read(const Archive &archive)
+  {
+    std::istringstream names(archive.text("checks/passes/told"));
+    told.clear();
+    for (std::string name; std::getline(names, name);)
+      told.insert(name);
+  }
+
+
+
+  template class PassWatch<2>;
+  template class PassWatch<3>;
+} // namespace moraine
