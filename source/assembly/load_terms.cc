@@ -102,7 +102,7 @@ namespace moraine
   Quadrature<dim - 1>
   side_quadrature(const unsigned int degree)
   {
-    return QIterated<dim - 1>(QGauss<1>(degree + 1), 4);
+    return QIterated<dim - 1>(QGauss<1>(degree + 1), dim == 2 ? 4 : 2);
   }
 
 

@@ -3,6 +3,8 @@
 
 #include <moraine/run/energy_watch.h>
 
+#include <moraine/core/words.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -116,8 +118,8 @@ namespace moraine
     told = true;
     std::ostringstream text;
     text << "energy grows without work: by t = " << std::setprecision(6) << time
-         << " it is " << std::setprecision(2) << 100 * made / given
-         << " % of what the start, loads and boundaries that move have given. "
+         << " it is " << per_cent(made / given)
+         << " of what the start, loads and boundaries that move have given. "
          << cause();
     return text.str();
   }

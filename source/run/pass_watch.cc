@@ -39,10 +39,25 @@ namespace moraine
 
 
 
+    /** Collective. */
+    template <int dim>
+    bool
+    holds_nothing(const GridCondition<dim> &condition,
+                  const Model<dim>         &model,
+                  const double              t)
+    {
+      const auto prescribed =
+        find_prescribed_nodes<dim>({condition}, *model.space, t);
+      return Utilities::MPI::sum(prescribed.entries.size(),
+                                 model.space->communicator()) == 0;
+    }
+
+
+
     const char *const remedy =
       ": nodes that stay with the material know nothing of what comes in their "
-      "way; 'Method = GIMP' or another one whose points move through the mesh "
-      "does";
+      "way; points that move through the mesh ('Method = GIMP', 'Mesh after "
+      "step = reset') do";
   } // namespace
 
 
@@ -104,7 +119,9 @@ namespace moraine
             overlap(start[a], start[b]) < -apart * model.mesh->cell_size() &&
             overlap(now[a], now[b]) > told_overlap * model.mesh->cell_size() &&
             told.insert(names[a] + " and " + names[b]).second)
-          return names[a] + " and " + names[b] + " have moved into each other" +
+          return names[a] + " and " + names[b] +
+                 " have moved into each other, as far as the boxes around them "
+                 "tell" +
                  remedy;
     return "";
   }
@@ -120,13 +137,7 @@ namespace moraine
     for (const auto &condition :
          acting_conditions(model.grid_conditions, stage))
       {
-        if (!condition.side ||
-            Utilities::MPI::sum(
-              find_prescribed_nodes<dim>({condition},
-                                         *model.space,
-                                         stage.time.start_time)
-                .entries.size(),
-              model.space->communicator()) > 0)
+        if (!condition.side)
           continue;
         const unsigned int d        = *condition.side / 2;
         const bool         is_upper = *condition.side % 2 == 1;
@@ -140,7 +151,8 @@ namespace moraine
             if (model.present[b] &&
                 out > told_overlap * model.mesh->cell_size() &&
                 told.insert(model.body_names[b] + " through " + condition.name)
-                  .second)
+                  .second &&
+                holds_nothing(condition, model, stage.time.start_time))
               return model.body_names[b] + " has moved through '" +
                      condition.name + "', which holds no node" + remedy;
           }

@@ -16,11 +16,21 @@ namespace moraine
      * makes the last step before it up to three times as fast. */
     constexpr double told_ratio = 5;
 
+    /** Over the fastest step before: what begins to move, as a load begins. */
+    constexpr double next_to_none = 1e-4;
+
+    /** Over the fastest step of a slide: it has come to rest. What hardens goes
+     * on as fast. */
+    constexpr double rests_below = 0.3;
+
     /** Of a cell: a slide, not a jerk. */
     constexpr double least_slide = 0.02;
 
     /** Steps of a stage before one can be told to be faster. */
     constexpr unsigned int least_steps = 3;
+
+    /** Steps that a slide takes at most. */
+    constexpr unsigned int most_fast = 5;
   } // namespace
 
 
@@ -40,6 +50,8 @@ namespace moraine
   {
     fastest = 0;
     n_steps = 0;
+    told    = false;
+    forget_slide();
   }
 
 
@@ -49,24 +61,50 @@ namespace moraine
   {
     const double rate = motion / std::abs(t - last);
     last              = t;
-    if (!yields || told || !counts)
+    if (!yields || !counts)
       return "";
-    const double before = fastest;
-    fastest             = std::max(fastest, rate);
-    if (n_steps++ < least_steps || !(rate > told_ratio * before) ||
-        !(motion > least_slide * cell_size))
-      return "";
-    told = true;
+    if (n_steps++ >= least_steps && rate > told_ratio * fastest &&
+        fastest > next_to_none * rate && n_fast < most_fast)
+      {
+        ++n_fast;
+        slid_by += motion;
+        if (rate > fast_rate)
+          {
+            fast_rate = rate;
+            fast_time = t;
+          }
+        return "";
+      }
+    const bool came_to_rest = n_fast > 0 && rate < rests_below * fast_rate;
     std::ostringstream text;
-    text << std::setprecision(6) << "in the step to t = " << t
-         << " material moves by " << std::setprecision(3) << motion << ", "
-         << std::setprecision(2) << rate / before
-         << " times as fast as in any step before: unless a load or a motion "
-            "jumps there, it does not stand but slides, a limit load is "
-            "passed, and what follows is another shape; 'Mesh after step = "
-            "keep' in section 'Method' and 'moraine study' with 'Kind = "
-            "factor of safety' find the limit";
+    if (came_to_rest && !told && slid_by > least_slide * cell_size)
+      {
+        told = true;
+        text << std::setprecision(6) << "in the step to t = " << fast_time
+             << " material has moved " << std::setprecision(2)
+             << fast_rate / fastest
+             << " times as fast as in any step before, and no longer does: "
+                "unless a load or a motion jumps there, it did not stand but "
+                "slid, a limit load is passed, and what follows is another "
+                "shape. At small strain 'Mesh after step = keep' in section "
+                "'Method' and 'moraine study' with 'Kind = factor of safety' "
+                "find the limit";
+      }
+    fastest =
+      std::max(fastest, came_to_rest ? rate : std::max(rate, fast_rate));
+    forget_slide();
     return text.str();
+  }
+
+
+
+  void
+  SlideWatch::forget_slide()
+  {
+    n_fast    = 0;
+    slid_by   = 0;
+    fast_rate = 0;
+    fast_time = 0;
   }
 
 
@@ -78,6 +116,10 @@ namespace moraine
     archive.write("checks/slides/fastest", fastest, "length/time");
     archive.write("checks/slides/steps", n_steps);
     archive.write("checks/slides/told", told ? 1u : 0u);
+    archive.write("checks/slides/fast_steps", n_fast);
+    archive.write("checks/slides/slid_by", slid_by, "length");
+    archive.write("checks/slides/fast_rate", fast_rate, "length/time");
+    archive.write("checks/slides/fast_time", fast_time, "time");
   }
 
 
@@ -85,9 +127,13 @@ namespace moraine
   void
   SlideWatch::read(const Archive &archive)
   {
-    last    = archive.number("checks/slides/last");
-    fastest = archive.number("checks/slides/fastest");
-    n_steps = archive.integer("checks/slides/steps");
-    told    = archive.integer("checks/slides/told") != 0;
+    last      = archive.number("checks/slides/last");
+    fastest   = archive.number("checks/slides/fastest");
+    n_steps   = archive.integer("checks/slides/steps");
+    told      = archive.integer("checks/slides/told") != 0;
+    n_fast    = archive.integer("checks/slides/fast_steps");
+    slid_by   = archive.number("checks/slides/slid_by");
+    fast_rate = archive.number("checks/slides/fast_rate");
+    fast_time = archive.number("checks/slides/fast_time");
   }
 } // namespace moraine

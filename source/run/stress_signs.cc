@@ -45,6 +45,9 @@ namespace moraine
     constexpr double no_stress = 1e-6;
     constexpr double no_energy = 1e-6;
 
+    /** Over the largest part of the energy of a run. */
+    constexpr double round_off_of_energy = 1e-12;
+
     /** Estimated error of stress: healthy scenes have up to 0.2. */
     constexpr double told_error = 0.25;
 
@@ -216,8 +219,11 @@ namespace moraine
     bool
     has_no_energy(const Model<dim> &model)
     {
-      return model.motion && model.motion->works().stored <
-                               no_energy * model.motion->works().kinetic;
+      if (!model.motion)
+        return false;
+      const Works &works = model.motion->works();
+      return works.stored <= no_energy * works.kinetic ||
+             works.stored <= round_off_of_energy * works.largest();
     }
 
 
@@ -274,8 +280,8 @@ namespace moraine
                    const std::optional<double> &error)
   {
     if (nothing_happened(model))
-      return {"nothing has moved or been stressed: no load, motion or initial "
-              "value of this scene acts on its bodies"};
+      return {"nothing has moved or been stressed by the end: no load, motion "
+              "or initial value of this scene acts on its bodies"};
     const StressSigns signs = stress_signs(*model.space, *model.points);
     if (is_at_rest(model, signs))
       return {};

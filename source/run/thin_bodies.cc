@@ -78,8 +78,9 @@ namespace moraine
           held[v] = 1;
       std::vector<bool> holds(tria.n_active_cells(), false);
       for (const auto &boundary : model.boundaries)
-        for (const auto &point : boundary.points())
-          holds[point.cell] = true;
+        if (contains(stage.boundaries, boundary.name()))
+          for (const auto &point : boundary.points())
+            holds[point.cell] = true;
       for (const auto &cell : tria.active_cell_iterators())
         if (holds[cell->active_cell_index()])
           for (const unsigned int a : cell->vertex_indices())
@@ -91,32 +92,43 @@ namespace moraine
 
 
     /** Whether a body, of which @p parts fill the cells, is nowhere as thick as
-     * one and a half cells, or as a cell if the mesh is as thick and hardly
-     * any of its vertices are @p held. */
+     * one and a half cells, or as a cell if the mesh is as thick, hardly any of
+     * its vertices are @p held and nothing hangs on it: @p all_in_bulk says
+     * which vertices are within all bodies together. */
     template <int dim>
     bool
     is_thin(const Model<dim>          &model,
             const std::vector<double> &parts,
+            const std::vector<bool>   &all_in_bulk,
             const std::vector<double> &held)
     {
+      const auto             &tria    = model.mesh->triangulation();
       const std::vector<bool> in_bulk = vertices_in_bulk(*model.space, parts);
-      std::vector<bool>       at_edge(in_bulk.size(), false);
-      for (const auto &cell :
-           model.mesh->triangulation().active_cell_iterators())
-        for (const auto &face : cell->face_iterators())
-          if (face->at_boundary())
-            for (unsigned int a = 0; a < face->n_vertices(); ++a)
-              at_edge[face->vertex_index(a)] = true;
+      std::vector<bool>       at_edge(in_bulk.size(), false),
+        is_its(in_bulk.size(), false);
+      for (const auto &cell : tria.active_cell_iterators())
+        {
+          if (parts[cell->active_cell_index()] > most_share)
+            for (const unsigned int a : cell->vertex_indices())
+              is_its[cell->vertex_index(a)] = true;
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
+              for (unsigned int a = 0; a < face->n_vertices(); ++a)
+                at_edge[face->vertex_index(a)] = true;
+        }
       unsigned int n = 0, n_held = 0;
+      bool         hangs_on = false;
       for (unsigned int v = 0; v < in_bulk.size(); ++v)
-        if (in_bulk[v])
-          {
-            if (!at_edge[v])
-              return false;
-            ++n;
-            n_held += held[v] > 0;
-          }
-      return n == 0 || n_held < held_share * n;
+        {
+          hangs_on = hangs_on || (is_its[v] && all_in_bulk[v] && !at_edge[v]);
+          if (!in_bulk[v])
+            continue;
+          if (!at_edge[v])
+            return false;
+          ++n;
+          n_held += held[v] > 0;
+        }
+      return n == 0 || (n_held < held_share * n && !hangs_on);
     }
 
 
@@ -205,7 +217,12 @@ namespace moraine
   {
     const auto          parts = filled_parts(model);
     const auto          held  = held_vertices(stage, model);
-    std::vector<double> volumes;
+    std::vector<double> all(parts[0].size(), 0.);
+    for (const auto &of_body : parts)
+      for (unsigned int c = 0; c < all.size(); ++c)
+        all[c] += of_body[c];
+    const std::vector<bool> all_in_bulk = vertices_in_bulk(*model.space, all);
+    std::vector<double>     volumes;
     for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
       volumes.push_back(cell->measure());
     for (unsigned int b = 0; b < parts.size(); ++b)
@@ -215,7 +232,7 @@ namespace moraine
         const std::string &name   = model.body_names[b];
         const bool         is_new = !contains(known, name);
         if (is_new && model.space->degree() == 1 &&
-            is_thin(model, parts[b], held))
+            is_thin(model, parts[b], all_in_bulk, held))
           notes.push_back(
             name +
             ": nowhere as thick as one and a half cells; what bends comes out "

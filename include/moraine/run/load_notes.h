@@ -15,7 +15,8 @@ namespace moraine
    * A weight of nothing is a mistake, not a load; so is a push on nothing. A
    * side is pushed by whole faces of cells: add to @p notes which of them
    * material fills in part, and loads that change so much between the places
-   * where they are evaluated that their force is another one. In a step of @p stage that has begun. Collective.
+   * where they are evaluated that their force is another one. In a step of @p
+   * stage that has begun. Collective.
    * @throws InputError naming the load.
    */
   template <int dim>

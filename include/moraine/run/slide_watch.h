@@ -29,7 +29,9 @@ namespace moraine
 
     /**
      * After a step to @p t in which the node that moved furthest did so by
-     * @p motion [length]: what is to be told, once in a run; or "".
+     * @p motion [length]: what is to be told, once in a stage, when motion has
+     * become slow again after steps that were much faster than all before; or
+     * "".
      * @param counts whether the step was quasi-static, along no path of an arc
      * length, and points or nodes move
      */
@@ -44,12 +46,20 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
+    void
+    forget_slide();
+
     bool         yields;
     double       cell_size;
     double       last;        ///< end of the step before
     double       fastest = 0; ///< motion over time of the steps before
     unsigned int n_steps = 0; ///< of the stage that counted
     bool         told    = false;
+    /** Of the steps in a row that are much faster by now. */
+    unsigned int n_fast    = 0;
+    double       slid_by   = 0;
+    double       fast_rate = 0; ///< the largest
+    double       fast_time = 0; ///< end of that step
   };
 } // namespace moraine
 

@@ -37,7 +37,8 @@ namespace moraine
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
-     * body came apart before, and what HoldWatch, CrossingWatch and PassWatch find.
+     * body came apart before, and what HoldWatch, CrossingWatch and PassWatch
+     * find.
      * @throws ComputationError if the run cannot go on or should not.
      */
     std::vector<std::string>
