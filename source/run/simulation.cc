@@ -10,6 +10,7 @@
 #include <moraine/run/checkpoints.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/console_report.h>
+#include <moraine/run/geometric_stiffness.h>
 #include <moraine/run/located.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
@@ -313,7 +314,8 @@ namespace moraine
       if (summary.steps > 0)
         for (const auto &doubts :
              {doubts_of_stress(scene, model, summary.stress_error),
-              doubts_of_strain(model)})
+              doubts_of_strain(model),
+              doubts_of_geometric_stiffness(model, driver.geometric_share())})
           for (const std::string &doubt : doubts)
             {
               summary.warnings.push_back(doubt);

@@ -8,6 +8,7 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/words.h>
 #include <moraine/output/grid_evaluation.h>
+#include <moraine/run/geometric_stiffness.h>
 #include <moraine/run/step_failure.h>
 
 #include <deal.II/base/mpi.h>
@@ -341,6 +342,9 @@ namespace moraine
                                      time_control.trial_time());
       });
     const std::string leaves = point_that_leaves(model, time_control, x);
+    if (!leaves.empty() || time_control.trial_ends_run())
+      share_of_last_step =
+        moraine::geometric_share(model, x, scene.linear_solver);
     if (!leaves.empty())
       throw ComputationError(leaves);
     const std::vector<Tensor<1, dim>> increments =

@@ -126,10 +126,9 @@ namespace moraine
 
 
   bool
-  TimeControl::path_leaves_interval() const
+  TimeControl::path_leaves_interval(const double t) const
   {
-    return current_time <= parameters().earliest_time() ||
-           current_time >= parameters().end_time;
+    return t <= parameters().earliest_time() || t >= parameters().end_time;
   }
 
 
@@ -187,8 +186,8 @@ namespace moraine
     current                   = trial;
     rate                      = (found_time - current_time) / taken;
     current_time              = found_time;
-    path_ended                = follows_path() && path_leaves_interval();
-    on_step_end               = trial_is_stop && stops[next_stop].ends_step;
+    path_ended  = follows_path() && path_leaves_interval(current_time);
+    on_step_end = trial_is_stop && stops[next_stop].ends_step;
     if (trial_is_stop)
       ++next_stop;
     if (on_step_end)
@@ -284,7 +283,7 @@ namespace moraine
     while (!finished() && stops[next_stop].time - current <=
                             same_time * parameters().one_step())
       completed_steps += stops[next_stop++].ends_step ? 1 : 0;
-    path_ended = path_length() > 0 && path_leaves_interval();
+    path_ended = path_length() > 0 && path_leaves_interval(current_time);
     accepted_size =
       std::min(accepted_size,
                parameters().one_step() * parameters().largest_step);
@@ -377,6 +376,15 @@ namespace moraine
   TimeControl::trial_time() const
   {
     return found_time;
+  }
+
+
+
+  bool
+  TimeControl::trial_ends_run() const
+  {
+    return (trial_is_stop && next_stop + 1 == stops.size()) ||
+           (follows_path() && path_leaves_interval(found_time));
   }
 
 

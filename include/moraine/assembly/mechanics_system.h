@@ -238,6 +238,14 @@ namespace moraine
     void
     apply_constraints(LA::Vector &dx) const override;
 
+    /** Give forces of tied unknowns to those they are tied to, and take away
+     * those of constrained ones. Collective. */
+    void
+    condense(LA::Vector &force) const
+    {
+      constraints.condense(force);
+    }
+
     bool
     augment(const LA::Vector &x) override;
 

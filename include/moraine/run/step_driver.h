@@ -85,6 +85,14 @@ namespace moraine
       return last_reports;
     }
 
+    /** Of the step that ended the run; 0 before. See
+     * moraine::geometric_share(). */
+    double
+    geometric_share() const
+    {
+      return share_of_last_step;
+    }
+
   private:
     /** Go over to the next stage. */
     void
@@ -216,6 +224,7 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     StepChecks<dim>                       checks;
+    double                                share_of_last_step = 0;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step

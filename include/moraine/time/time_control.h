@@ -245,6 +245,10 @@ namespace moraine
     double
     trial_time() const;
 
+    /** Whether the run ends with the trial step, if that is accepted. */
+    bool
+    trial_ends_run() const;
+
     /** Whether time() ends one of the user's steps. */
     bool
     at_step_end() const;
@@ -309,7 +313,7 @@ namespace moraine
     }
 
     bool
-    path_leaves_interval() const;
+    path_leaves_interval(const double t) const;
 
     void
     add_stops(const unsigned int stage, const std::vector<double> &asked);

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/geometric_stiffness.h>
+
+#include <moraine/run/strain_signs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Deflections that are wrong by less are not told of. */
+    constexpr double told_geometric_share = 0.1;
+
+    /** Less than that of mean strain is not for being slender: bodies are
+     * strained so much that the note on strain is told. */
+    constexpr double slender_share = 10;
+
+    constexpr unsigned int most_power_iterations = 8;
+
+    /** Growth of the eigenvalue in an iteration that ends them. */
+    constexpr double power_growth = 0.01;
+
+    /** Of an iterative solver: of the right-hand side. */
+    constexpr double power_residual = 1e-3;
+
+    /** @f$K_g@f$ of the stresses of the trial state, which it does not keep as
+     * a matrix. */
+    template <int dim>
+    class GeometricStiffness
+    {
+    public:
+      explicit GeometricStiffness(const State<dim> &state);
+
+      /** @f$K_g v@f$. Collective. */
+      LA::Vector
+      times(const LA::Vector &v) const;
+
+    private:
+      const State<dim> &state;
+      /** Times volume, in the order of the batches and their points. */
+      std::vector<SymmetricTensor<2, dim>> stresses;
+    };
+
+    template <int dim>
+    GeometricStiffness<dim>::GeometricStiffness(const State<dim> &state)
+      : state(state)
+    {
+      StencilBlock<dim>           block;
+      TrialPoints<dim>            trial;
+      std::vector<Tensor<1, dim>> increments;
+      for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
+        {
+          state.evaluate(g, block);
+          increments.resize(block.n_nodes);
+          for (unsigned int a = 0; a < block.n_nodes; ++a)
+            increments[a] = state.nodal_increments()[block.nodes[a]];
+          for (unsigned int begin = 0, end = 0; begin < block.n_points;
+               begin = end)
+            {
+              end = state.end_of_body(block, begin);
+              trial.evaluate(state, block, begin, end, increments.data());
+              for (unsigned int p = 0; p < trial.n_points(); ++p)
+                {
+                  SymmetricTensor<2, dim> stress;
+                  for (unsigned int i = 0; i < dim; ++i)
+                    for (unsigned int j = i; j < dim; ++j)
+                      stress[i][j] = trial.weight(p) * trial.stress(p)[i][j];
+                  stresses.push_back(stress);
+                }
+            }
+        }
+    }
+
+    template <int dim>
+    LA::Vector
+    GeometricStiffness<dim>::times(const LA::Vector &v) const
+    {
+      const GridSpace<dim>       &space = state.grid();
+      std::vector<Tensor<1, dim>> values, forces(space.n_nodes());
+      space.node_values(v, values);
+      StencilBlock<dim> block;
+      auto              stress = stresses.begin();
+      for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
+        {
+          state.evaluate(g, block);
+          for (unsigned int p = 0; p < block.n_points; ++p, ++stress)
+            {
+              const Tensor<1, dim> *grad_N = block.grad_N(p);
+              Tensor<2, dim>        gradient;
+              for (unsigned int a = 0; a < block.n_nodes; ++a)
+                gradient += outer_product(values[block.nodes[a]], grad_N[a]);
+              const Tensor<2, dim> s(*stress), d(symmetrize(gradient));
+              // Of the gradient times stress, less what strain has of it.
+              const Tensor<2, dim> P = (gradient - d) * s - s * d;
+              for (unsigned int a = 0; a < block.n_nodes; ++a)
+                forces[block.nodes[a]] += P * grad_N[a];
+            }
+        }
+      LA::Vector product(v);
+      space.sum_node_values(forces, product);
+      return product;
+    }
+
+    /** Forces on the nodes that have all directions and lengths in them, the
+     * same on any number of ranks. */
+    template <int dim>
+    LA::Vector
+    irregular_forces(const Model<dim> &model)
+    {
+      const GridSpace<dim>       &space = *model.space;
+      const double                h     = model.mesh->cell_size();
+      std::vector<Tensor<1, dim>> forces(space.n_nodes());
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        {
+          const Point<dim> X     = space.node_position(node);
+          double           phase = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            phase += (1.9 + 0.83 * d) * X[d] / h;
+          for (unsigned int d = 0; d < dim; ++d)
+            forces[node][d] =
+              std::sin(12.9898 * std::sin(phase + d) + 78.233 * (phase - d));
+        }
+      // Nodes that hardly any material has would move most.
+      LA::Vector all = space.vector_of(forces);
+      all.scale(model.system->path_weights());
+      return all;
+    }
+
+    /** K with what solves for it. */
+    template <int dim>
+    class StiffnessOfStep
+    {
+    public:
+      /** The tangent is assembled. Collective. */
+      StiffnessOfStep(const Model<dim>             &model,
+                      const LinearSolverParameters &parameters);
+
+      /** Condense the force f and find u, K u = f.
+       * @return u f, twice the energy; not positive if there is no u.
+       * Collective. */
+      double
+      solve(LA::Vector &f, LA::Vector &u);
+
+    private:
+      const MechanicsSystem<dim> &system;
+      LinearSolver                own;
+      LinearSolver               *solver;
+    };
+
+    template <int dim>
+    StiffnessOfStep<dim>::StiffnessOfStep(
+      const Model<dim>             &model,
+      const LinearSolverParameters &parameters)
+      : system(*model.system)
+      , own(parameters, dim)
+      , solver(model.linear_solver.get())
+    {
+      // Of an iterative solver the choice of method counts its iterations.
+      if (model.state->is_linear() && solver->solves_directly())
+        return;
+      solver->clear(); // two would take twice the memory
+      solver = &own;
+      solver->set_up(system.tangent(),
+                     system.symmetric(),
+                     system.near_null_space());
+    }
+
+    template <int dim>
+    double
+    StiffnessOfStep<dim>::solve(LA::Vector &f, LA::Vector &u)
+    {
+      system.condense(f);
+      const double size = f.l2_norm();
+      if (!(size > 0) || !std::isfinite(size))
+        return 0.;
+      u = f;
+      if (!solver->solve(u, f, power_residual * size).converged)
+        return 0.;
+      const double work = u * f;
+      system.apply_constraints(u);
+      return work;
+    }
+
+    /** The largest eigenvalue as K measures what @f$K^{-1} K_g@f$ makes of a
+     * field, where it may have either sign. */
+    template <int dim>
+    double
+    power_iterations(const GeometricStiffness<dim> &K_g,
+                     StiffnessOfStep<dim>          &K,
+                     LA::Vector                     f)
+    {
+      LA::Vector u(f);
+      double     share = 0;
+      double     work  = K.solve(f, u);
+      for (unsigned int i = 0; i < most_power_iterations && work > 0; ++i)
+        {
+          u /= std::sqrt(work);
+          f                   = K_g.times(u);
+          work                = K.solve(f, u);
+          const double before = share;
+          share               = work > 0 ? std::sqrt(work) : share;
+          if (i > 1 && share < (1. + power_growth) * before)
+            break;
+        }
+      return share;
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  geometric_share(const Model<dim>             &model,
+                  const LA::Vector             &x,
+                  const LinearSolverParameters &solver)
+  {
+    MechanicsSystem<dim> &system = *model.system;
+    State<dim>           &state  = *model.state;
+    // Who lets nothing move wants what is linear.
+    if (state.strain_measure() != StrainMeasure::small ||
+        state.mesh_after_step() == MeshAfterStep::keep)
+      return 0.;
+    state.set_trial(x);
+    const GeometricStiffness<dim> K_g(state);
+    const bool                    is_linear = state.is_linear();
+    // Material that yields has next to no stiffness, and moves without stress
+    // that bends it.
+    if (!is_linear)
+      {
+        LA::Vector start(x);
+        start = 0.;
+        system.assemble(start, true);
+      }
+    double share = 0;
+    if (system.tangent() && system.failure().empty())
+      {
+        StiffnessOfStep<dim> K(model, solver);
+        share = power_iterations(K_g, K, irregular_forces(model));
+      }
+    if (!is_linear)
+      system.assemble(x, false);
+    return std::isfinite(share) ? share : 0.;
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  doubts_of_geometric_stiffness(const Model<dim> &model, const double share)
+  {
+    if (!(share >= told_geometric_share))
+      return {};
+    const auto strains = mean_strains(*model.points,
+                                      model.mesh->cell_size(),
+                                      model.body_names.size(),
+                                      model.space->communicator());
+    if (share <
+        slender_share * *std::max_element(strains.begin(), strains.end()))
+      return {};
+    std::ostringstream text;
+    text << "stress is " << std::setprecision(2) << share
+         << " of what makes the bodies buckle or, pulled, stiffens them as "
+            "much (the largest eigenvalue of their geometric stiffness): "
+            "'Strain = small' has that one step late at best, "
+            "deflections differ by up to about as much, and from 1 on they "
+            "grow without bound; 'Strain = finite' in section 'Method' knows "
+            "of it, 'Mesh after step = keep' is for a linear analysis";
+    return {text.str()};
+  }
+
+#define INSTANTIATE(dim)                                                             \
+  template double                   geometric_share(const Model<dim> &,              \
+                                                    const LA::Vector &,              \
+                                                    const LinearSolverParameters &); \
+  template std::vector<std::string> doubts_of_geometric_stiffness(                   \
+    const Model<dim> &, const double);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
