@@ -61,7 +61,7 @@ scene.write_text(CUT)
 def show(title, settings, expect=0):
     result = run(scene, settings, expect=expect)
     told = [line for line in result.output.splitlines()
-            if "does not stand but slides" in line]
+            if "did not stand but slid" in line]
     text(f"{title}: told of a slide", len(told))
     if told:
         t = float(told[0].split("to t = ")[1].split()[0])
