@@ -28,11 +28,11 @@ namespace moraine
     stage_begins();
 
     /**
-     * After a step to @p t in which the node that moved furthest did so by
-     * @p motion [length]: what is to be told, once in a stage, when motion has
-     * become slow again after steps that were much faster than all before; or
-     * "".
-     * @param counts whether the step was quasi-static, along no path of an arc
+     * What is to be told after a step, once in a stage, when motion has become
+     * slow again after steps that were much faster than all before; or "".
+     * @param t its end
+     * @param motion of the node that moved furthest in it [length]
+     * @param counts whether it was quasi-static, along no path of an arc
      * length, and points or nodes move
      */
     std::string
