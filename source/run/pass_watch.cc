@@ -167,8 +167,10 @@ namespace moraine
   PassWatch<dim>::look(const StageParameters &stage, const double t)
   {
     if (model.state->mesh_after_step() == MeshAfterStep::reset ||
-        model.points->forgotten_displacement() > 0)
+        model.points->forgotten_displacement() > 0 ||
+        !(since_look > told_overlap * model.mesh->cell_size()))
       return "";
+    since_look                   = 0;
     const std::vector<Box> start = boxes_of_bodies(false);
     const std::vector<Box> now   = boxes_of_bodies(true);
     std::string            found = pair_that_met(start, now);
@@ -191,6 +193,7 @@ namespace moraine
     for (const std::string &name : told)
       names += name + "\n";
     archive.write_text("checks/passes/told", names);
+    archive.write("checks/passes/motion_since_look", since_look, "length");
   }
 
 
@@ -203,6 +206,7 @@ namespace moraine
     told.clear();
     for (std::string name; std::getline(names, name);)
       told.insert(name);
+    since_look = archive.number("checks/passes/motion_since_look");
   }
 
 

@@ -234,6 +234,7 @@ namespace moraine
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
     found.push_back(turns.look(t, reports));
+    passes.add_motion(largest_motion);
     found.push_back(
       slides.look(t,
                   largest_motion,

@@ -43,7 +43,7 @@ namespace moraine
     /** Next to no stress, over the shear modulus; next to no strain energy,
      * over the kinetic energy. */
     constexpr double no_stress = 1e-6;
-    constexpr double no_energy = 1e-6;
+    constexpr double no_energy = 1e-3;
 
     /** Over the largest part of the energy of a run. */
     constexpr double round_off_of_energy = 1e-12;

@@ -26,12 +26,20 @@ namespace moraine
   public:
     explicit PassWatch(const Model<dim> &model);
 
+    /** After a step in which the node that moved furthest did so by @p motion:
+     * what hardly moves need not be looked at. */
+    void
+    add_motion(const double motion)
+    {
+      since_look += motion;
+    }
+
     /** As a step of @p stage begins at @p t: what is to be told, of each pair
      * once; or "". Collective. */
     std::string
     look(const StageParameters &stage, const double t);
 
-    /** Data set "checks/passes/told". */
+    /** Data sets "checks/passes/...". */
     void
     write(Archive &archive) const override;
 
@@ -53,7 +61,8 @@ namespace moraine
     side_passed(const StageParameters &stage, const std::vector<Box> &now);
 
     const Model<dim>     &model;
-    std::set<std::string> told; ///< pairs, or body and condition
+    std::set<std::string> told;           ///< pairs, or body and condition
+    double                since_look = 0; ///< motion since then [length]
   };
 } // namespace moraine
 
