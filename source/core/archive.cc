@@ -314,6 +314,30 @@ namespace moraine
 
 
 
+  void
+  Archive::write_lines(const std::string              &name,
+                       const std::vector<std::string> &lines)
+  {
+    std::string text;
+    for (const std::string &line : lines)
+      text += line + "\n";
+    write_text(name, text);
+  }
+
+
+
+  std::vector<std::string>
+  Archive::lines(const std::string &name) const
+  {
+    std::istringstream       text_of_lines(text(name));
+    std::vector<std::string> read_lines;
+    for (std::string line; std::getline(text_of_lines, line);)
+      read_lines.push_back(line);
+    return read_lines;
+  }
+
+
+
   const std::string &
   Archive::text(const std::string &name) const
   {

@@ -89,10 +89,7 @@ namespace moraine
   void
   History::write(Archive &archive) const
   {
-    std::string titles;
-    for (const std::string &column : columns)
-      titles += column + "\n";
-    archive.write_text("output/history/columns", titles);
+    archive.write_lines("output/history/columns", columns);
     archive.write("output/history/rows",
                   values,
                   std::max<unsigned int>(1, columns.size()));
@@ -103,10 +100,8 @@ namespace moraine
   void
   History::read(const Archive &archive)
   {
-    std::istringstream       titles(archive.text("output/history/columns"));
-    std::vector<std::string> read_columns;
-    for (std::string title; std::getline(titles, title);)
-      read_columns.push_back(title);
+    const std::vector<std::string> read_columns =
+      archive.lines("output/history/columns");
     const auto &read_values =
       archive.numbers("output/history/rows",
                       std::max<unsigned int>(1, read_columns.size()));

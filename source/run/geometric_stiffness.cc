@@ -49,6 +49,8 @@ namespace moraine
       std::vector<SymmetricTensor<2, dim>> stresses;
     };
 
+
+
     template <int dim>
     GeometricStiffness<dim>::GeometricStiffness(const State<dim> &state)
       : state(state)
@@ -78,6 +80,8 @@ namespace moraine
             }
         }
     }
+
+
 
     template <int dim>
     LA::Vector
@@ -109,6 +113,8 @@ namespace moraine
       return product;
     }
 
+
+
     /** Forces on the nodes that have all directions and lengths in them, the
      * same on any number of ranks. */
     template <int dim>
@@ -134,6 +140,8 @@ namespace moraine
       return all;
     }
 
+
+
     /** K with what solves for it. */
     template <int dim>
     class StiffnessOfStep
@@ -155,6 +163,8 @@ namespace moraine
       LinearSolver               *solver;
     };
 
+
+
     template <int dim>
     StiffnessOfStep<dim>::StiffnessOfStep(
       const Model<dim>             &model,
@@ -173,6 +183,8 @@ namespace moraine
                      system.near_null_space());
     }
 
+
+
     template <int dim>
     double
     StiffnessOfStep<dim>::solve(LA::Vector &f, LA::Vector &u)
@@ -188,6 +200,8 @@ namespace moraine
       system.apply_constraints(u);
       return work;
     }
+
+
 
     /** The largest eigenvalue as K measures what @f$K^{-1} K_g@f$ makes of a
      * field, where it may have either sign. */
@@ -213,6 +227,8 @@ namespace moraine
       return share;
     }
   } // namespace
+
+
 
   template <int dim>
   double
@@ -248,6 +264,8 @@ namespace moraine
     return std::isfinite(share) ? share : 0.;
   }
 
+
+
   template <int dim>
   std::vector<std::string>
   doubts_of_geometric_stiffness(const Model<dim> &model, const double share)
@@ -271,6 +289,8 @@ namespace moraine
             "of it, 'Mesh after step = keep' is for a linear analysis";
     return {text.str()};
   }
+
+
 
 #define INSTANTIATE(dim)                                                             \
   template double                   geometric_share(const Model<dim> &,              \

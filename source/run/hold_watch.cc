@@ -315,13 +315,11 @@ namespace moraine
   void
   HoldWatch<dim>::write(Archive &archive) const
   {
-    std::ostringstream held, said;
+    std::ostringstream held;
     for (const auto &[section, n] : most)
       held << n << ' ' << section << '\n';
-    for (const std::string &section : told)
-      said << section << '\n';
     archive.write_text("checks/holds/most", held.str());
-    archive.write_text("checks/holds/told", said.str());
+    archive.write_lines("checks/holds/told", {told.begin(), told.end()});
   }
 
 
@@ -330,17 +328,15 @@ namespace moraine
   void
   HoldWatch<dim>::read(const Archive &archive)
   {
-    std::istringstream held(archive.text("checks/holds/most")),
-      said(archive.text("checks/holds/told"));
+    std::istringstream held(archive.text("checks/holds/most"));
+    const auto         said = archive.lines("checks/holds/told");
+    told                    = {said.begin(), said.end()};
     most.clear();
-    told.clear();
     counted        = false;
     unsigned int n = 0;
     for (std::string section;
          held >> n && std::getline(held >> std::ws, section);)
       most[section] = n;
-    for (std::string section; std::getline(said, section);)
-      told.insert(section);
   }
 
 

@@ -189,10 +189,7 @@ namespace moraine
   void
   PassWatch<dim>::write(Archive &archive) const
   {
-    std::string names;
-    for (const std::string &name : told)
-      names += name + "\n";
-    archive.write_text("checks/passes/told", names);
+    archive.write_lines("checks/passes/told", {told.begin(), told.end()});
     archive.write("checks/passes/motion_since_look", since_look, "length");
   }
 
@@ -202,11 +199,9 @@ namespace moraine
   void
   PassWatch<dim>::read(const Archive &archive)
   {
-    std::istringstream names(archive.text("checks/passes/told"));
-    told.clear();
-    for (std::string name; std::getline(names, name);)
-      told.insert(name);
-    since_look = archive.number("checks/passes/motion_since_look");
+    const auto lines = archive.lines("checks/passes/told");
+    told             = {lines.begin(), lines.end()};
+    since_look       = archive.number("checks/passes/motion_since_look");
   }
 
 

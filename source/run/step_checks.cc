@@ -428,10 +428,8 @@ namespace moraine
   StepChecks<dim>::write(Archive &archive) const
   {
     archive.write("checks/parts_of_bodies", n_parts);
-    std::string names;
-    for (const std::string &name : missed)
-      names += name + "\n";
-    archive.write_text("checks/missed_boundaries", names);
+    archive.write_lines("checks/missed_boundaries",
+                        {missed.begin(), missed.end()});
     archive.write("checks/stretched_bodies",
                   std::vector<unsigned int>(stretched.begin(),
                                             stretched.end()));
@@ -453,11 +451,9 @@ namespace moraine
   void
   StepChecks<dim>::read(const Archive &archive)
   {
-    n_parts = archive.integers("checks/parts_of_bodies");
-    std::istringstream names(archive.text("checks/missed_boundaries"));
-    missed.clear();
-    for (std::string name; std::getline(names, name);)
-      missed.insert(name);
+    n_parts              = archive.integers("checks/parts_of_bodies");
+    const auto names     = archive.lines("checks/missed_boundaries");
+    missed               = {names.begin(), names.end()};
     const auto bodies_of = [&](const std::string &name) {
       const std::vector<unsigned int> bodies = archive.integers(name);
       return std::set<unsigned int>(bodies.begin(), bodies.end());

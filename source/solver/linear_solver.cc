@@ -492,10 +492,7 @@ namespace moraine
   {
     const auto &s = *implementation;
     s.choice.write(archive);
-    std::string lines;
-    for (const std::string &choice : s.choices)
-      lines += choice + "\n";
-    archive.write_text("solver/choices", lines);
+    archive.write_lines("solver/choices", s.choices);
     archive.write_text("solver/change_to_tell", s.unsaid);
     archive.write_text("solver/reason", s.fall_back_reason);
     archive.write("solver/set_ups", s.n_set_ups);
@@ -509,10 +506,7 @@ namespace moraine
     clear();
     auto &s = *implementation;
     s.choice.read(archive);
-    std::istringstream lines(archive.text("solver/choices"));
-    s.choices.clear();
-    for (std::string line; std::getline(lines, line);)
-      s.choices.push_back(line);
+    s.choices          = archive.lines("solver/choices");
     s.unsaid           = archive.text("solver/change_to_tell");
     s.fall_back_reason = archive.text("solver/reason");
     s.n_set_ups        = archive.integer("solver/set_ups");

@@ -106,6 +106,18 @@ TEST(Archive, GivesBackWhatWasWritten)
 
 
 
+TEST(Archive, LinesComeBackAsTheyWere)
+{
+  const std::vector<std::string> lines = {"a b", "", "c"};
+  Archive                        archive;
+  archive.write_lines("names", lines);
+  archive.write_lines("no names", {});
+  EXPECT_EQ(archive.lines("names"), lines);
+  EXPECT_TRUE(archive.lines("no names").empty());
+}
+
+
+
 TEST(Archive, SaysWhatIsMissing)
 {
   const Archive archive = make_archive();

@@ -191,6 +191,14 @@ for title, size, held in (
                     for side, components in held)))
     text(title + ": told", "nowhere as thick" in run(scene, command="check").output)
 
+# One that hangs on thick ground does not bend by itself.
+scene.write_text(SCENE.format(bodies="".join(
+    BODY.format(name=name, material="firm", lower=f"-1, {y}", upper=f"4, {top}")
+    for name, y, top in (("ground", 0, 3), ("fill", 3, 4))), more="").replace(
+        "set Cell size    = 0.25", "set Cell size    = 1"))
+text("fill one cell thick on ground: told",
+     "nowhere as thick" in run(scene, command="check").output)
+
 # Loads that are some where and not elsewhere, by an expression.
 for title, load in (
         ("narrow strip", "set Type = side traction\n set Side = top\n "

@@ -60,6 +60,10 @@ namespace moraine
     void
     write_text(const std::string &name, const std::string &text);
 
+    /** Lines of a text, of which none has a line break. */
+    void
+    write_lines(const std::string &name, const std::vector<std::string> &lines);
+
     /** The same as from another archive. */
     void
     add(const std::string &name, DataSet set);
@@ -93,6 +97,9 @@ namespace moraine
 
     const std::string &
     text(const std::string &name) const;
+
+    std::vector<std::string>
+    lines(const std::string &name) const;
 
     bool
     contains(const std::string &name) const

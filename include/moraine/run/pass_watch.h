@@ -18,7 +18,8 @@ namespace moraine
    * Looks whether bodies whose nodes stay with the material, which know nothing
    * of each other, move into each other, or through a side of the mesh that has
    * a condition and no body at it. Goes by the boxes around bodies along the
-   * axes: what was apart at the start and overlaps by now.
+   * axes: what was apart at the start and overlaps by now. Displacements that
+   * a stage has reset end it.
    */
   template <int dim>
   class PassWatch : public StatePart
