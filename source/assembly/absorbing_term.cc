@@ -37,8 +37,10 @@ namespace moraine
 
 
   template <int dim>
-  AbsorbingTerm<dim>::AbsorbingTerm(AbsorbingBoundary<dim> &boundary)
+  AbsorbingTerm<dim>::AbsorbingTerm(AbsorbingBoundary<dim> &boundary,
+                                    const bool              acts)
     : boundary(boundary)
+    , acts(acts)
   {}
 
 
@@ -47,6 +49,8 @@ namespace moraine
   std::vector<Effect>
   AbsorbingTerm<dim>::effects(const StepContext<dim> &context) const
   {
+    if (!acts)
+      return {};
     const std::string &name = boundary.name();
     const unsigned int n =
       Utilities::MPI::sum<unsigned int>(local_places.size(),
@@ -70,7 +74,7 @@ namespace moraine
       boundary.find_cells(context.state.grid(),
                           context.search_tolerance,
                           context.t_start);
-    if (context.cells_moved || moves_through_mesh)
+    if (acts && (context.cells_moved || moves_through_mesh))
       find_local_places(context);
     return false;
   }
@@ -241,7 +245,8 @@ namespace moraine
                           MeshAfterStep::follow_material ||
                         (through_mesh && !boundary.is_on_side()),
                       through_mesh,
-                      state.strain_measure() == StrainMeasure::finite});
+                      state.strain_measure() == StrainMeasure::finite,
+                      acts});
   }
 
 
@@ -260,7 +265,8 @@ namespace moraine
   AbsorbingTerm<dim>::report(const StepContext<dim> &,
                              std::vector<BoundaryReport<dim>> &reports) const
   {
-    reports.push_back(prepared);
+    if (acts)
+      reports.push_back(prepared);
   }
 
 

@@ -116,7 +116,7 @@ namespace moraine
     for (const auto &[column, b] : by_column)
       {
         found = std::find(found, end, column);
-        Assert(found != end, ExcInternalError());
+        AssertThrow(found != end, ExcInternalError());
         const double *K = &local.matrix(dim * a, dim * b);
         double       *V = values + (found - columns);
         for (unsigned int c = 0; c < dim; ++c)

@@ -171,7 +171,10 @@ namespace moraine
   bool
   ForceOnPointsTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    force.find_points(context.state.material_points());
+    const State<dim> &state = context.state;
+    force.find_points(state.material_points(), [&state](const unsigned int p) {
+      return state.original_position(p);
+    });
     return false;
   }
 

@@ -144,7 +144,7 @@ namespace moraine
         bool any = false;
         for (const auto &term : terms)
           if (!dynamic_cast<PointTerm<dim> *>(term.get()) &&
-              term->work_kind() == WorkKind(k))
+              !term->is_inertia() && term->work_kind() == WorkKind(k))
             {
               if (!any)
                 sums.begin(false);

@@ -256,14 +256,11 @@ namespace moraine
   bool
   MeetingTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    const bool moves =
-      context.state.mesh_after_step() != MeshAfterStep::keep &&
-      std::any_of(boundaries.begin(), boundaries.end(), [](const auto *b) {
-        return b->rigid_motion().moves();
-      });
-    const bool is_alone = boundaries.size() + conditions.size() < 2;
-    if (boundaries.empty() || is_alone ||
-        (found && !context.cells_moved && !moves))
+    std::vector<unsigned int> now;
+    for (const auto *boundary : boundaries)
+      now.push_back(boundary->n_searches());
+    // Pieces that were found anew hold again; those of before are as they were.
+    if (boundaries.size() + conditions.size() < 2 || now == searches)
       return false;
     std::vector<Piece> pieces;
     for (auto &of_one_rank :
@@ -289,7 +286,7 @@ namespace moraine
 
     take_meetings(pieces, find_owners_given_way(pieces, increments()));
     check_that_all_hold(context);
-    found = true;
+    searches = std::move(now);
     return false;
   }
 

@@ -7,6 +7,8 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/object_error.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +42,8 @@ namespace moraine
         is_seeded.push_back(body.shape != nullptr);
         half_edges_of_body.push_back(body.listed.half_edges);
       }
+    if (split)
+      limits = limits_of_bodies();
   }
 
 
@@ -351,6 +355,33 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<double>
+  CpdiBasis<dim>::limits_of_bodies() const
+  {
+    const double of_full_cell = std::pow(seeder.n_sub_cells(), -1. / dim);
+    std::vector<double> of_bodies;
+    for (const bool seeded : is_seeded)
+      of_bodies.push_back(
+        std::max(DomainTools::longest_edge, seeded ? of_full_cell : 0.));
+    if (std::find(is_seeded.begin(), is_seeded.end(), false) == is_seeded.end())
+      return of_bodies;
+    const auto domains = initial_domains(this->points);
+    for (const auto &in_cell : this->points.cells())
+      {
+        const auto cell = vertices_of<dim>(in_cell.cell);
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          if (const unsigned int body = this->points.body(p); !is_seeded[body])
+            of_bodies[body] =
+              std::max(of_bodies[body],
+                       longest_in_cell<dim>(cell, domains[p].corners).second);
+      }
+    Utilities::MPI::max(of_bodies, this->space.communicator(), of_bodies);
+    return of_bodies;
+  }
+
+
+
+  template <int dim>
   bool
   CpdiBasis<dim>::can_be_halved(
     const CellVertices<dim>                     &corners,
@@ -391,10 +422,7 @@ namespace moraine
       return dim;
     const auto corners = this->domain_corners(p);
     const auto longest = longest_in_cell<dim>(vertices_of<dim>(cell), corners);
-    const double limit =
-      std::max(DomainTools::longest_edge,
-               std::pow(seeder.n_sub_cells(), -1. / dim)); // as at the start
-    bool is_far = longest.second > (1 + 1e-9) * limit;
+    bool is_far = longest.second > (1 + 1e-9) * limits[this->points.body(p)];
     if (!is_far && longest.second > shortest_split)
       {
         // In meshes of distorted cells.

@@ -252,18 +252,6 @@ namespace moraine
         std::sort(all.begin(), all.end());
         return all;
       }
-
-
-
-      template <int dim>
-      unsigned int
-      next_free_id(const PointSet<dim> &points, const MPI_Comm &communicator)
-      {
-        unsigned int next = 0;
-        for (unsigned int p = 0; p < points.n_local(); ++p)
-          next = std::max(next, points.id(p) + 1);
-        return Utilities::MPI::max(next, communicator);
-      }
     } // namespace
 
 
@@ -301,7 +289,7 @@ namespace moraine
       const auto F =
         points.fields().find(FieldNames<dim>::deformation_gradient);
       const auto  &u       = points.displacement_field();
-      unsigned int next_id = next_free_id(points, communicator);
+      unsigned int next_id = points.next_id();
 
       std::vector<unsigned int> candidates(points.n_local());
       std::iota(candidates.begin(), candidates.end(), 0u);

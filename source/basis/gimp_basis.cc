@@ -7,6 +7,8 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/cell_shapes.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,6 +37,7 @@ namespace moraine
     , half_length_field(points.fields().find(half_length_name))
     , initial_half_length_field(points.fields().find(initial_half_length_name))
     , half_length_offset(half_length_field.offset())
+    , limits(split ? limits_of_bodies() : std::vector<double>())
     , local_functions(space, points)
   {}
 
@@ -83,36 +86,74 @@ namespace moraine
 
 
   template <int dim>
+  Tensor<1, dim>
+  GimpBasis<dim>::first_half_length(const unsigned int point) const
+  {
+    const BoxGrid<dim> &grid = this->grid();
+    const unsigned int  body = this->points.body(point);
+    if (is_of_cells(body))
+      {
+        Tensor<1, dim> half_length;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double length = grid.cell_size[d] / points_per_direction;
+            const double place =
+              (this->points.position(point)[d] - grid.lower_corner[d]) / length;
+            const double from_face = place - std::floor(place);
+            half_length[d] = length * std::min(from_face, 1. - from_face);
+          }
+        return half_length;
+      }
+    const bool has_part =
+      body < half_edges_of_body.size() && half_edges_of_body[body].norm() > 0;
+    Tensor<1, dim> half_length =
+      scaled_to(this->points.volume(point),
+                has_part ? half_box_around(half_edges_of_body[body]) :
+                           0.5 * edges_of(grid));
+    for (unsigned int d = 0; d < dim; ++d)
+      half_length[d] = std::min(0.5 * grid.cell_size[d], half_length[d]);
+    return half_length;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  GimpBasis<dim>::limits_of_bodies() const
+  {
+    unsigned int n_bodies = 0;
+    for (unsigned int p = 0; p < this->points.n_local(); ++p)
+      n_bodies = std::max(n_bodies, this->points.body(p) + 1);
+    std::vector<double> of_bodies(
+      Utilities::MPI::max(n_bodies, this->space.communicator()),
+      0.5 * DomainTools::longest_edge);
+    for (unsigned int p = 0; p < this->points.n_local(); ++p)
+      {
+        const unsigned int body  = this->points.body(p);
+        double            &limit = of_bodies[body];
+        if (is_of_cells(body))
+          limit = std::max(limit, 0.5 / points_per_direction);
+        else
+          for (unsigned int d = 0; d < dim; ++d)
+            limit =
+              std::max(limit, first_half_length(p)[d] / grid().cell_size[d]);
+      }
+    Utilities::MPI::max(of_bodies, this->space.communicator(), of_bodies);
+    return of_bodies;
+  }
+
+
+
+  template <int dim>
   void
   GimpBasis<dim>::initialise_points(PointSet<dim> &points) const
   {
-    const BoxGrid<dim>         &grid = this->grid();
-    std::vector<Tensor<1, dim>> half_boxes;
-    for (const Tensor<2, dim> &half_edges : half_edges_of_body)
-      half_boxes.push_back(half_box_around(half_edges));
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        double            *half_length = points.values(p) + half_length_offset;
-        const unsigned int body        = points.body(p);
-        const bool         has_part =
-          body < half_boxes.size() && half_boxes[body].norm() > 0;
-        const Tensor<1, dim> of_volume =
-          scaled_to(points.volume(p),
-                    has_part ? half_boxes[body] : 0.5 * edges_of(grid));
-        for (unsigned int d = 0; d < dim; ++d)
-          if (body < is_seeded.size() && is_seeded[body])
-            {
-              const double length = grid.cell_size[d] / points_per_direction;
-              const double place =
-                (points.position(p)[d] - grid.lower_corner[d]) / length;
-              const double from_face = place - std::floor(place);
-              half_length[d] = length * std::min(from_face, 1. - from_face);
-            }
-          else
-            half_length[d] = std::min(0.5 * grid.cell_size[d], of_volume[d]);
+        const Tensor<1, dim> l = first_half_length(p);
+        half_length_field.store(l, points.values(p));
         if (update == DomainUpdate::stretch)
-          initial_half_length_field.store(half_length_field(points.values(p)),
-                                          points.values(p));
+          initial_half_length_field.store(l, points.values(p));
       }
   }
 
@@ -132,19 +173,37 @@ namespace moraine
   template <int dim>
   unsigned int
   GimpBasis<dim>::too_long_edge(const unsigned int point,
-                                const double       limit) const
+                                const double       limit,
+                                const bool         to_halve) const
   {
     const double *l     = this->points.values(point) + half_length_offset;
     unsigned int  edge  = dim;
     double        worst = (1 + 1e-9) * limit;
     for (unsigned int d = 0; d < dim; ++d)
       // also true for what is not a number
-      if (!(l[d] <= worst * grid().cell_size[d]))
+      if (!(l[d] <= worst * grid().cell_size[d]) &&
+          !(to_halve && half_is_outside(point, d)))
         {
           edge  = d;
           worst = l[d] / grid().cell_size[d];
         }
     return edge;
+  }
+
+
+
+  template <int dim>
+  bool
+  GimpBasis<dim>::half_is_outside(const unsigned int point,
+                                  const unsigned int d) const
+  {
+    constexpr double margin = 1e-6; // of a cell; the search has no tolerance
+    const double    *l      = this->points.values(point) + half_length_offset;
+    const double     h      = grid().cell_size[d];
+    const double     place =
+      (this->points.position(point)[d] - grid().lower_corner[d]) / h;
+    const double way = 0.5 * l[d] / h;
+    return place - way < margin || place + way > grid().n_cells[d] - margin;
   }
 
 
@@ -522,12 +581,13 @@ namespace moraine
   {
     if (!split || update == DomainUpdate::frozen)
       return false;
-    // Not what is as long from the start.
-    const double limit =
-      std::max(0.5 * DomainTools::longest_edge, 0.5 / points_per_direction);
     return DomainTools::split_points<dim>(
       points,
-      [&](const unsigned int p) { return too_long_edge(p, limit); },
+      [&](const unsigned int p) {
+        return too_long_edge(p,
+                             limits[points.body(p)],
+                             /* to_halve = */ true);
+      },
       [&](const unsigned int lower,
           const unsigned int upper,
           const unsigned int d) {

@@ -108,10 +108,12 @@ namespace moraine
     const Following                   &following)
   {
     const auto increments = carried.increments(space, nodal_increments);
-    next_extensions       = extensions;
-    for (unsigned int k = 0; k < increments.size(); ++k)
-      next_extensions[k] +=
-        increments[k].u - incident_increment(k, t_start, t_end);
+    next_extensions.assign(places().size(), {});
+    if (following.attached)
+      for (unsigned int k = 0; k < increments.size(); ++k)
+        next_extensions[k] =
+          extensions[k] +
+          (increments[k].u - incident_increment(k, t_start, t_end));
     if (following.moves)
       carried.prepare_move(increments, following.through_mesh, following.turns);
   }

@@ -138,8 +138,11 @@ namespace moraine
     if (!space.nodes_moved())
       {
         for (const auto &cell : tria.active_cell_iterators())
-          if (cell->is_locally_owned() || !space.is_active(cell))
-            add_pieces(cell, vertices_of<dim>(cell), nearest);
+          if (!space.is_active(cell))
+            for (const CellIterator &owner : owners_in(cell, nearest))
+              add_pieces(cell, vertices_of<dim>(cell), owner, nearest);
+          else if (cell->is_locally_owned())
+            add_pieces(cell, vertices_of<dim>(cell), cell, itself);
       }
     else
       // Cells without material stay where material once was: here those beside
@@ -149,11 +152,12 @@ namespace moraine
           {
             const CellVertices<dim> vertices =
               present_vertices(space, cell->active_cell_index());
-            add_pieces(cell, vertices, itself);
+            add_pieces(cell, vertices, cell, itself);
             for (const unsigned int f : cell->face_indices())
               if (cell->at_boundary(f) || !space.is_active(cell->neighbor(f)))
                 add_pieces(cell,
                            layer_beyond(f, vertices, search_tolerance),
+                           cell,
                            itself);
           }
     std::stable_sort(boundary_points.begin(),
@@ -238,24 +242,45 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<typename ImplicitBoundary<dim>::CellIterator>
+  ImplicitBoundary<dim>::owners_in(const CellIterator &cell,
+                                   const Owner        &owner_of) const
+  {
+    std::vector<CellIterator> owners;
+    const CellVertices<dim>   vertices = vertices_of<dim>(cell);
+    if (!overlap(box_of<dim>(vertices),
+                 at_start.bounding_box(),
+                 1e-9 * cell->diameter()))
+      return owners;
+    std::vector<SurfacePoint<dim>> pieces;
+    at_start.pieces(vertices, n_gauss_points_in<dim>(vertices), pieces);
+    for (const SurfacePoint<dim> &piece : pieces)
+      {
+        const CellIterator owner = owner_of(cell, piece.x);
+        if (owner.state() == IteratorState::valid &&
+            owner->is_locally_owned() &&
+            std::find(owners.begin(), owners.end(), owner) == owners.end())
+          owners.push_back(owner);
+      }
+    return owners;
+  }
+
+
+
+  template <int dim>
   void
   ImplicitBoundary<dim>::add_pieces(const CellIterator      &cell,
                                     const CellVertices<dim> &vertices,
+                                    const CellIterator      &owner,
                                     const Owner             &owner_of)
   {
     if (!overlap(box_of<dim>(vertices),
                  at_start.bounding_box(),
                  1e-9 * cell->diameter()))
       return;
-    const auto own_cell = [&](const SurfacePoint<dim> &piece) {
-      const CellIterator owner = owner_of(cell, piece.x);
-      return owner.state() == IteratorState::valid &&
-                 owner->is_locally_owned() ?
-               owner :
-               CellIterator();
-    };
-    const auto is_own = [&](const SurfacePoint<dim> &piece) {
-      return own_cell(piece).state() == IteratorState::valid;
+    const double h      = size_of(owner);
+    const auto   is_own = [&](const SurfacePoint<dim> &piece) {
+      return owner_of(cell, piece.x) == owner;
     };
     const auto is_held = [&](const SurfacePoint<dim> &piece) {
       // A place of its own that no body is at takes no force; where it is
@@ -263,12 +288,8 @@ namespace moraine
       if (how.w_free == 0. && motion.moves() &&
           (!kind.holds_means || is_along_faces(vertices, piece.normal)))
         return true;
-      const CellIterator owner = own_cell(piece);
-      return owner.state() != IteratorState::valid ||
-             body.at(owner->active_cell_index(),
-                     piece.x,
-                     piece.normal,
-                     size_of(owner));
+      return !is_own(piece) ||
+             body.at(owner->active_cell_index(), piece.x, piece.normal, h);
     };
     // The mesh as it was built decides, so that the points stay the same ones.
     const unsigned int n = n_gauss_points_in<dim>(vertices_of<dim>(cell));
@@ -279,27 +300,24 @@ namespace moraine
         pieces.clear();
         at_start.pieces(vertices, n, pieces);
         if (std::none_of(pieces.begin(), pieces.end(), [&](const auto &piece) {
-              const CellIterator owner = own_cell(piece);
-              return owner.state() == IteratorState::valid &&
-                     body.near(owner->active_cell_index(),
-                               piece.x,
-                               piece.normal,
-                               size_of(owner));
+              return is_own(piece) && body.near(owner->active_cell_index(),
+                                                piece.x,
+                                                piece.normal,
+                                                h);
             }))
           return;
       }
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        const CellIterator owner = own_cell(piece);
-        if (owner.state() != IteratorState::valid)
+        if (!is_own(piece))
           continue;
         BoundaryPoint<dim> point;
         point.x      = piece.x;
         point.normal = piece.normal;
         point.JxW    = piece.JxW;
         point.cell   = owner->active_cell_index();
-        point.h      = size_of(owner);
-        point.depth  = point.h;
+        point.h      = h;
+        point.depth  = h;
         boundary_points.push_back(point);
       }
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace moraine
 {
@@ -190,19 +191,29 @@ namespace moraine
 
 
 
-    /** Whether displacements at @p x are the same; rigid motions know them to
-     * the round-off of the place. */
+    /** The changes that two conditions prescribe from @p start to @p end if
+     * they are not the same; rigid motions know them to the round-off of the
+     * place. */
     template <int dim>
-    bool
-    agree(const Tensor<1, dim> &u,
-          const Tensor<1, dim> &v,
-          const unsigned int    component,
-          const Point<dim>     &x,
-          const double          cell_size)
+    std::optional<std::pair<double, double>>
+    different_changes(const std::vector<GridCondition<dim>> &conditions,
+                      const Shared                          &shared,
+                      const GridSpace<dim>                  &space,
+                      const double                           start,
+                      const double                           end)
     {
-      return std::abs(u[component] - v[component]) <=
-             1e-9 * std::max(u.norm(), v.norm()) +
-               1e-14 * (x.norm() + cell_size);
+      const Point<dim>     x = space.node_position(shared.node);
+      const Point<dim>     X = x - space.node_move(shared.node);
+      const Tensor<1, dim> u =
+        conditions[shared.first].increment(x, X, start, end);
+      const Tensor<1, dim> v =
+        conditions[shared.second].increment(x, X, start, end);
+      const double u_i = u[shared.component], v_i = v[shared.component];
+      if (std::abs(u_i - v_i) <=
+          1e-9 * std::max(u.norm(), v.norm()) +
+            1e-14 * (x.norm() + space.mesh().cell_size()))
+        return {};
+      return std::make_pair(u_i, v_i);
     }
 
 
@@ -232,17 +243,13 @@ namespace moraine
     std::vector<Shared> shared;
     const auto          prescribed = find_nodes(conditions, space, shared);
     for (const Shared &entry : shared)
-      {
-        const Point<dim> &x = space.node_position(entry.node);
-        if (!agree(conditions[entry.first].value(x, t_end),
-                   conditions[entry.second].value(x, t_end),
-                   entry.component,
-                   x,
-                   space.mesh().cell_size()))
-          throw ObjectError("grid conditions",
-                            "",
-                            complaint(conditions, entry, x));
-      }
+      if (different_changes(
+            conditions, entry, space, conditions[entry.first].start, t_end))
+        throw ObjectError("grid conditions",
+                          "",
+                          complaint(conditions,
+                                    entry,
+                                    space.node_position(entry.node)));
     return prescribed;
   }
 
@@ -262,19 +269,18 @@ namespace moraine
     for (const Shared &entry : shared)
       for (unsigned int step = 0; step < n_steps; ++step)
         {
-          const double         t_n = start + step * size, t = t_n + size;
-          const Point<dim>    &x = space.node_position(entry.node);
-          const Tensor<1, dim> u =
-            conditions[entry.first].increment(x, x, t_n, t);
-          const Tensor<1, dim> v =
-            conditions[entry.second].increment(x, x, t_n, t);
-          if (agree(u, v, entry.component, x, space.mesh().cell_size()))
+          const double t_n = start + step * size, t = t_n + size;
+          const auto   differ =
+            different_changes(conditions, entry, space, t_n, t);
+          if (!differ)
             continue;
           std::ostringstream message;
-          message << complaint(conditions, entry, x) << " from t = " << t_n
-                  << " to t = " << t << ": " << u[entry.component] << " and "
-                  << v[entry.component];
-          throw InputError(message.str());
+          message << complaint(conditions,
+                               entry,
+                               space.node_position(entry.node))
+                  << " from t = " << t_n << " to t = " << t << ": "
+                  << differ->first << " and " << differ->second;
+          throw ObjectError("grid conditions", "", message.str());
         }
   }
 

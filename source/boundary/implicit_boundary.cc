@@ -82,7 +82,7 @@ namespace moraine
              Utilities::MPI::logical_or(!body.is_still_so(covers),
                                         space.communicator());
     };
-    if (has_pieces && !cells_changed && !moves && !changes && !body_moved())
+    if (search.done && !cells_changed && !moves && !changes && !body_moved())
       {
         for (auto &point : boundary_points)
           point.depth = point.h;
@@ -111,7 +111,8 @@ namespace moraine
       find_levels(space.communicator());
     take_over_nearest(space.communicator());
     kept_at_points = false;
-    placed = has_pieces = true;
+    placed = search.done = true;
+    ++search.number;
   }
 
 
@@ -527,7 +528,7 @@ namespace moraine
         carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};
       }
     // The points are derived from that by the next begin_step().
-    has_pieces = kept_at_points = false;
+    search.done = kept_at_points = false;
     undo();
   }
 

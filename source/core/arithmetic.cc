@@ -112,6 +112,28 @@ namespace moraine
 
 
 
+  bool
+  is_compound(const std::string &text)
+  {
+    if (plain_number(text) || !may_be_arithmetic(text) ||
+        split_outside_brackets(text, "+-*/^<>=!&|?").size() == 1)
+      return false;
+    const SilentErrors silent;
+    try
+      {
+        FunctionParser<3> parser(1);
+        parser.initialize("x,y,z,t", text, {{"pi", numbers::PI}}, true);
+        parser.value(Point<3>());
+        return true;
+      }
+    catch (...) // muParser's own are no standard exceptions
+      {
+        return false;
+      }
+  }
+
+
+
   std::string
   with_numbers(const std::string &text, const std::string &separators)
   {

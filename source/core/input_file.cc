@@ -418,6 +418,7 @@ namespace moraine
         return;
       }
 
+    applied.push_back(setting);
     const std::string line =
       "set " + key + " = " + Utilities::trim(setting.substr(equals + 1));
     for (std::size_t i = 0; i < found_entries.size(); ++i)

@@ -38,7 +38,8 @@ namespace moraine
 
 
     /** What stands for a constant with this value between @p before and @p
-     * after: a negative number in brackets where an operator is beside it. */
+     * after: where an operator is beside it, a negative number and a compound
+     * expression in brackets. */
     std::string
     insertion(const std::string &value,
               const std::string &before,
@@ -46,13 +47,18 @@ namespace moraine
     {
       const std::string left  = Utilities::trim(before),
                         right = Utilities::trim(after);
-      const bool operated =
-        (!left.empty() &&
-         std::string("+-*/^").find(left.back()) != std::string::npos) ||
-        (!right.empty() && right.front() == '^');
-      return operated && value.front() == '-' && plain_number(value) ?
-               "(" + value + ")" :
-               value;
+      const bool after_one =
+        !left.empty() &&
+        std::string("+-*/^").find(left.back()) != std::string::npos;
+      const auto before_one = [&right](const std::string &operators) {
+        return !right.empty() &&
+               operators.find(right.front()) != std::string::npos;
+      };
+      const bool in_brackets =
+        (value.front() == '-' && plain_number(value)) ?
+          after_one || before_one("^") :
+          (after_one || before_one("+-*/^")) && is_compound(value);
+      return in_brackets ? "(" + value + ")" : value;
     }
   } // namespace
 

@@ -205,7 +205,8 @@ namespace moraine
   void
   CarriedPlaces<dim>::catch_up(const GridSpace<dim> &space)
   {
-    if (!space.nodes_moved())
+    // A rank may have no nodes.
+    if (!Utilities::MPI::logical_or(space.nodes_moved(), space.communicator()))
       return;
     std::vector<double> moves(dim * now.size(), 0.);
     for (unsigned int k = 0; k < now.size(); ++k)

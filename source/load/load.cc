@@ -53,6 +53,8 @@ namespace moraine
                 << ") is no longer on any material, or beyond the mesh";
         throw ComputationError(message.str());
       }
+    if (!placed)
+      carried.catch_up(space);
     placed = true;
   }
 
@@ -155,13 +157,14 @@ namespace moraine
 
   template <int dim>
   void
-  ForceOnPoints<dim>::choose(const PointSet<dim> &points)
+  ForceOnPoints<dim>::choose(const PointSet<dim>    &points,
+                             const OriginalPosition &original_position)
   {
     const MPI_Comm communicator =
       points.mesh().triangulation().get_communicator();
     double nearest = std::numeric_limits<double>::max();
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      nearest = std::min(nearest, points.position(p).distance(place));
+      nearest = std::min(nearest, original_position(p).distance(place));
     nearest = Utilities::MPI::min(nearest, communicator);
     if (nearest > 2 * points.mesh().cell_size())
       {
@@ -173,7 +176,7 @@ namespace moraine
       }
     std::vector<unsigned int> near;
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.position(p).distance(place) <=
+      if (original_position(p).distance(place) <=
           nearest + 1e-6 * points.mesh().cell_size())
         near.push_back(points.id(p));
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, near))
@@ -185,10 +188,11 @@ namespace moraine
 
   template <int dim>
   void
-  ForceOnPoints<dim>::find_points(const PointSet<dim> &points)
+  ForceOnPoints<dim>::find_points(const PointSet<dim>    &points,
+                                  const OriginalPosition &original_position)
   {
     if (ids.empty())
-      choose(points);
+      choose(points, original_position);
     local_points.clear();
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (std::binary_search(ids.begin(), ids.end(), points.id(p)))

@@ -65,6 +65,7 @@ namespace moraine
         sides.names.emplace_back("top", 5);
       }
 
+    cells_of_box = n;
     BoxGrid<dim> grid;
     grid.lower_corner = parameters.lower_corner;
     grid.n_cells      = n;

@@ -54,7 +54,7 @@ namespace moraine
       box.reset();
     else
       {
-        // The number of cells is that of the same mesh.
+        box.emplace().n_cells = cells_of_box;
         std::copy_n(grid.begin(), dim, box->lower_corner.begin_raw());
         std::copy_n(grid.begin() + dim, dim, box->cell_size.begin_raw());
       }

@@ -130,7 +130,7 @@ namespace moraine
   unsigned int
   PointSet<dim>::next_id() const
   {
-    unsigned int next = 0;
+    unsigned int next = first_new_id;
     for (unsigned int p = 0; p < n_local(); ++p)
       next = std::max(next, id(p) + 1);
     return Utilities::MPI::max(next,
@@ -171,18 +171,12 @@ namespace moraine
   PointSet<dim>::exchange_bodies(const std::vector<bool>   &stay,
                                  const std::vector<Record> &others)
   {
-    const unsigned int  next  = next_id();
-    const unsigned int  shift = next > first_new_id ? next : 0;
     std::vector<Record> all;
     for (const CellPoints &in_cell : cell_points)
       for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
         if (stay[body(p)])
           all.push_back(record(in_cell.cell, p));
-    for (const Record &other : others)
-      {
-        all.push_back(other);
-        all.back().id += shift;
-      }
+    all.insert(all.end(), others.begin(), others.end());
     handler.clear_particles();
     for (const Record &point : all)
       handler.insert_particle(point.position,

@@ -94,7 +94,8 @@ namespace moraine
         return;
       for (const auto &boundary : model.boundaries)
         {
-          if (!contains(stage.boundaries, boundary.name()))
+          if (!contains(stage.boundaries, boundary.name()) ||
+              contains(stage.absorbing, boundary.name()))
             continue;
           std::vector<double> area(2, 0.); // inside, behind
           for (const auto &point : boundary.points())

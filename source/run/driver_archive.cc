@@ -145,6 +145,7 @@ namespace moraine
     archive.write("run/stage", stage);
     archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
     archive.write("run/stiffness_of_empty_parts", accepted_fraction);
+    archive.write("run/geometric_share", share_of_last_step);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
     checks.write(archive);
@@ -165,7 +166,8 @@ namespace moraine
     if (model.state->mesh_after_step() != MeshAfterStep::reset)
       model.state->begin_step();
     lasting.read(archive);
-    accepted_fraction = archive.number("run/stiffness_of_empty_parts");
+    accepted_fraction  = archive.number("run/stiffness_of_empty_parts");
+    share_of_last_step = archive.number("run/geometric_share");
     if (archive.integer("run/empty_parts_have_stiffness") != 0)
       {
         auto term =

@@ -104,6 +104,41 @@ namespace moraine
 
 
 
+    /** Whether a boundary absorbs in a stage. */
+    template <int dim>
+    bool
+    absorbs_in(const StageParameters        &stage,
+               const Scene<dim>             &scene,
+               const AbsorbingBoundary<dim> &boundary)
+    {
+      const std::string &name = boundary.name();
+      return contains(boundary.is_on_side() ? stage.grid_conditions :
+                                              stage.boundaries,
+                      name) &&
+             (contains(stage.absorbing, name) || !scene.absorbs_later(name));
+    }
+
+
+
+    /** Whether it does so before the stage that starts at @p t, and after. */
+    template <int dim>
+    bool
+    absorbs_around(const double                  t,
+                   const Scene<dim>             &scene,
+                   const AbsorbingBoundary<dim> &boundary)
+    {
+      bool before = false, after = false;
+      for (const auto &[name, stage] : scene.stages)
+        if (absorbs_in(stage, scene, boundary))
+          {
+            before = before || stage.time.start_time < t;
+            after  = after || stage.time.start_time > t;
+          }
+      return before && after;
+    }
+
+
+
     /** Of all that holds in a stage. */
     template <int dim>
     std::unique_ptr<Term<dim>>
@@ -187,7 +222,11 @@ namespace moraine
     if (mesh_motion.moves())
       {
         for (const auto &[name, stage] : scene.stages)
-          check_mesh_motion(mesh_motion, stage.time, *mesh, grid_conditions);
+          check_mesh_motion(mesh_motion,
+                            scene.start_time(),
+                            stage.time,
+                            *mesh,
+                            acting_conditions(grid_conditions, stage));
         system->move_mesh_by(mesh_motion, *mesh);
       }
     linear_solver = std::make_unique<LinearSolver>(scene.linear_solver, dim);
@@ -252,16 +291,11 @@ namespace moraine
         }))
       terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
     for (auto &boundary : absorbing_boundaries)
-      {
-        const std::string &name = boundary.name();
-        const bool         acts =
-          contains(boundary.is_on_side() ? stage.grid_conditions :
-                                           stage.boundaries,
-                   name);
-        if (acts &&
-            (contains(stage.absorbing, name) || !scene.absorbs_later(name)))
-          terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
-      }
+      if (absorbs_in(stage, scene, boundary))
+        terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));
+      else if (absorbs_around(stage.time.start_time, scene, boundary))
+        terms.push_back(
+          std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
     terms.push_back(make_meeting_term(stage, boundaries, grid_conditions));
     return terms;
   }
@@ -334,6 +368,8 @@ namespace moraine
   {
     const StageParameters &stage = scene.stages[k].second;
     set_bodies(stage.bodies);
+    for (auto &condition : grid_conditions)
+      condition.start = stage.time.start_time;
     system->set_terms(terms_of(scene, stage));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic)

@@ -243,7 +243,10 @@ namespace moraine
       {
         for (const NamedValue &value : values_of(model.motion->sums()))
           row.push_back(value);
-        for (const NamedValue &value : values_of(model.motion->works()))
+        // A stage without inertia counts none.
+        const bool counts = model.system->step_context().motion != nullptr;
+        for (const NamedValue &value :
+             values_of(counts ? model.motion->works() : Works()))
           row.push_back(value);
       }
     return row;

@@ -42,6 +42,15 @@ namespace moraine
 
 
 
+    /** A file's name as the shell wants it. */
+    std::string
+    in_quotes(const std::string &name)
+    {
+      return name.find(' ') == std::string::npos ? name : '"' + name + '"';
+    }
+
+
+
     SceneOfSafety
     read_scene(const InputFile &input)
     {
@@ -159,7 +168,7 @@ namespace moraine
         print_head(study_case);
         results.push_back(search(study_case));
         const Result &result = results.back();
-        print(result);
+        print(result, study_case);
         write_summary();
         found          = found && result.status == "ok";
         input_is_right = input_is_right && result.status != "wrong input";
@@ -287,7 +296,7 @@ namespace moraine
 
 
   void
-  SafetyStudy::print(const Result &result)
+  SafetyStudy::print(const Result &result, const StudyCase &study_case)
   {
     if (result.status != "ok")
       console << "\n  no factor of safety: " << result.message << "\n\n";
@@ -304,10 +313,14 @@ namespace moraine
                 << fixed(*result.stood, 4) << " and failed at "
                 << fixed(*result.failed, 4)
                 << "\n  how it failed: " << failure->summary.message
-                << "\n  to see it: moraine run " << input.name() << " --set \""
-                << factor_path << " = " << exactly(*result.failed)
-                << (result.points_move ? "" : "\" --set \"" + stay)
-                << "\" --output " << folder << "/failed\n\n";
+                << "\n  to see it: moraine run " << in_quotes(input.name());
+        for (const std::string &setting : study_case.input.overrides())
+          console << " --set \"" << setting << '"';
+        for (const auto &[path, value] : study_case.choices)
+          console << " --set \"" << path << " = " << value << '"';
+        console << " --set \"" << factor_path << " = "
+                << exactly(*result.failed) << "\" --output "
+                << in_quotes(folder + "/failed") << "\n\n";
       }
     console.stream() << std::flush;
   }

@@ -9,6 +9,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace moraine
@@ -103,6 +104,25 @@ namespace moraine
                chosen.mass != first.mass ? chosen.mass : chosen.transfer,
                (chosen.mass != first.mass ? first.mass : first.transfer) +
                  ", as in the first stage with inertia");
+      // One rule of transfer serves all stages.
+      const auto as_first = [&](const std::string &key,
+                                const double       found,
+                                const double       wanted) {
+        const auto text = [](const double value) {
+          std::ostringstream out;
+          out << value;
+          return out.str();
+        };
+        if (chosen.dynamic() && found != wanted)
+          reject(section,
+                 key,
+                 text(found),
+                 text(wanted) + ", as in the first stage with inertia");
+      };
+      if (chosen.transfer == "blend")
+        as_first("FLIP share", chosen.flip_share, first.flip_share);
+      if (chosen.transfer == "FMPM")
+        as_first("FMPM order", chosen.fmpm_order, first.fmpm_order);
     }
 
 
@@ -183,6 +203,42 @@ namespace moraine
 
 
 
+    /** Where displacements are reset, though what comes asks for the places
+     * where the material was at the start of the run. */
+    template <int dim>
+    void
+    check_resets(const Scene<dim> &scene)
+    {
+      if (scene.method.after_step() == MeshAfterStep::keep)
+        return;
+      // The first stage has nothing to reset.
+      for (auto stage = scene.stages.begin() + 1; stage != scene.stages.end();
+           ++stage)
+        {
+          if (!stage->second.reset_displacements)
+            continue;
+          const auto refuse = [&](const std::string &why) {
+            reject("Stages/" + stage->first,
+                   "Reset displacements",
+                   "true",
+                   "false; " + why +
+                     " where the material was at the start of the run, which "
+                     "only displacements since then tell");
+          };
+          for (const auto &load : scene.loads)
+            if (load.second.coordinates == "original" &&
+                std::any_of(stage, scene.stages.end(), [&](const auto &later) {
+                  return contains(later.second.loads, load.first);
+                }))
+              refuse("load '" + load.first +
+                     "' with 'Coordinates = original' is a function of");
+          if (!scene.exact.displacement.empty() || !scene.exact.stress.empty())
+            refuse("section 'Exact solution' is a function of");
+        }
+    }
+
+
+
     /** What prescribes or enforces a motion. */
     bool
     is_of_motion(const std::string &key)
@@ -258,6 +314,7 @@ namespace moraine
     CheckpointTimes::from_text(output.times.checkpoint_every);
     check_dynamics(*this, given);
     check_path(*this);
+    check_resets(*this);
     if (!mesh_motion.stretch.empty() && mesh_motion.stretch.size() != 2)
       reject("Mesh motion",
              "Stretch between",
@@ -324,6 +381,15 @@ namespace moraine
     for (const auto &[name, condition] : grid_conditions)
       {
         const std::string section = "Grid conditions/" + name;
+        if (std::any_of(boundaries.begin(),
+                        boundaries.end(),
+                        [&](const auto &boundary) {
+                          return boundary.first == name;
+                        }))
+          throw InputError("section '" + section +
+                           "': found a name that 'Boundaries/" + name +
+                           "' has too, allowed: another one, as columns of "
+                           "history.csv are named by it");
         check_absorbing(section,
                         condition.constraint,
                         condition.absorbing,

@@ -111,8 +111,9 @@ namespace moraine
 
   namespace
   {
-    /** How far the mesh and a condition part at a face, along its normal, and
-     * the larger of the two motions. */
+    /** How far the mesh and a condition part from t_start to t_end at a face,
+     * which is where it was at t_0, along its normal, and the larger of the two
+     * motions. */
     template <int dim, class Face>
     std::pair<double, double>
     parting(const MeshMotion<dim>    &motion,
@@ -137,7 +138,7 @@ namespace moraine
       normal /= normal.norm();
       const Tensor<1, dim> mesh = motion.map(middle, t_start, t_end) - middle;
       const Tensor<1, dim> material =
-        condition.increment(middle, middle, t_start, t_end);
+        condition.increment(middle, face->center(), t_start, t_end);
       double apart = 0;
       for (unsigned int d = 0; d < dim; ++d)
         if (condition.component[d])
@@ -151,6 +152,7 @@ namespace moraine
   template <int dim>
   void
   check_mesh_motion(const MeshMotion<dim>                 &motion,
+                    const double                           t_0,
                     const TimeParameters                  &time,
                     const BackgroundMesh<dim>             &mesh,
                     const std::vector<GridCondition<dim>> &conditions)
@@ -166,9 +168,9 @@ namespace moraine
             if (face->at_boundary() && face->boundary_id() == *condition.side)
               for (unsigned int k = 0; k < time.n_steps; ++k)
                 {
-                  const double t             = time.start_time + k * step;
-                  const auto [apart, larger] = parting<dim>(
-                    motion, condition, face, time.start_time, t, t + step);
+                  const double t = time.start_time + k * step;
+                  const auto [apart, larger] =
+                    parting<dim>(motion, condition, face, t_0, t, t + step);
                   // A mesh of no length, where nothing is a number, is named
                   // when it comes.
                   if (!(apart > allowed * larger + 1e-12 * mesh.cell_size()))
@@ -194,6 +196,7 @@ namespace moraine
     const std::vector<ImplicitBoundary<dim>> &,                \
     const std::vector<GridCondition<dim>> &);                  \
   template void check_mesh_motion(const MeshMotion<dim> &,     \
+                                  const double,                \
                                   const TimeParameters &,      \
                                   const BackgroundMesh<dim> &, \
                                   const std::vector<GridCondition<dim>> &);

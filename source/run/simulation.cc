@@ -79,7 +79,7 @@ namespace moraine
                       driver.time().time(),
                       model.state->mesh_after_step() != MeshAfterStep::keep);
       summary.stress_error = stress_error(model);
-      if (model.motion)
+      if (model.system->step_context().motion)
         summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
         summary.probes.emplace_back(value.name, value.value);
@@ -299,7 +299,7 @@ namespace moraine
           status  = "not converged";
           message = error.what();
           if (checkpoints && checkpoints->are_asked_for() &&
-              checkpoints->write(driver))
+              driver.can_go_on() && checkpoints->write(driver))
             message +=
               " ('moraine resume' goes on from the last accepted step)";
         }

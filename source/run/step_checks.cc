@@ -241,11 +241,13 @@ namespace moraine
                   !model.system->step_context().motion &&
                     !time.follows_path() &&
                     model.state->mesh_after_step() != MeshAfterStep::keep));
-    if (!time.between_parts())
-      found.push_back(energy_made(t));
     // Works are of dynamics alone.
     if (model.system->step_context().motion)
       {
+        if (!time.between_parts())
+          found.push_back(
+            energy_made(t,
+                        scene.stages[time.stage()].second.time.integrator));
         double work_of_motions = 0;
         for (const BoundaryReport<dim> &report : reports)
           work_of_motions += report.work_of_motion;
@@ -397,9 +399,10 @@ namespace moraine
 
   template <int dim>
   std::string
-  StepChecks<dim>::energy_made(const double t)
+  StepChecks<dim>::energy_made(const double                t,
+                               const IntegratorParameters &integrator)
   {
-    if (!model.motion || told_of_energy)
+    if (told_of_energy)
       return "";
     const Works &works = model.motion->works();
     const double made  = -works.out_of_balance();
@@ -413,8 +416,7 @@ namespace moraine
     text << "energy grows without work: by t = " << t
          << " the integrator has made " << std::setprecision(2)
          << 100 * share_made << " % of the largest part of it; shorter steps"
-         << (contains({"generalised-alpha", "Bathe"},
-                      scene.stages.front().second.time.integrator.integrator) ?
+         << (contains({"generalised-alpha", "Bathe"}, integrator.integrator) ?
                " or 'Integrator = energy-momentum' do not" :
                ", or 'Integrator = energy-momentum' or 'generalised-alpha', "
                "do not");

@@ -100,11 +100,14 @@ namespace moraine
         observer->run_begins();
       else
         observer->run_resumes(time_control);
+    // What went on and takes no step is asked for its sizes all the same.
+    if (!first_step && (time_control.finished() || is_to_end()))
+      model.system->begin_step(time_control.time());
     while (!time_control.finished())
       {
         if (is_to_end())
           return false;
-        const RunCounts before = sums;
+        RunCounts before = sums;
         try
           {
             advance();
@@ -112,7 +115,9 @@ namespace moraine
         catch (const Interruption &)
           {
             undo();
-            sums = before;
+            // What was told is not told again.
+            before.warnings = sums.warnings;
+            sums            = before;
             return false;
           }
         if (after_step && !time_control.between_parts())
@@ -195,6 +200,7 @@ namespace moraine
   StepDriver<dim>::begin_next_stage()
   {
     ++stage;
+    stage_is_begun                 = false;
     const auto &[name, parameters] = scene.stages[stage];
     const auto        &before      = scene.stages[stage - 1].second;
     std::ostringstream text;
@@ -216,6 +222,7 @@ namespace moraine
       add_support(accepted_fraction);
     for (const std::string &note : notes)
       tell(note);
+    stage_is_begun = true;
   }
 
 

@@ -219,7 +219,7 @@ namespace moraine
     bool
     has_no_energy(const Model<dim> &model)
     {
-      if (!model.motion)
+      if (!model.system->step_context().motion)
         return false;
       const Works &works = model.motion->works();
       return works.stored <= no_energy * works.kinetic ||

@@ -376,8 +376,9 @@ namespace moraine
   StudyReport::error_label() const
   {
     std::string shown = error;
-    if (shown.empty())
-      shown = results.front().summary.errors.front().first;
+    for (const StudyResult &result : results)
+      if (shown.empty() && result.error)
+        shown = result.summary.errors.front().first;
     if (shown.rfind("probe ", 0) == 0)
       return "relative error of " + shown.substr(6) + " [-]";
     if (!reference.empty())

@@ -361,12 +361,11 @@ namespace moraine
                          const unsigned int group,
                          const double       by_volume) {
       const unsigned int k = numbers_of[member.cell];
-      if (k != numbers::invalid_unsigned_int && volumes[k] > 0)
-        parts.push_back({member.cell,
-                         group,
-                         member.share,
-                         member.share * volumes[k] * by_volume,
-                         &gradients[k * n_corners]});
+      parts.push_back({member.cell,
+                       group,
+                       member.share,
+                       member.share * volumes[k] * by_volume,
+                       &gradients[k * n_corners]});
     };
     if (const auto own = groups_of.find(cell); own != groups_of.end())
       {
@@ -374,12 +373,16 @@ namespace moraine
         for (unsigned int g = 0; g < n; ++g)
           {
             const Group &group = groups[own->second[g]];
-            for (unsigned int i = group.first; i < group.end; ++i)
-              add(members[i], g, 1. / (n * group.volume));
+            // Members without volume, too: they may get some in a step that
+            // couples no other nodes.
+            if (group.volume > 0)
+              for (unsigned int i = group.first; i < group.end; ++i)
+                add(members[i], g, 1. / (n * group.volume));
           }
       }
-    else if (numbers_of[cell] != numbers::invalid_unsigned_int)
-      add({cell, 1.}, 0, 1. / volumes[numbers_of[cell]]);
+    else if (const unsigned int k = numbers_of[cell];
+             k != numbers::invalid_unsigned_int && volumes[k] > 0)
+      add({cell, 1.}, 0, 1. / volumes[k]);
   }
 
 

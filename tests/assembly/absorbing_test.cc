@@ -107,7 +107,8 @@ namespace
 
     explicit AbsorbingBox(
       const StrainMeasure   measure    = StrainMeasure::small,
-      const TimeIntegrator &integrator = TimeIntegrator::newmark(0.25, 0.5))
+      const TimeIntegrator &integrator = TimeIntegrator::newmark(0.25, 0.5),
+      const bool            acts       = true)
       : law_of_solid(std::make_shared<LinearElastic>(E, nu, rho))
       , scene(false, 2, measure, {law_of_solid})
       , state(scene.space,
@@ -122,7 +123,7 @@ namespace
                {"box"})
       , motion(state, scene.points, integrator, VelocityTransfer(), false)
     {
-      auto of_boundary = std::make_unique<AbsorbingTerm<dim>>(boundary);
+      auto of_boundary = std::make_unique<AbsorbingTerm<dim>>(boundary, acts);
       term             = of_boundary.get();
       system.add(std::move(of_boundary));
       system.set_motion(&motion);
@@ -279,6 +280,41 @@ namespace
     Archive untouched;
     box.boundary.write(untouched);
     EXPECT_TRUE(archive == untouched);
+  }
+
+
+
+  TEST(AbsorbingTerm, CarriesPlacesAndLetsSpringsGoWhereItDoesNotAct)
+  {
+    const auto      newmark = TimeIntegrator::newmark(0.25, 0.5);
+    AbsorbingBox<2> box(StrainMeasure::finite);
+    AbsorbingBox<2> idle(StrainMeasure::finite, newmark, /* acts = */ false);
+    box.take_a_step();
+    idle.take_a_step();
+    const unsigned int n = box.boundary.places().size();
+    ASSERT_EQ(idle.boundary.places().size(), n);
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        EXPECT_LT(
+          (idle.boundary.places()[k].x - box.boundary.places()[k].x).norm(),
+          1e-14);
+        EXPECT_GT(box.boundary.extension(k).norm(), 0.);
+        EXPECT_EQ(idle.boundary.extension(k).norm(), 0.);
+      }
+
+    // Another stage, in which it acts no more.
+    AbsorbingTerm<2>      rests(box.boundary, /* acts = */ false);
+    const LA::Vector      none = box.scene.space.vector();
+    const StepContext<2> &step = box.system.step_context();
+    box.system.begin_step(0.1);
+    box.system.set_target(0.2);
+    box.system.assemble(box.displacements(0.03, 0.9), false);
+    rests.begin_step(step);
+    EXPECT_TRUE(rests.effects(step).empty());
+    rests.prepare(step, none);
+    rests.keep();
+    for (unsigned int k = 0; k < n; ++k)
+      EXPECT_EQ(box.boundary.extension(k).norm(), 0.);
   }
 
 

@@ -30,6 +30,16 @@ namespace
 
 
 
+  void
+  find_points(ForceOnPoints<2> &force, const PointSet<2> &points)
+  {
+    force.find_points(points, [&points](const unsigned int p) {
+      return points.position(p) - points.displacement_field()(points.values(p));
+    });
+  }
+
+
+
   /** Where the points of all ranks are that the force acts on. */
   std::vector<Point<2>>
   places_of(const ForceOnPoints<2> &force, const PointSet<2> &points)
@@ -51,7 +61,7 @@ namespace
   {
     SmallScene<2> scene;
     auto          force = force_at({2., 2.});
-    force.find_points(scene.points);
+    find_points(force, scene.points);
     const auto places = places_of(force, scene.points);
     ASSERT_EQ(places.size(), 4u);
     for (const Point<2> &x : places)
@@ -67,7 +77,7 @@ namespace
   {
     SmallScene<2> scene;
     auto          force = force_at({1.7, 2.3});
-    force.find_points(scene.points);
+    find_points(force, scene.points);
     ASSERT_EQ(places_of(force, scene.points).size(), 1u);
     EXPECT_NEAR(places_of(force, scene.points)[0].distance({1.75, 2.25}),
                 0.,
@@ -79,7 +89,27 @@ namespace
                                 scene.points.position(p) +
                                   Tensor<1, 2>({0.6, 0.55}));
     scene.points.find_cells();
-    force.find_points(scene.points);
+    find_points(force, scene.points);
+    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
+    EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
+                0.,
+                1e-12);
+  }
+
+
+
+  TEST(ForceOnPoints, ChoosesThePointThatWasNearestAtTheStart)
+  {
+    SmallScene<2>      scene;
+    const Tensor<1, 2> shift({0.6, 0.55});
+    for (unsigned int p = 0; p < scene.points.n_local(); ++p)
+      {
+        scene.points.set_position(p, scene.points.position(p) + shift);
+        scene.points.displacement_field().store(shift, scene.points.values(p));
+      }
+    scene.points.find_cells();
+    auto force = force_at({1.7, 2.3});
+    find_points(force, scene.points);
     ASSERT_EQ(places_of(force, scene.points).size(), 1u);
     EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
                 0.,
@@ -92,12 +122,12 @@ namespace
   {
     SmallScene<2> scene;
     auto          force = force_at({2., 2.});
-    force.find_points(scene.points);
+    find_points(force, scene.points);
     Archive archive;
     force.write(archive);
     auto copy = force_at({0., 0.});
     copy.read(archive);
-    copy.find_points(scene.points);
+    find_points(copy, scene.points);
     const auto places = places_of(force, scene.points);
     const auto copied = places_of(copy, scene.points);
     ASSERT_EQ(copied.size(), 4u);
@@ -142,9 +172,37 @@ namespace
 
 
 
+  TEST(CarriedLoad, BeginsWhereNodesHaveCarriedItsPlacesByThen)
+  {
+    SmallScene<2> scene;
+    State<2>      state(scene.space,
+                   scene.points,
+                   *scene.basis,
+                   {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                   MeshAfterStep::follow_material);
+    state.begin_step();
+    const Tensor<1, 2> shift({0.3, -1.4});
+    scene.space.move_nodes(
+      std::vector<Tensor<1, 2>>(scene.space.n_nodes(), shift));
+    const Point<2> X(1.5, 2.2);
+    CarriedLoad<2> load("push",
+                        [](const Point<2> &, const double) {
+                          return Tensor<1, 2>();
+                        },
+                        {{X, 1.}});
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        load.find_cells(scene.space, 0.5);
+        EXPECT_LT((load.places()[0].x - (X + shift)).norm(), 1e-14);
+      }
+  }
+
+
+
   TEST(ForceOnPoints, NeedsAPointNearby)
   {
     SmallScene<2> scene;
-    EXPECT_THROW(force_at({40., 40.}).find_points(scene.points), InputError);
+    auto          force = force_at({40., 40.});
+    EXPECT_THROW(find_points(force, scene.points), InputError);
   }
 } // namespace

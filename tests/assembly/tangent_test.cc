@@ -488,6 +488,31 @@ namespace
 
 
 
+  TEST(GhostMass, IsCountedOnceInForcesAtTheStart)
+  {
+    Box<2>    box(Method::gimp, false);
+    Motion<2> motion(*box.state,
+                     box.points,
+                     TimeIntegrator::newmark(0.25, 0.5),
+                     VelocityTransfer(),
+                     false);
+    box.system->set_motion(&motion);
+    box.system->add(std::make_unique<GhostMass<2>>(0.7));
+    box.hold(0.6, 0.7);
+    const LA::Vector a = box.displacements(1., 0.4);
+    motion.set_accelerations(a);
+    // There is no stress yet.
+    LA::Vector forces = box.system->forces_and_mass();
+    LA::Vector mass_a = box.space.vector();
+    box.system->tangent()->vmult(mass_a, a);
+    const double size = mass_a.l2_norm();
+    ASSERT_GT(size, 1e-3);
+    forces += mass_a;
+    EXPECT_LT(forces.l2_norm(), 1e-12 * size);
+  }
+
+
+
   /** Cells follow the filled ones beside them in the last layer of each
    * direction, and at corners. */
   template <int dim>

@@ -4,6 +4,8 @@
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/assembly/internal_force.h>
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/assembly/meeting_term.h>
+#include <moraine/geometry/shapes.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
@@ -321,12 +323,13 @@ namespace
   struct Bodies
   {
     Bodies(const std::vector<std::pair<Point<2>, Point<2>>> &boxes,
-           const MeshAfterStep                               after_step)
+           const MeshAfterStep                               after_step,
+           const bool                                        gimp = false)
       : mesh(unit_cells<2>(4), MPI_COMM_WORLD)
       , space(mesh, 1)
       , points(mesh,
                SmallScene<2>::fields(
-                 false,
+                 gimp,
                  StrainMeasure::finite,
                  {std::make_shared<LinearElastic>(1000., 0.3, 1.)}))
     {
@@ -339,7 +342,11 @@ namespace
             std::make_shared<LinearElastic>(10 * bodies.size(), 0., 1.));
         }
       seed_bodies(bodies, CellSeeder<2>(4, PointLayout::equal), points);
-      basis = std::make_unique<CellBasis<2, 1>>(space, points);
+      if (gimp)
+        basis = std::make_unique<GimpBasis<2>>(space, points, 4);
+      else
+        basis = std::make_unique<CellBasis<2, 1>>(space, points);
+      basis->initialise_points(points);
       state = std::make_unique<State<2>>(
         space, points, *basis, materials, after_step, StrainMeasure::finite);
     }
@@ -414,5 +421,69 @@ namespace
                 1e-12);
     bodies.step([](const Point<2> &) { return Tensor<1, 2>({-0.25, 0.}); });
     EXPECT_NEAR(bodies.shear_modulus_at({2.5, 1.5}), 10., 1e-12);
+  }
+
+
+
+  TEST(CellMaterials, KnowsTheBodyThatReachesIntoACellWithoutPoints)
+  {
+    Bodies bodies({{Point<2>(1, 3), Point<2>(3, 4)},
+                   {Point<2>(1, 2), Point<2>(3, 3)}},
+                  MeshAfterStep::reset,
+                  /* gimp = */ true);
+    bodies.state->begin_step();
+    bodies.step([](const Point<2> &) { return Tensor<1, 2>({0., -1e-6}); });
+    for (const double x : {1.5, 2.5})
+      {
+        EXPECT_NEAR(bodies.shear_modulus_at({x, 2.5}), 10., 1e-12);
+        EXPECT_NEAR(bodies.shear_modulus_at({x, 1.5}), 10., 1e-9);
+      }
+  }
+
+
+
+  TEST(MeetingTerm, PiecesThatAreFoundAnewLetGoAgain)
+  {
+    SmallScene<2> scene;
+    State<2>      state(scene.space,
+                   scene.points,
+                   *scene.basis,
+                   {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                   MeshAfterStep::reset);
+    state.begin_step();
+    const auto make = [](const std::string           &name,
+                         const std::vector<Point<2>> &line,
+                         const double                 rate) {
+      return ImplicitBoundary<2>(
+        name,
+        make_flat_face<2>(line),
+        RigidMotion<2>(),
+        [rate](const Point<2> &, const double t) {
+          return Tensor<1, 2>({0., rate * t});
+        },
+        {Constraint<2>::fixed, {}},
+        EnforcementParameters().enforcement_of(),
+        0.);
+    };
+    ImplicitBoundary<2> door = make("door", {{0.3, 0.6}, {2.3, 0.6}}, -0.1),
+                        base = make("base", {{2.3, 0.6}, {3.4, 0.6}}, 0.);
+    MeetingTerm<2> term({&door, &base}, {}, {0., 1.});
+    StepContext<2> context(state);
+    const auto     n_let_go = [&](const bool door_is_found_anew) {
+      context.cells_moved = false;
+      door.begin_step(
+        scene.space, 0, 0.5, true, StrainMeasure::small, door_is_found_anew);
+      base.begin_step(scene.space, 0, 0.5, true, StrainMeasure::small, false);
+      term.begin_step(context);
+      unsigned int n = 0;
+      for (const auto *boundary : {&door, &base})
+        for (const auto &point : boundary->points())
+          n += point.holds ? 0 : 1;
+      return Utilities::MPI::sum(n, MPI_COMM_WORLD);
+    };
+    const unsigned int at_first = n_let_go(true);
+    EXPECT_GT(at_first, 0u);
+    EXPECT_EQ(n_let_go(false), at_first);
+    EXPECT_EQ(n_let_go(true), at_first);
   }
 } // namespace

@@ -184,7 +184,7 @@ refused("a path on a mesh that moves",
 refused("a negative arc length", settings={"Time/Arc length": -0.1})
 refused("velocity of a node that is held",
         settings={**dynamic, "Bodies/block/Lower corner": "0, 0.5",
-                  "Grid conditions/left/Side": "left",
+                  "Grid conditions/side/Side": "left",
                   "Boundaries/left/Points": "4.5 0.5; 4.5 4.5",
                   "Bodies/block/Initial velocity": "1; 0"})
 
@@ -230,6 +230,12 @@ refused("another mass in a later stage", staged,
         {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
          "Stages/later/Time/Integrator": "Newmark",
          "Stages/later/Time/Mass": "lumped"})
+refused("another share in a later stage", staged,
+        {"Materials/soil/Density": 2, "Stages/gravity/Time/Integrator": "Newmark",
+         "Stages/gravity/Time/Velocity transfer": "blend",
+         "Stages/later/Time/Integrator": "Newmark",
+         "Stages/later/Time/Velocity transfer": "blend",
+         "Stages/later/Time/FLIP share": 0.5})
 
 # Text that would take for ever, or that is no text.
 refused("two thousand million steps", settings={"Time/Steps": 2000000000})

@@ -3,6 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """Mistakes and faults of finite strain, domains and moving meshes."""
 
+import re
+
 
 def message(output):
     return plain(" | ".join(
@@ -50,6 +52,76 @@ refused("both kinds of mesh motion", stretch, {"Mesh motion/Follow": "right"})
 refused("a mesh that moves off a held side", stretch, {
     "Mesh motion/Stretch between": "", "Mesh motion/Follow": "right"})
 
+# Sides and conditions that move alike, in stages: what holds a side in one of
+# them need not in another, and the second begins with a mesh that is longer.
+STAGES = """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 2
+  set Cells        = 2, 2
+end
+subsection Method
+  set Method = material point
+  set Strain = finite
+end
+subsection Materials
+  subsection block
+    set Young modulus = 1000
+    set Poisson ratio = 0
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 2, 2
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side       = left
+    set Components = x
+  end
+  subsection base
+    set Side       = bottom
+    set Components = y
+  end
+  subsection right
+    set Side         = right
+    set Components   = x
+    set Displacement = 0.8*t; 0
+  end
+end
+subsection Mesh motion
+  set Stretch between = left, right
+end
+subsection Stages
+  subsection first
+    subsection Time
+      set End time = 1
+    end
+  end
+  subsection second
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+"""
+stages = folder / "stages.prm"
+stages.write_text(STAGES)
+lid, plate = "Grid conditions/lid/", "Grid conditions/plate/"
+for name, settings in (
+        ("a mesh that two stages stretch", {}),
+        ("a lid, then a plate that the mesh goes with", {
+            "Grid conditions/right/Displacement": "0; 0",
+            lid + "Side": "top", lid + "Components": "y",
+            plate + "Side": "top", plate + "Components": "y",
+            plate + "Displacement": "0; -0.3*max(t - 1, 0)",
+            "Mesh motion/Stretch between": "base, plate",
+            "Stages/first/Grid conditions": "left, base, right, lid",
+            "Stages/second/Grid conditions": "left, base, right, plate"})):
+    text(name, run(stages, settings, "check").output.splitlines()[-1].strip())
+
 show("a mesh motion that inverts cells", run(stretch, {
     "Bodies/block/Upper corner": "0.5, 2", "Probes/corner/Location": "0, 2",
     "Grid conditions/right/Displacement": "-0.0125*t^5; 0",
@@ -58,6 +130,13 @@ show("a point that the mesh leaves behind", run(stretch, {
     "Bodies/block/Upper corner": "0.9, 2", "Probes/corner/Location": "0, 2",
     "Grid conditions/right/Displacement": "-0.2*t; 0",
     "Time/End time": 8, "Time/Steps": 8}, expect=1))
+returned = run(stretch, {
+    "Grid conditions/right/Displacement": "0; 0",
+    "Grid conditions/bottom/Displacement": "0; 0.3*t",
+    "Mesh motion/Stretch between": "", "Method/Return tolerance": 0.1,
+    "Time/End time": 1, "Time/Steps": 1})
+show("points that end outside a box and are returned", returned)
+text("  told", re.findall(r"\d+ points that ended outside.*", returned.output))
 show("the step limit", run(stretch, {
     "Solver/Maximum iterations": 1, "Time/Smallest step": 0.1}, expect=1))
 show("a step that would turn points inside out", run(stretch, {

@@ -88,6 +88,16 @@ refused("another kind of file", "damaged")
 last.unlink()
 refused("file that is gone", "damaged")
 
+# A run that reached its end has the same summary again.
+copy("done")
+text("a finished run, resumed", f"exit code {moraine('resume', 'done')[0]}")
+first, second = (json.loads((folder / name / "summary.json").read_text())
+                 for name in ("run", "done"))
+for key in first:
+    if first[key] != second.get(key) and key not in ("wall_seconds", "timings",
+                                                     "peak_memory_mib"):
+        text("  DIFFERS", f"{key}: {first[key]}, {second.get(key)}")
+
 # What an earlier end left does not speak for a run that went on and was killed.
 went_on = copy("went on")
 rows = (went_on / "history.csv").read_text().count("\n")

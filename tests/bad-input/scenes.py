@@ -6,8 +6,8 @@
 scene = "tests/bad-input/base.prm"
 
 
-def refused(name, settings, command="run"):
-    result = run(scene, settings, expect=2, command=command)
+def refused(name, settings, command="run", file=scene):
+    result = run(file, settings, expect=2, command=command)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)))
     if (result.folder / "history.csv").exists():
@@ -34,6 +34,8 @@ refused("first and third overlap", {
     "Bodies/c/Upper corner": "5, 4.4"})
 refused("boundary away from all bodies",
         {"Boundaries/far/Points": "7 1; 7 4"})
+refused("boundary and condition of one name",
+        {"Grid conditions/left/Side": "left"})
 refused("boundary outside the mesh",
         {"Boundaries/far/Points": "20 1; 20 4"})
 refused("boundary with the body behind it",
@@ -105,8 +107,16 @@ soft = run(scene, {
     "Boundaries/stop/Points": "6 4.5; 6 0.5", "Loads/weight/Value": "0; -1e-8*t"})
 text("soft body and a stiff band", soft.summary["status"])
 
-# What is allowed, but worth a word; a curve has no value before it acts.
+# Where material was at the start of the run is not known after a reset, unless
+# nothing moves.
 column = "prm/geotechnics/fill-and-dig.prm"
+moves = {"Method/Mesh after step": "follow material"}
+refused("original coordinates after a reset", {
+    **moves, "Loads/weight/Coordinates": "original"}, file=column)
+refused("exact solution after a reset", {
+    **moves, "Exact solution/Stress": "0; 0; 0; 0"}, file=column)
+
+# What is allowed, but worth a word; a curve has no value before it acts.
 for name, file, settings in (
         ("column", column, {}),
         ("base off the column", column, {"Bodies/ground/Lower corner": "0, 0.3"}),
@@ -121,6 +131,8 @@ for name, file, settings in (
         ("motion that stays the same", column, {
             "Grid conditions/base/Translation": "0; -0.1"}),
         ("angle that places a surface", "prm/boundaries/tilted-roller.prm", {}),
+        ("original coordinates, nothing moves", column, {
+            "Loads/weight/Coordinates": "original"}),
         ("curve that is 0", column, {"Loads/weight/Curve": "5: 0, 6: 1"}),
         ("curve of a later stage", column, {
             "Loads/more/Type": "gravity", "Loads/more/Value": "0; -1",

@@ -10,6 +10,8 @@
 #include <moraine/basis/gimp_basis.h>
 #include <moraine/geometry/shapes.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cmath>
 #include <memory>
 
@@ -38,6 +40,8 @@ namespace moraine
     double      upper         = 4;
     double      turn          = 0; ///< degrees, about its middle
     PointLayout layout        = PointLayout::equal;
+    /** Of the body along each edge, in a grid of its own; 0: those of cells. */
+    unsigned int own_points = 0;
   };
 
   /** A mesh of 4^dim cells from 0 to 4 with a body of 2^dim points per cell. */
@@ -92,9 +96,31 @@ namespace moraine
       return true;
     }
 
+    static PointList<dim>
+    own_points(const Options &options)
+    {
+      const unsigned int n    = options.own_points;
+      const double       edge = (options.upper - options.lower) / n;
+      PointList<dim>     list;
+      for (unsigned int i = 0; i < dealii::Utilities::fixed_power<dim>(n); ++i)
+        {
+          dealii::Point<dim> x;
+          unsigned int       rest = i;
+          for (unsigned int d = 0; d < dim; ++d, rest /= n)
+            x[d] = options.lower + (rest % n + 0.5) * edge;
+          list.positions.push_back(x);
+          list.volumes.push_back(std::pow(edge, dim));
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        list.half_edges[d][d] = 0.5 * edge;
+      return list;
+    }
+
     static std::vector<Body<dim>>
     make_bodies(const Options &options)
     {
+      if (options.own_points > 0)
+        return {{"grid", own_points(options)}};
       dealii::Point<dim> lower, upper;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -134,11 +160,13 @@ namespace moraine
               space,
               points,
               2,
-              std::vector<bool>(bodies.size(), true),
+              std::vector<bool>(bodies.size(), options.own_points == 0),
               options.method == Method::gimp_stretch ? DomainUpdate::stretch :
               options.method == Method::gimp_corners ? DomainUpdate::corners :
                                                        DomainUpdate::frozen,
-              options.split);
+              options.split,
+              "GIMP",
+              std::vector<dealii::Tensor<2, dim>>{bodies[0].listed.half_edges});
         }
     }
 

@@ -1136,6 +1136,85 @@ namespace
         EXPECT_TRUE(scene.basis->split_domains(scene.points));
         EXPECT_EQ(n_outside(), before);
       }
+
+    // Of four columns of long boxes all are, but the one beside the edge.
+    options.method = Method::gimp_corners;
+    DomainScene<2> boxes(options);
+    lengthen(boxes, 3.);
+    EXPECT_TRUE(boxes.basis->split_domains(boxes.points));
+    EXPECT_NO_THROW(boxes.points.find_cells());
+    EXPECT_EQ(boxes.points.n_global(), 64u + 3 * 8);
+  }
+
+
+
+  // Points of a grid or a file may stand for as much as a cell.
+  TEST(Domains, OwnPointsAreHalvedIfTheyAreStretched)
+  {
+    for (const Method method : {Method::gimp_stretch,
+                                Method::gimp_corners,
+                                Method::cpdi1,
+                                Method::cpdi2})
+      {
+        SCOPED_TRACE(static_cast<int>(method));
+        DomainSceneOptions options;
+        options.method     = method;
+        options.split      = true;
+        options.lower      = 1;
+        options.upper      = 3;
+        options.own_points = 2;
+        DomainScene<2> scene(options);
+        EXPECT_FALSE(scene.basis->split_domains(scene.points));
+        lengthen(scene, 1.1);
+        EXPECT_TRUE(scene.basis->split_domains(scene.points));
+        EXPECT_EQ(scene.points.n_global(), 6u);
+      }
+  }
+
+
+
+  // Probes and files tell points by their ids.
+  TEST(Domains, HalvesTakeNoIdOfABodyThatIsAway)
+  {
+    const BackgroundMesh<2> mesh(unit_cells<2>(4), MPI_COMM_WORLD);
+    PointSet<2>             points(mesh, PointFields());
+    seed_bodies<2>({{"ground", make_box<2>(Point<2>(0, 0), Point<2>(4, 1))},
+                    {"fill", make_box<2>(Point<2>(0, 2), Point<2>(4, 3))}},
+                   CellSeeder<2>(2, PointLayout::equal),
+                   points);
+    const auto ids_of = [&](const unsigned int body) {
+      std::vector<unsigned int> ids;
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        if (points.body(p) == body)
+          ids.push_back(points.id(p));
+      std::vector<unsigned int> all;
+      for (const auto &of_rank :
+           Utilities::MPI::all_gather(MPI_COMM_WORLD, ids))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    const auto ids  = ids_of(1);
+    const auto fill = points.records_of(1);
+    points.exchange_bodies({true, false}, {});
+    // In four, so that the halves would reach the ids of the fill.
+    EXPECT_TRUE(DomainTools::split_points<2>(
+      points,
+      [&](const unsigned int p) { return points.volume(p) > 0.1 ? 0u : 2u; },
+      [&](const unsigned int lower, const unsigned int, const unsigned int) {
+        DomainTools::Halves<2> halves;
+        halves.upper[0] = 0.5 * points.volume(lower);
+        halves.lower    = -halves.upper;
+        return halves;
+      }));
+    points.find_cells();
+    points.exchange_bodies({true, false}, fill);
+    EXPECT_EQ(ids_of(1), ids);
+    auto all = ids_of(0);
+    EXPECT_EQ(all.size(), 64u);
+    all.insert(all.end(), ids.begin(), ids.end());
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
   }
 
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../core/message.h"
@@ -102,7 +103,7 @@ TEST(GridConditions, ThoseThatDepartDuringAStep)
         two.conditions[0].displacement = along_x(0.1);
         two.conditions[1].displacement = along_x(rate);
         const std::string message      = two.complaint();
-        EXPECT_EQ(message.find("'first' and "
+        EXPECT_EQ(message.find("grid conditions: 'first' and "
                                "'second' prescribe different x displacements "
                                "at ("),
                   0u)
@@ -133,6 +134,25 @@ TEST(GridConditions, ARotationAndWhatItsFormulaSays)
   two.conditions[0].motion = RigidMotion<2>(
     {}, [](const double t) { return 10.01 * t; }, centre);
   EXPECT_NE(two.complaint(), "");
+}
+
+
+
+TEST(GridConditions, OfAStageTheyAgreeFromItsStartOn)
+{
+  for (const double stage : {0., 1.})
+    {
+      TwoConditions two(1.);
+      two.conditions[0].displacement = [](const Point<2> &, const double t) {
+        return Tensor<1, 2>({0.1 * std::min(t, 1.), 0});
+      };
+      for (auto &condition : two.conditions)
+        condition.start = stage;
+      const std::string message = message_of<InputError>(
+        [&] { find_prescribed_nodes(two.conditions, two.space, t_end); });
+      EXPECT_EQ(message.empty(), stage == 1.) << message;
+      EXPECT_EQ(two.complaint(), "");
+    }
 }
 
 

@@ -375,3 +375,55 @@ TEST(ImplicitBoundary, OnEachSideOfACornerThereIsAMean)
                       "augmented Lagrangian");
   corner.expect(2);
 }
+
+
+
+TEST(ImplicitBoundary, EachOwnerInACellWithoutMaterialDecidesAlone)
+{
+  BackgroundMesh<2>          mesh(unit_cells<2>(4), MPI_COMM_WORLD);
+  GridSpace<2>               space(mesh, 1);
+  std::vector<unsigned char> active(mesh.triangulation().n_active_cells(), 0);
+  unsigned int               right = 0;
+  for (const auto &cell : mesh.triangulation().active_cell_iterators())
+    {
+      const unsigned int c        = cell->active_cell_index();
+      const bool         is_right = cell->point_inside(Point<2>(2.5, 1.5));
+      if (is_right)
+        right = c;
+      active[c] = cell->is_locally_owned() &&
+                  (is_right || cell->point_inside(Point<2>(1.5, 2.5)));
+    }
+  space.set_active_cells(active);
+
+  // Half of it is nearest to the cell on the right, half to the one above.
+  const Point<2>      a(1.1, 1.8), b(1.8, 1.1);
+  ImplicitBoundary<2> line(
+    "line",
+    make_flat_face<2>(std::vector<Point<2>>{a, b}),
+    RigidMotion<2>(),
+    [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+    {Constraint<2>::fixed, {}},
+    EnforcementParameters().enforcement_of(),
+    0.);
+  line.begin_step(space,
+                  0,
+                  0.8,
+                  true,
+                  StrainMeasure::small,
+                  true,
+                  false,
+                  [right](const unsigned int cell,
+                          const Point<2> &,
+                          const double) { return cell == right; });
+  // Places are those of the whole line, whatever is above.
+  double length = 0;
+  for (const auto &point : line.points())
+    {
+      EXPECT_EQ(point.cell, right);
+      length += point.JxW;
+    }
+  EXPECT_EQ(line.n_points(MPI_COMM_WORLD), 2u);
+  EXPECT_NEAR(Utilities::MPI::sum(length, MPI_COMM_WORLD),
+              0.5 * a.distance(b),
+              1e-12);
+}

@@ -3,6 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/input_file.h>
+#include <moraine/core/input_text.h>
 #include <moraine/core/patterns.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -303,6 +304,24 @@ TEST(InputFile, ConstantsMayUseEarlierOnes)
                                                  "  set Cell size = 1$size\n"
                                                  "end\n"));
   EXPECT_EQ(scene.size, 17.5);
+}
+
+
+
+TEST(InputFile, ConstantsBesideOperators)
+{
+  const auto with = [](const std::string &text, const std::string &value) {
+    return with_constants(text, "here", {{"c", value}});
+  };
+  EXPECT_EQ(with("2*$c", "1+t"), "2*(1+t)");
+  EXPECT_EQ(with("0; -$c", "x - 1"), "0; -(x - 1)");
+  EXPECT_EQ(with("$c/3", "t < 1 ? t : 1"), "(t < 1 ? t : 1)/3");
+  EXPECT_EQ(with("2*($c)", "1+t"), "2*(1+t)");
+  EXPECT_EQ(with("0; $c", "1+t"), "0; 1+t");
+  EXPECT_EQ(with("2*$c", "sin(1+t)"), "2*sin(1+t)");
+  EXPECT_EQ(with("$c^2", "-3"), "(-3)^2");
+  EXPECT_EQ(with("$c*2", "-3"), "-3*2");
+  EXPECT_EQ(with("meshes/$c.msh", "slope-1"), "meshes/slope-1.msh");
 }
 
 

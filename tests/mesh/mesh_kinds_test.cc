@@ -336,12 +336,20 @@ TEST(MeshKinds, MovedBoxIsNoBox)
   parameters.cell_size    = 1;
   BackgroundMesh<3> mesh(parameters, MPI_COMM_WORLD);
   EXPECT_TRUE(mesh.box_grid());
+  Archive before;
+  mesh.write(before);
   mesh.move_vertices([](const Point<3> &x) {
     return Point<3>(x[0] + 0.1 * x[1], x[1], 2 * x[2]);
   });
   EXPECT_FALSE(mesh.box_grid());
   EXPECT_NEAR(dealii::GridTools::volume(mesh.triangulation()), 128, 1e-11);
   EXPECT_NEAR(mesh.cell_size(), 2, 1e-14);
+
+  // A step that fails takes it back.
+  mesh.read(before);
+  ASSERT_TRUE(mesh.box_grid());
+  EXPECT_EQ(mesh.box_grid()->cell_size, (Tensor<1, 3>({1., 1., 1.})));
+  EXPECT_EQ(mesh.box_grid()->n_cells, (std::array<unsigned int, 3>{{4, 4, 4}}));
 }
 
 

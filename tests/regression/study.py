@@ -109,6 +109,11 @@ wrong = study("prm/studies/solvers.prm",
               {"Mesh/Cell size": "5", "Bodies/beam/Upper corner":
                "{{100|200}}, 100"}, expect=2)
 show(wrong, "Series", "Bodies/beam/Upper corner", "status", "message")
+# The first case says nothing of errors: the others do.
+mixed = study("prm/studies/enforcement.prm",
+              {"Study/Error": "", "Mesh/Cell size": "10",
+               "Bodies/block/Upper corner": "{{300|100}}, 100"}, expect=2)
+text("errors of the other cases", "plot in" in mixed.output)
 for settings in ({"Study/Error": "probe u_z at corner"},
                  {"Study/Group by": "Cel size"},
                  {"Study/Reference value": "0"},

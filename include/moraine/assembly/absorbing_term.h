@@ -27,7 +27,10 @@ namespace moraine
   class AbsorbingTerm : public Term<dim>
   {
   public:
-    explicit AbsorbingTerm(AbsorbingBoundary<dim> &boundary);
+    /** If it does not act, the material carries its places all the same, and
+     * its springs are attached anew when it does. */
+    explicit AbsorbingTerm(AbsorbingBoundary<dim> &boundary,
+                           const bool              acts = true);
 
     WorkKind
     work_kind() const override
@@ -120,7 +123,8 @@ namespace moraine
                     std::vector<Vector>  &tractions) const;
 
     AbsorbingBoundary<dim> &boundary;
-    std::vector<LocalPlace> local_places; ///< by cell
+    const bool              acts;
+    std::vector<LocalPlace> local_places; ///< by cell, if it acts
     std::vector<double>     shapes;       ///< of nodes of cells, by place
     BoundaryReport<dim>     prepared;
   };

@@ -14,13 +14,14 @@ namespace moraine
   /**
    * The material in each cell, for terms that are not integrated over points
    * but scale with its stiffness: a mean, weighted with the volumes of points.
-   * Cells whose points are on other ranks are not known.
+   * A cell without points, which domains reach into, has that of the points
+   * that touch its nodes. Cells of other ranks are not known.
    */
   template <int dim>
   class CellMaterials
   {
   public:
-    /** Look at the points where they are now. */
+    /** Look at the points where they are now. Collective. */
     void
     update(const State<dim> &state);
 
@@ -44,6 +45,17 @@ namespace moraine
     }
 
   private:
+    /** Give a cell the mean of bodies with these @p volumes, if it has any. */
+    void
+    take_mean(const State<dim>          &state,
+              const unsigned int         cell,
+              const std::vector<double> &volumes);
+
+    /** Of active cells of this rank. Collective. */
+    void
+    update_cells_without_points(const State<dim>  &state,
+                                const unsigned int n_bodies);
+
     std::vector<LameConstants> stiffness;
     std::vector<double>        densities;
     std::vector<unsigned int>  body_of_cell;

@@ -75,8 +75,9 @@ namespace moraine
     const std::vector<ImplicitBoundary<dim> *> boundaries;
     const std::vector<GridCondition<dim>>      conditions;
     const std::vector<double>                  times;
-    bool                                       found = false; ///< once
-    std::vector<Meeting>                       meetings;
+    /** ImplicitBoundary::n_searches() by which meetings were found last. */
+    std::vector<unsigned int> searches;
+    std::vector<Meeting>      meetings;
   };
 } // namespace moraine
 

@@ -71,9 +71,10 @@ namespace moraine
 
     /**
      * Domains with an edge longer than DomainTools::longest_edge, but not
-     * before they are longer than those of a full cell at the start, or with a
-     * corner beyond the cells that touch the point's are halved through their
-     * longest edge, unless they are distorted or reach out of the mesh.
+     * before they are longer than those of a full cell at the start or than all
+     * that were listed with their body, or with a corner beyond the cells that
+     * touch the point's are halved through their longest edge, unless they are
+     * distorted or reach out of the mesh.
      */
     bool
     split_domains(PointSet<dim> &points) override;
@@ -93,8 +94,9 @@ namespace moraine
   protected:
     /**
      * @p seeder made the points of those @p bodies that have a shape; @p split
-     * says whether split_domains() does anything; the name of the method, its
-     * value of the key 'Method', is for messages.
+     * says whether split_domains() does anything; all points are there, as they
+     * are at the start. Collective then. The name of the method, its value of
+     * the key 'Method', is for messages.
      * @throws InputError if the functions are not of degree 1.
      */
     CpdiBasis(const GridSpace<dim>         &space,
@@ -182,6 +184,11 @@ namespace moraine
     nearest_domains(
       const std::vector<typename CarriedPlaces<dim>::Place> &places) const;
 
+    /** The edges in cell sizes from which on split_domains() halves the domains
+     * of a body, by the points as they are at the start. Collective. */
+    std::vector<double>
+    limits_of_bodies() const;
+
     /** Whether a domain with a point at @p x, in or near the @p cell, may be
      * halved through its edges in direction @p d: not if it is distorted, which
      * halves would inherit, or reaches out of the mesh. */
@@ -224,6 +231,7 @@ namespace moraine
     const std::string                   name;
     std::vector<bool>                   is_seeded;
     std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
+    std::vector<double>                 limits; ///< of limits_of_bodies()
     CellNeighbours<dim>                 neighbours;
 
     unsigned int n_far = 0;

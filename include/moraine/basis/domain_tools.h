@@ -149,9 +149,9 @@ namespace moraine
      * `initial_volume`; at finite strain they have the displacement
      * @f$u + (1 - F^{-1}) o@f$ of their place at the offset @f$o@f$ (off by
      * what @f$F@f$ was when displacements were reset), and the other values of
-     * the whole. The lower half keeps the id; ids of the others follow the
-     * highest, in the order of the ids of the wholes over all ranks, so they do
-     * not depend on the number of ranks.
+     * the whole. The lower half keeps the id; ids of the others begin at
+     * PointSet::next_id(), in the order of the ids of the wholes over all
+     * ranks, so they do not depend on the number of ranks.
      *
      * @param points to split; their numbering is void until the next search
      * @param split_direction the edge of point p that has to be halved, dim if

@@ -67,7 +67,8 @@ namespace moraine
      * The divisions of a cell at seeding, @p points_per_direction, give the
      * boxes their shape. @p is_seeded says which bodies were seeded that way;
      * the others, all if left out, have points of their own (a file). With
-     * @p split, boxes that grow too long are halved, see split_domains().
+     * @p split, boxes that grow too long are halved, see split_domains(); all
+     * points are there, as they are at the start. Collective then.
      * @p name is the method's in messages. @p half_edges, as columns, of the
      * parts that such points of each body stand for, 0 where not known.
      * @throws InputError if the mesh is not a box of equal cells.
@@ -123,8 +124,9 @@ namespace moraine
       const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
 
     /**
-     * Halve boxes that grew longer than DomainTools::longest_edge, along the
-     * edge that is longest in cell sizes.
+     * Halve boxes that grew longer than DomainTools::longest_edge and than
+     * those of their body at the start, along the edge that is longest in cell
+     * sizes of those whose halves have their middles in the mesh.
      */
     bool
     split_domains(PointSet<dim> &points) override;
@@ -152,10 +154,33 @@ namespace moraine
       return *this->space.mesh().box_grid();
     }
 
+    /** Whether the cells gave a body its points. */
+    bool
+    is_of_cells(const unsigned int body) const
+    {
+      return body < is_seeded.size() && is_seeded[body];
+    }
+
+    /** The half lengths that initialise_points() gives a point. */
+    dealii::Tensor<1, dim>
+    first_half_length(const unsigned int point) const;
+
+    /** The half lengths in cell sizes from which on split_domains() halves the
+     * boxes of a body, by the points as they are at the start. Collective. */
+    std::vector<double>
+    limits_of_bodies() const;
+
     /** The edge that is longest in cell sizes, dim if no half length is above
-     * @p limit of them. */
+     * @p limit of them; if one is sought @p to_halve, of those that may be. */
     unsigned int
-    too_long_edge(const unsigned int point, const double limit) const;
+    too_long_edge(const unsigned int point,
+                  const double       limit,
+                  const bool         to_halve = false) const;
+
+    /** Whether the middle of a half of the box, cut across direction @p d, is
+     * outside the mesh, or on its edge. */
+    bool
+    half_is_outside(const unsigned int point, const unsigned int d) const;
 
     /** Half lengths between middles of faces that moved with the grid. */
     dealii::Tensor<1, dim>
@@ -179,6 +204,7 @@ namespace moraine
     const HalfLength                          half_length_field;
     const HalfLength                          initial_half_length_field;
     const unsigned int                        half_length_offset;
+    const std::vector<double>                 limits; ///< of limits_of_bodies()
     const LocalFunctions<dim>                 local_functions;
     std::vector<Window>                       windows;
   };

@@ -119,6 +119,7 @@ namespace moraine
       bool moves        = false; ///< with the material
       bool through_mesh = false; ///< which stays where it is
       bool turns        = false; ///< areas and normals follow too
+      bool attached     = true;  ///< springs; else they have no extension
     };
 
     /** @p find_places is asked when the boundary begins to act. @p on_side: the

@@ -31,6 +31,8 @@ namespace moraine
                                          const double)>
                      displacement;
     RigidMotion<dim> motion;
+    /** Start of the stage: only changes from then on act. */
+    double start = 0;
 
     /** Displacement since the start of material that is at @p x at @p t. */
     dealii::Tensor<1, dim>
@@ -70,7 +72,7 @@ namespace moraine
    * Find the nodes the conditions prescribe.
    *
    * @throws InputError naming both conditions if two prescribe the same
-   * unknown with different values at @p t_end.
+   * unknown with different changes from the start of the stage to @p t_end.
    */
   template <int dim>
   PrescribedNodes<dim>

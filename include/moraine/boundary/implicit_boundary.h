@@ -359,6 +359,14 @@ namespace moraine
       return boundary_points;
     }
 
+    /** How often pieces were found so far; the points are new each time. The
+     * same on all ranks. */
+    unsigned int
+    n_searches() const
+    {
+      return search.number;
+    }
+
     /** Values of the shape functions at a point. */
     const double *
     N(const unsigned int q) const
@@ -382,6 +390,13 @@ namespace moraine
       bool holds_means       = false; ///< of the pieces in cells
     };
 
+    /** Whether there are pieces, and how often they were found. */
+    struct Search
+    {
+      bool         done   = false;
+      unsigned int number = 0;
+    };
+
     /** Functions of the nodes of each point's cell, point by point. */
     struct Shapes
     {
@@ -394,17 +409,23 @@ namespace moraine
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);
 
     using CellIterator = typename GridSpace<dim>::CellIterator;
-    using Owner        = std::function<CellIterator(const CellIterator &,
+    /** The active cell whose functions hold a place of a cell, or none. */
+    using Owner = std::function<CellIterator(const CellIterator &,
                                              const dealii::Point<dim> &)>;
 
+    /** The cells of this rank that own places of the surface in @p cell. */
+    std::vector<CellIterator>
+    owners_in(const CellIterator &cell, const Owner &owner_of) const;
+
     /**
-     * Points on the surface inside of @p vertices, @p cell or a layer at it.
-     * The functions of their owner, given the cell and the place, hold them;
-     * without one on this rank they are left out, as are those without a body.
+     * Points on the surface inside of @p vertices, @p cell or a layer at it,
+     * that are places of @p owner, and have a body. It alone decides, for its
+     * rank knows nothing of the bodies at other owners.
      */
     void
     add_pieces(const CellIterator      &cell,
                const CellVertices<dim> &vertices,
+               const CellIterator      &owner,
                const Owner             &owner_of);
 
     /** Let the points of a cell be one, with the means of their functions; on
@@ -450,10 +471,10 @@ namespace moraine
     const Constraint<dim>           constraint;
     const Enforcement               how;
     const double                    limit;
-    double                          t_start    = 0;
-    double                          t_placed   = 0;
-    bool                            placed     = false;
-    bool                            has_pieces = false;
+    double                          t_start  = 0;
+    double                          t_placed = 0;
+    bool                            placed   = false;
+    Search                          search;
     Kind                            kind;
     double                          largest_coordinate = 0; ///< of points
     BodyBehind<dim>                 body;

@@ -38,6 +38,14 @@ namespace moraine
   std::string
   with_numbers(const std::string &text, const std::string &separators);
 
+  /**
+   * Whether @p text is an expression in x, y, z and t of which an operator
+   * stands outside all brackets, so that it needs some beside another operator:
+   * "1+t", and not "2", "sin(x)" or "slope-1".
+   */
+  bool
+  is_compound(const std::string &text);
+
   /** Whether an expression calls rand() or rand_seed(). */
   bool
   is_random(const std::string &expression);

@@ -59,6 +59,13 @@ namespace moraine
     void
     apply_override(const std::string &setting);
 
+    /** What apply_override() was given, in order. */
+    const std::vector<std::string> &
+    overrides() const
+    {
+      return applied;
+    }
+
     /**
      * The same file with the value of one entry of entries() replaced; messages
      * still name the line of the file.
@@ -143,6 +150,7 @@ namespace moraine
     scan_entry(const std::size_t line, const std::string &statement);
 
     std::string              file_name;
+    std::vector<std::string> applied; ///< overrides
     std::vector<Line>        lines;
     std::vector<Entry>       found_entries;
     std::vector<std::size_t> line_of_entry;

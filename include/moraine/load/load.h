@@ -63,7 +63,8 @@ namespace moraine
                 const double               share_outside = 0.);
 
     /**
-     * Find the cells of the places.
+     * Find the cells of the places, which the first time are where they were in
+     * the mesh as it was built. Collective.
      * @throws InputError naming the load if there are none or one is not on the
      * material the first time, ComputationError later.
      */
@@ -158,18 +159,24 @@ namespace moraine
   class ForceOnPoints : public StatePart
   {
   public:
+    /** Where a local point was when its displacement was zero. */
+    using OriginalPosition =
+      std::function<dealii::Point<dim>(const unsigned int point)>;
+
     ForceOnPoints(const std::string         &name,
                   const VectorFunction<dim> &value,
                   const dealii::Point<dim>  &place);
 
     /**
      * Learn the numbers that the points have in this step; the first time
-     * choose them. Collective.
+     * choose them, by where they were, as bodies may have moved before the
+     * force begins to act. Collective.
      * @throws InputError naming the load if at first no point is within two
      * cells of the place.
      */
     void
-    find_points(const PointSet<dim> &points);
+    find_points(const PointSet<dim>    &points,
+                const OriginalPosition &original_position);
 
     /** The points, in the group "loads/" and its name. */
     void
@@ -202,7 +209,8 @@ namespace moraine
 
   private:
     void
-    choose(const PointSet<dim> &points);
+    choose(const PointSet<dim>    &points,
+           const OriginalPosition &original_position);
 
     const std::string         load_name;
     const VectorFunction<dim> function;

@@ -164,7 +164,8 @@ namespace moraine
     StraightMapping<dim>                         cell_mapping;
     dealii::GridTools::Cache<dim>                cache;
     std::optional<BoxGrid<dim>>                  box;
-    MeshSides                                    sides;
+    std::array<unsigned int, dim> cells_of_box{}; ///< if it was made as one
+    MeshSides                     sides;
     /** Cells in the order in which processes share them; empty on one. */
     std::vector<CellIterator> curve;
     double                    largest_edge = 0;

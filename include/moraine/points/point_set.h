@@ -100,7 +100,7 @@ namespace moraine
 
     /**
      * Let only the points of the bodies flagged in @p stay remain, and add
-     * @p others, with other ids if theirs may be taken by now. Collective.
+     * @p others: points of the start that are not here. Collective.
      */
     void
     exchange_bodies(const std::vector<bool>   &stay,
@@ -221,6 +221,11 @@ namespace moraine
       return pool->get_id(handles[p]);
     }
 
+    /** Above the ids of all points that are here or were at the start: those
+     * may come back. Collective. */
+    unsigned int
+    next_id() const;
+
     /** The n_values() numbers of point @p p. */
     double *
     values(const unsigned int p)
@@ -330,10 +335,6 @@ namespace moraine
     /** Renew the flat numbering. */
     void
     number_points();
-
-    /** Above all ids of all ranks. Collective. */
-    unsigned int
-    next_id() const;
 
     Record
     record(const CellIterator &cell, const unsigned int p) const;

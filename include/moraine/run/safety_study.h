@@ -118,7 +118,7 @@ namespace moraine
 
     /** The factor of safety, or why there is none. */
     void
-    print(const Result &result);
+    print(const Result &result, const StudyCase &study_case);
 
     void
     write_summary() const;

@@ -25,11 +25,17 @@ namespace moraine
   /**
    * That no side of the mesh leaves material behind that a grid condition holds
    * there: normal to the side, the mesh and the condition move alike.
+   * @param motion of the mesh
+   * @param t_0 the time at which the mesh is as it is given
+   * @param time the steps to be looked at
+   * @param mesh as it is before it moves
+   * @param conditions that act in these steps
    * @throws InputError naming the condition.
    */
   template <int dim>
   void
   check_mesh_motion(const MeshMotion<dim>                 &motion,
+                    const double                           t_0,
                     const TimeParameters                  &time,
                     const BackgroundMesh<dim>             &mesh,
                     const std::vector<GridCondition<dim>> &conditions);

@@ -92,7 +92,7 @@ namespace moraine
     moved_far(const double t);
 
     std::string
-    energy_made(const double t);
+    energy_made(const double t, const IntegratorParameters &integrator);
 
     const Scene<dim>         &scene;
     const Model<dim>         &model;

@@ -85,6 +85,14 @@ namespace moraine
       return last_reports;
     }
 
+    /** Whether a run could go on from what write_progress() writes: not if it
+     * failed while a stage began. */
+    bool
+    can_go_on() const
+    {
+      return stage_is_begun;
+    }
+
     /** Of the step that ended the run; 0 before. See
      * moraine::geometric_share(). */
     double
@@ -229,6 +237,7 @@ namespace moraine
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
     bool                      first_step        = true;
+    bool                      stage_is_begun    = true;
     unsigned int              stage             = 0;
   };
 } // namespace moraine

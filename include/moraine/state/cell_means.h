@@ -71,8 +71,9 @@ namespace moraine
     nodes_of_batch(const unsigned int                          batch,
                    const dealii::ArrayView<const unsigned int> own) const;
 
-    /** What the mean of a cell that this rank owns or touches consists of; no
-     * parts if no part of a point lies there. */
+    /** What the mean of a cell that this rank owns or touches consists of: all
+     * cells of its groups, with or without points; no parts if no part of a
+     * point lies there. */
     void
     of_cell(const unsigned int active_cell_index,
             std::vector<Part> &parts) const;

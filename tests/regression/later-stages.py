@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""What begins to act in a later stage, when bodies have moved: conditions act by
+their change from then on, springs are attached where their surface is by then,
+forces are on the points that were nearest at the start."""
+
+SOLID = """
+subsection Materials
+  subsection solid
+    set Young modulus = 10000
+    set Poisson ratio = 0.3
+    set Density = 1
+  end
+end
+subsection Output
+  set Write = end
+end
+"""
+
+# A wall beside what was pulled before: at their corner both are at rest.
+HELD = SOLID + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 2
+  set Cell size = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 2, 2
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+  subsection pull
+    set Side = top
+    set Components = x
+    set Displacement = 0.01*min(t, 1); 0
+  end
+  subsection wall
+    set Side = right
+    set Components = x
+  end
+end
+subsection Stages
+  subsection pulled
+    set Grid conditions = base, pull
+    subsection Time
+      set Steps = 2
+    end
+  end
+  subsection held
+    set Grid conditions = base, pull, wall
+    subsection Time
+      set End time = 2
+      set Steps = 2
+    end
+  end
+end
+subsection Probes
+  subsection middle
+    set Location = 1.1, 1.1
+    set Kind = interpolated
+  end
+end
+"""
+held = folder / "held.prm"
+held.write_text(HELD)
+rows = run(held).history()
+at_least("pulled: displacement", rows[1]["u_x at middle"], 1e-3)
+# Small strain on nodes that went along is in balance to the square of their motion.
+bound("held beside it: moves", rows[-1]["u_x at middle"] - rows[1]["u_x at middle"],
+      1e-5)
+for stage, conditions in (("first", {"Stages/pulled/Grid conditions":
+                                     "base, pull, wall"}),
+                          ("second", {})):
+    result = run(held, {"Grid conditions/pull/Displacement": "0.01*t; 0",
+                        **conditions}, expect=2, on_ranks=1)
+    text(f"pulled on in the {stage} stage", plain(result.output.strip())
+         .splitlines()[-1])
+
+# A block flies through the mesh: up on springs, without them, on others.
+STIFFNESS = 0.4
+FLIES = SOLID + f"""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 3, 8
+  set Cell size = 0.5
+end
+subsection Method
+  set Method = GIMP
+  set Strain = finite
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 1, 1
+    set Upper corner = 2, 2
+    set Initial velocity = 0; 4
+  end
+end
+subsection Boundaries
+  subsection foot
+    set Points = 1 1; 2 1
+    set Constraint = absorbing
+    set Dashpot factors = 0, 0
+    set Spring stiffness = {STIFFNESS}, 0
+  end
+end
+subsection Loads
+  subsection nail
+    set Type = force on points
+    set Location = 1.5, 1.5
+    set Value = 0.3; 0
+  end
+end
+subsection Stages
+  subsection springs
+    set Loads = none
+    subsection Time
+      set Integrator = Newmark
+      set End time = 0.25
+      set Steps = 5
+    end
+  end
+  subsection free
+    set Boundaries = none
+    subsection Time
+      set Integrator = Newmark
+      set End time = 0.75
+      set Steps = 10
+    end
+  end
+  subsection others
+    set Boundaries = foot
+    set Loads = nail
+    subsection Time
+      set Integrator = Newmark
+      set End time = 1
+      set Steps = 5
+    end
+  end
+end
+subsection Probes
+  subsection head
+    set Location = 1.5, 1.9
+  end
+  subsection heel
+    set Location = 1.5, 1.1
+  end
+end
+"""
+flies = folder / "flies.prm"
+flies.write_text(FLIES)
+rows = run(flies).history()
+on_springs, free = ([row for row in rows if row["t"] < end][-1]
+                    for end in (0.26, 0.76))
+last = rows[-1]
+for name, begin, end in (("first springs", None, on_springs),
+                         ("other springs", free, last)):
+    stretched = end["u_y at heel"] - (begin["u_y at heel"] if begin else 0)
+    at_least(f"{name}: extension", stretched, 0.5)
+    bound(f"{name}: force over that of the extension - 1",
+          end["reaction_y of foot"] / (-STIFFNESS * stretched) - 1, 1e-2)
+bound("without springs: force", free["reaction_y of foot"], 0)
+at_least("force on points: displacement", last["u_x at head"], 5e-3)
+bound("force on points: turns the block by", last["u_x at head"] - last["u_x at heel"],
+      1e-3)
