@@ -116,13 +116,17 @@ namespace moraine
       if (contains(stage.boundaries, boundary.name()) &&
           !contains(stage.absorbing, boundary.name()))
         for (const auto &[name, parameters] : scene.boundaries)
-          if (name == boundary.name() && !parameters.displacement.empty())
+          if (name == boundary.name())
             {
-              found.push_back(moved_through(boundary, stage, t));
-              check_that_some_is_left("Boundaries/" + name,
-                                      boundary.n_points(communicator),
-                                      t,
-                                      of_surfaces);
+              const std::string  section = "Boundaries/" + name;
+              const unsigned int n       = boundary.n_points(communicator);
+              if (parameters.displacement.empty())
+                found.push_back(torn_off(section, n, t));
+              else
+                {
+                  found.push_back(moved_through(boundary, stage, t));
+                  check_that_some_is_left(section, n, t, of_surfaces);
+                }
             }
     for (unsigned int c = 0; c < conditions.size(); ++c)
       {
@@ -245,6 +249,29 @@ namespace moraine
          << " through its surface, and holds what is there by now instead of "
             "the rim of the body; "
          << of_surfaces;
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  HoldWatch<dim>::torn_off(const std::string &section,
+                           const unsigned int n,
+                           const double       t)
+  {
+    unsigned int &largest = most[section];
+    largest               = std::max(largest, n);
+    // What flies may leave a wall.
+    if (n > 0 || largest == 0 || model.system->step_context().motion ||
+        !told.insert(section).second)
+      return "";
+    std::ostringstream text;
+    text
+      << "section '" << section << "': by t = " << t
+      << " no material is left where it acts, and its force is zero: what it "
+         "held has come off or torn; if it should not, shorter steps, "
+         "smaller cells or 'Enforcement = skew Nitsche' may keep it";
     return text.str();
   }
 

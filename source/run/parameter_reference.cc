@@ -87,16 +87,17 @@ namespace moraine
         json, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
       Tree tree;
       boost::property_tree::read_json(json, tree);
-      out << "# Parameters in " << dim << "D\n\n"
-          << "Written by `moraine parameters --dimension " << dim
-          << "`. A heading is the path of a section; `<name>` is any name "
-             "you like.\nUnits are yours: length, stress, time and mass have "
-             "to fit each other.\nSection `Constants` holds names of your own: "
-             "with `set h = 0.2` there, `$h` in any value stands for 0.2.\n"
-             "Where a number is wanted, arithmetic gives it: `100/7`, `2*$h`, "
-             "`sqrt(2)*pi`, in lists too; a constant that is arithmetic stands "
-             "for its value. In tables and lists that blanks separate, write "
-             "it without blanks.\n";
+      out
+        << "# Parameters in " << dim << "D\n\n"
+        << "Written by `moraine parameters --dimension " << dim
+        << "`. A heading is the path of a section; `<name>` is any name "
+           "you like.\nUnits are yours: length, stress, time and mass have "
+           "to fit each other.\nSection `Constants` holds names of your own: "
+           "with `set h = 0.2` there, `$h` in any value stands for 0.2.\n"
+           "Where a number is wanted, arithmetic gives it: `100/7`, `2*$h`, "
+           "`sqrt(2)*pi`, in lists too; a constant that is arithmetic or an expression stands "
+           "for its value. In tables and lists that blanks separate, write "
+           "it without blanks.\n";
       print_section(tree, "", out);
     }
   } // namespace

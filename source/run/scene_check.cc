@@ -105,20 +105,19 @@ namespace moraine
                (chosen.mass != first.mass ? first.mass : first.transfer) +
                  ", as in the first stage with inertia");
       // One rule of transfer serves all stages.
-      const auto as_first = [&](const std::string &key,
-                                const double       found,
-                                const double       wanted) {
-        const auto text = [](const double value) {
-          std::ostringstream out;
-          out << value;
-          return out.str();
+      const auto as_first =
+        [&](const std::string &key, const double found, const double wanted) {
+          const auto text = [](const double value) {
+            std::ostringstream out;
+            out << value;
+            return out.str();
+          };
+          if (chosen.dynamic() && found != wanted)
+            reject(section,
+                   key,
+                   text(found),
+                   text(wanted) + ", as in the first stage with inertia");
         };
-        if (chosen.dynamic() && found != wanted)
-          reject(section,
-                 key,
-                 text(found),
-                 text(wanted) + ", as in the first stage with inertia");
-      };
       if (chosen.transfer == "blend")
         as_first("FLIP share", chosen.flip_share, first.flip_share);
       if (chosen.transfer == "FMPM")

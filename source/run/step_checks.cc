@@ -246,8 +246,7 @@ namespace moraine
       {
         if (!time.between_parts())
           found.push_back(
-            energy_made(t,
-                        scene.stages[time.stage()].second.time.integrator));
+            energy_made(t, scene.stages[time.stage()].second.time.integrator));
         double work_of_motions = 0;
         for (const BoundaryReport<dim> &report : reports)
           work_of_motions += report.work_of_motion;

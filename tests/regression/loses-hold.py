@@ -136,3 +136,44 @@ run(whole.folder, command="resume", extra=("--from", "7"), expect=1)
 after = json.loads((whole.folder / "summary.json").read_text())
 text("resumed: ended alike", after["message"] == before["message"])
 text("resumed: told", after.get("warnings", []) == before["warnings"])
+
+# What goes with the material and has lost it is told of: a block leaves its floor.
+scene = folder / "leaves.prm"
+scene.write_text("""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 5, 2
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0.5, 0.4
+    set Upper corner = 1.5, 1.4
+  end
+end
+subsection Boundaries
+  subsection floor
+    set Points     = 0.5 0.4; 2 0.4
+    set Constraint = roller
+  end
+  subsection carrier
+    set Body        = block
+    set Part        = top
+    set Translation = 2.5*t; 0
+  end
+end
+subsection Time
+  set Steps = 20
+end
+""")
+show("floor that ends", expect=0)
+show("floor that goes on", {"Boundaries/floor/Points": "0.5 0.4; 4.5 0.4"}, expect=0)

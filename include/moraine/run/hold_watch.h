@@ -70,6 +70,11 @@ namespace moraine
                   const StageParameters       &stage,
                   const double                 t);
 
+    /** That a boundary which goes with the material holds nothing any more,
+     * with @p n places by @p t, without inertia; or "". */
+    std::string
+    torn_off(const std::string &section, const unsigned int n, const double t);
+
     /**
      * Compare @p n pieces of what is held by @p t with the most so far.
      * @param section of the input that says what acts
