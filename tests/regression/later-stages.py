@@ -84,6 +84,13 @@ for stage, conditions in (("first", {"Stages/pulled/Grid conditions":
     text(f"pulled on in the {stage} stage", plain(result.output.strip())
          .splitlines()[-1])
 
+# What has come to rest has no energy of motion, and counts none.
+rests = run(held, {"Stages/pulled/Time/Integrator": "Newmark"})
+rows = rests.history()
+at_least("in motion: kinetic energy", rows[1]["kinetic energy of nodes"], 1e-9)
+bound("at rest: kinetic energy", rows[-1]["kinetic energy of nodes"], 0)
+text("at rest: energy in the summary", "energy" in rests.summary)
+
 # A block flies through the mesh: up on springs, without them, on others.
 STIFFNESS = 0.4
 FLIES = SOLID + f"""
