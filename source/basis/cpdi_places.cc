@@ -29,7 +29,7 @@ namespace moraine
 
 
     /** Of a cell: places nearer to a domain than this are in it. */
-    constexpr double round_off = 1e-9;
+    constexpr double round_off_of_places = 1e-9;
 
 
 
@@ -90,7 +90,7 @@ namespace moraine
               else if (auto found =
                          place_in_domain<dim>(inverse, corners, x[k]))
                 {
-                  if (found->second < round_off * h)
+                  if (found->second < round_off_of_places * h)
                     found->second = 0.;
                   const PlaceInDomain here = {found->second,
                                               this->points.id(p),

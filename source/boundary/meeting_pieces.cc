@@ -18,7 +18,7 @@ namespace moraine
   namespace
   {
     /** What may be missed, over what motions differ by. */
-    constexpr double tolerance = 1e-3;
+    constexpr double tolerance_of_pieces = 1e-3;
 
     /** What nodes of a cell may differ by from their mean, over the same.
      * Across a gap of a cell it is 1/2, in a turn about where surfaces meet
@@ -289,7 +289,7 @@ namespace moraine
               for (unsigned int a = 0; a < n; ++a)
                 here += places[k].N[a] * of_nodes[a];
               if ((places[k].M * here - relative(piece, k, reference, s))
-                    .norm() > tolerance * scale)
+                    .norm() > tolerance_of_pieces * scale)
                 return false;
             }
         }

@@ -6,16 +6,9 @@
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/input_text.h>
-#include <moraine/core/patterns.h>
 #include <moraine/core/words.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
-
-// Keeps boost 1.74 from printing a note about its own code.
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -30,23 +23,8 @@ namespace moraine
 
   namespace
   {
-    /** The section whose keys are names for values. */
-    const std::string constants_section = "Constants";
-
-
-
-    using Tree = boost::property_tree::ptree;
-
     const std::string statements =
       "subsection NAME, set KEY = VALUE, end, # comment";
-
-
-
-    std::string
-    join(const std::string &section, const std::string &name)
-    {
-      return section.empty() ? name : section + "/" + name;
-    }
 
 
 
@@ -54,15 +32,6 @@ namespace moraine
     in_section(const std::string &section)
     {
       return section.empty() ? "" : "section '" + section + "', ";
-    }
-
-
-
-    std::vector<std::string>
-    parts_of(const std::string &section)
-    {
-      return section.empty() ? std::vector<std::string>() :
-                               Utilities::split_string_list(section, '/');
     }
 
 
@@ -75,174 +44,6 @@ namespace moraine
 
 
 
-    /** What the handler knows, as a tree of sections and entries. */
-    Tree
-    declared_tree(ParameterHandler &prm)
-    {
-      std::stringstream json;
-      prm.print_parameters(json,
-                           ParameterHandler::JSON |
-                             ParameterHandler::KeepDeclarationOrder);
-      Tree tree;
-      boost::property_tree::read_json(json, tree);
-      return tree;
-    }
-
-
-
-    /** deal.II's entries hold their pattern; sections hold only trees. */
-    bool
-    is_entry(const Tree &node)
-    {
-      const auto pattern = node.find("pattern_description");
-      return pattern != node.not_found() && pattern->second.empty();
-    }
-
-
-
-    /** Names directly in @p node: its keys, or its sections. */
-    std::vector<std::string>
-    names_of(const Tree &node, const bool entries)
-    {
-      std::vector<std::string> names;
-      for (const auto &child : node)
-        if (is_entry(child.second) == entries)
-          names.push_back(child.first);
-      return names;
-    }
-
-
-
-    const Tree *
-    child_of(const Tree &node, const std::string &name, const bool entry)
-    {
-      for (const auto &child : node)
-        if (child.first == name && is_entry(child.second) == entry)
-          return &child.second;
-      return nullptr;
-    }
-
-
-
-    /** The node of a section that exists, or nothing if it declares no key. */
-    const Tree *
-    node_of(const Tree &tree, const std::string &section)
-    {
-      const Tree *node = &tree;
-      for (const std::string &part : parts_of(section))
-        if (node != nullptr)
-          node = child_of(*node, part, false);
-      return node;
-    }
-
-
-
-    /** Paths of the sections that declare @p key, in @p node. */
-    void
-    sections_with(const Tree               &node,
-                  const std::string        &path,
-                  const std::string        &key,
-                  std::vector<std::string> &found)
-    {
-      for (const auto &child : node)
-        if (!is_entry(child.second))
-          sections_with(child.second, join(path, child.first), key, found);
-        else if (child.first == key)
-          found.push_back("'" + path + "'");
-    }
-
-
-
-    void
-    check_section(const ParameterHandler &prm,
-                  const Tree             &tree,
-                  const std::string      &section,
-                  const std::string      &origin)
-    {
-      std::vector<std::string> path;
-      std::string              parent;
-      for (const std::string &part : parts_of(section))
-        {
-          path.push_back(part);
-          if (!prm.subsection_path_exists(path))
-            {
-              const Tree *node  = node_of(tree, parent);
-              const auto  known = node == nullptr ? std::vector<std::string>() :
-                                                    names_of(*node, false);
-              throw InputError(origin + ": section '" + join(parent, part) +
-                               "': unknown section" + suggest(part, known));
-            }
-          parent = join(parent, part);
-        }
-    }
-
-
-
-    /** @return what is declared for the key. */
-    const Tree &
-    check_key(const Tree &tree, const InputFile::Entry &entry)
-    {
-      const Tree *node = node_of(tree, entry.section);
-      const Tree *leaf =
-        node == nullptr ? nullptr : child_of(*node, entry.key, true);
-      if (leaf != nullptr)
-        return *leaf;
-
-      const auto known =
-        node == nullptr ? std::vector<std::string>() : names_of(*node, true);
-      std::vector<std::string> elsewhere;
-      sections_with(tree, "", entry.key, elsewhere);
-      std::string message =
-        entry.origin + ": " + place(entry.section, entry.key) + ": unknown key";
-      if (nearest(entry.key, known).empty() && !elsewhere.empty())
-        message += "; it belongs in section " + elsewhere.front();
-      throw InputError(message + suggest(entry.key, known));
-    }
-
-
-
-    /** Whether two texts are equal, as words or as numbers. */
-    bool
-    are_equal(const std::string &a, const std::string &b)
-    {
-      return a == b || (plain_number(a) && plain_number(a) == plain_number(b));
-    }
-
-
-
-    void
-    set_value(ParameterHandler       &prm,
-              const InputFile::Entry &entry,
-              const std::string      &pattern)
-    {
-      if (entry.value.find("{{") != std::string::npos)
-        throw InputError(
-          entry.origin + ": " + place(entry.section, entry.key) + ": found '" +
-          entry.value +
-          "', a choice for 'moraine study'; allowed: " + describe(pattern));
-
-      const std::string value = with_arithmetic(entry.value, pattern);
-      const auto        path  = parts_of(entry.section);
-      for (const std::string &part : path)
-        prm.enter_subsection(part);
-      std::string mistake;
-      try
-        {
-          prm.set(entry.key, value);
-        }
-      catch (const ExceptionBase &)
-        {
-          mistake =
-            entry.origin + ": " + place(entry.section, entry.key) + ": found " +
-            (entry.value.empty() ? "nothing" : "'" + entry.value + "'") +
-            (value == entry.value ? "" : ", which is " + value) +
-            ", allowed: " + describe(pattern);
-        }
-      for (std::size_t i = 0; i < path.size(); ++i)
-        prm.leave_subsection();
-      if (!mistake.empty())
-        throw InputError(mistake);
-    }
   } // namespace
 
 
@@ -320,7 +121,7 @@ namespace moraine
               throw InputError(
                 lines[i].origin + ": " + in_section(before) + "found '" +
                 statement + "'; a subsection needs a name without '/' and '.'");
-            open_sections.push_back({join(before, name), lines[i].origin});
+            open_sections.push_back({join_path(before, name), lines[i].origin});
             if (std::none_of(sections.begin(),
                              sections.end(),
                              [&](const Line &known) {
@@ -386,21 +187,21 @@ namespace moraine
                                 "without '#' and '\\'");
     std::vector<std::string> parts;
     if (slash != std::string::npos)
-      parts = parts_of(path.substr(0, slash));
+      parts = parts_of_path(path.substr(0, slash));
     std::string section;
     for (const std::string &part : parts)
       if (part.empty())
         throw InputError(origin + ": a section without a name; allowed: --set "
                                   "\"Section/Key = value\"");
       else
-        section = join(section, part);
+        section = join_path(section, part);
 
     const auto star = std::find(parts.begin(), parts.end(), "*");
     if (star != parts.end())
       {
         std::string before, after;
         for (auto part = parts.begin(); part != star; ++part)
-          before = join(before, *part);
+          before = join_path(before, *part);
         for (auto part = star + 1; part != parts.end(); ++part)
           after += "/" + *part;
         const auto names = names_in(before);
@@ -413,7 +214,7 @@ namespace moraine
           throw InputError(origin + ": section '" + before +
                            "': found no name that '*' could stand for");
         for (const std::string &name : names)
-          apply_override(join(before, name) + after + "/" + key + " =" +
+          apply_override(join_path(before, name) + after + "/" + key + " =" +
                          setting.substr(equals + 1));
         return;
       }
@@ -573,29 +374,5 @@ namespace moraine
             constants.emplace_back(entry.key, with_numbers(all[e], ""));
         }
     return all;
-  }
-
-
-
-  std::vector<InputFile::Entry>
-  InputFile::parse(ParameterHandler &prm) const
-  {
-    const Tree tree = declared_tree(prm);
-    for (const Line &section : sections)
-      if (section.text != constants_section)
-        check_section(prm, tree, section.text, section.origin);
-    const auto         all = values();
-    std::vector<Entry> given;
-    for (std::size_t e = 0; e < found_entries.size(); ++e)
-      if (found_entries[e].section != constants_section)
-        {
-          Entry entry      = found_entries[e];
-          entry.value      = all[e];
-          const Tree &leaf = check_key(tree, entry);
-          set_value(prm, entry, leaf.get<std::string>("pattern_description"));
-          if (!are_equal(entry.value, leaf.get<std::string>("default_value")))
-            given.push_back(entry);
-        }
-    return given;
   }
 } // namespace moraine

@@ -47,17 +47,18 @@ namespace moraine
     {
       const std::string left  = Utilities::trim(before),
                         right = Utilities::trim(after);
-      const bool after_one =
-        !left.empty() &&
-        std::string("+-*/^").find(left.back()) != std::string::npos;
-      const auto before_one = [&right](const std::string &operators) {
-        return !right.empty() &&
-               operators.find(right.front()) != std::string::npos;
+      const auto is_beside    = [&](const std::string &operators_before,
+                                 const std::string &operators_after) {
+        return (!left.empty() &&
+                operators_before.find(left.back()) != std::string::npos) ||
+               (!right.empty() &&
+                operators_after.find(right.front()) != std::string::npos);
       };
+      const bool is_negative = value.front() == '-' && plain_number(value);
       const bool in_brackets =
-        (value.front() == '-' && plain_number(value)) ?
-          after_one || before_one("^") :
-          (after_one || before_one("+-*/^")) && is_compound(value);
+        is_negative ?
+          is_beside("+-*/^", "^") :
+          is_beside("+-*/^<>&|", "+-*/^<>&|?") && is_compound(value);
       return in_brackets ? "(" + value + ")" : value;
     }
   } // namespace
@@ -92,6 +93,23 @@ namespace moraine
                            " at character " + std::to_string(at + 1) +
                            ", allowed: text in UTF-8");
       }
+  }
+
+
+
+  std::string
+  join_path(const std::string &section, const std::string &name)
+  {
+    return section.empty() ? name : section + "/" + name;
+  }
+
+
+
+  std::vector<std::string>
+  parts_of_path(const std::string &section)
+  {
+    return section.empty() ? std::vector<std::string>() :
+                             Utilities::split_string_list(section, '/');
   }
 
 

@@ -28,7 +28,7 @@ namespace moraine
   namespace
   {
     /** In each direction of a piece or a face: products of Q2. */
-    constexpr unsigned int n_gauss_points = 3;
+    constexpr unsigned int n_gauss_points_of_pieces = 3;
 
 
 
@@ -382,7 +382,7 @@ namespace moraine
   {
     const unsigned int             n_points = spacing == Spacing::through_mesh ?
                                                 n_points_through_mesh<dim> :
-                                                n_gauss_points;
+                                                n_gauss_points_of_pieces;
     std::vector<SurfacePoint<dim>> pieces, beyond;
     const double                   round_off = 1e-9 * mesh.cell_size();
     double                         h         = 0;
@@ -444,7 +444,9 @@ namespace moraine
     try
       {
         for (const auto &cell : cells.active_cell_iterators())
-          surface.pieces(vertices_of<dim>(cell), n_gauss_points, pieces);
+          surface.pieces(vertices_of<dim>(cell),
+                         n_gauss_points_of_pieces,
+                         pieces);
       }
     catch (const InputError &)
       {
@@ -477,7 +479,7 @@ namespace moraine
       update_quadrature_points | update_JxW_values | update_normal_vectors;
     FEFaceValues<dim> whole(mapping,
                             nothing,
-                            QGauss<dim - 1>(n_gauss_points),
+                            QGauss<dim - 1>(n_gauss_points_of_pieces),
                             flags);
     // Of a face on which a body ends.
     FEFaceValues<dim>                               in_parts(mapping,

@@ -20,7 +20,7 @@ namespace moraine
   {
     /** What is below this part of the largest value is zero but for round-off.
      */
-    constexpr double negligible = 1e-12;
+    constexpr double negligible_norm = 1e-12;
 
     /**
      * One quantity of all local points: its exact size, the size of its error,
@@ -59,9 +59,10 @@ namespace moraine
       double sums[2] = {0., 0.};
       for (std::size_t p = 0; p < sample.volume.size(); ++p)
         {
-          const double scale = sample.exact[p] > negligible * largest_exact ?
-                                 sample.exact[p] :
-                                 largest_exact;
+          const double scale =
+            sample.exact[p] > negligible_norm * largest_exact ?
+              sample.exact[p] :
+              largest_exact;
           sums[0] += sample.volume[p] * sample.error[p] / scale;
           sums[1] += sample.volume[p];
         }
@@ -212,7 +213,7 @@ namespace moraine
           const double component_scale =
             largest(components[c].exact, communicator);
           std::optional<double> relative;
-          if (component_scale > negligible * scale)
+          if (component_scale > negligible_norm * scale)
             relative =
               mean_relative_error(components[c], component_scale, communicator);
           norms.emplace_back("r_sigma_" + stress_component_name(c), relative);

@@ -17,7 +17,7 @@ namespace moraine
   namespace
   {
     /** How far outside a unit cell counts as inside. */
-    constexpr double tolerance = 1e-9;
+    constexpr double tolerance_of_search = 1e-9;
 
     template <int dim>
     bool
@@ -25,7 +25,7 @@ namespace moraine
                 const Point<dim>                                        &place)
     {
       const auto box = cell->bounding_box();
-      return box.point_inside(place, tolerance);
+      return box.point_inside(place, tolerance_of_search);
     }
 
     /** Unit cell coordinates of @p place, if it is in the cell. */
@@ -44,7 +44,7 @@ namespace moraine
         {
           return false;
         }
-      return GeometryInfo<dim>::is_inside_unit_cell(unit, tolerance);
+      return GeometryInfo<dim>::is_inside_unit_cell(unit, tolerance_of_search);
     }
   } // namespace
 

@@ -19,7 +19,7 @@ namespace moraine
   namespace
   {
     /** Relative residual of the moments. */
-    constexpr double tolerance = 1e-13;
+    constexpr double tolerance_of_moments = 1e-13;
 
     /** Call @p action(vertices) for simplices that make up the polytope. */
     template <int dim, typename Action>
@@ -174,7 +174,7 @@ namespace moraine
       // Each column enters about once; ten times as many steps are a failure.
       for (unsigned int n = 0; n < 10 * b.size(); ++n)
         {
-          if (residual.l2_norm() <= tolerance * b.l2_norm())
+          if (residual.l2_norm() <= tolerance_of_moments * b.l2_norm())
             return true;
           unsigned int best     = 0;
           double       steepest = 0.;

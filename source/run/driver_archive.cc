@@ -6,7 +6,6 @@
 #include <moraine/run/step_driver.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace moraine
 {
@@ -14,29 +13,6 @@ namespace moraine
 
   namespace
   {
-    std::string
-    as_lines(const std::vector<std::string> &texts)
-    {
-      std::string lines;
-      for (const std::string &text : texts)
-        lines += text + "\n";
-      return lines;
-    }
-
-
-
-    std::vector<std::string>
-    lines_of(const std::string &text)
-    {
-      std::istringstream       in(text);
-      std::vector<std::string> lines;
-      for (std::string line; std::getline(in, line);)
-        lines.push_back(line);
-      return lines;
-    }
-
-
-
     void
     write_counts(const RunCounts &counts, Archive &archive)
     {
@@ -54,7 +30,7 @@ namespace moraine
         archive.write("run/largest_shares_of_ghost_term",
                       std::vector<double>{counts.ghost_term->of_forces,
                                           counts.ghost_term->of_work});
-      archive.write_text("run/warnings", as_lines(counts.warnings));
+      archive.write_lines("run/warnings", counts.warnings);
     }
 
 
@@ -78,7 +54,7 @@ namespace moraine
           const auto &shares = archive.numbers(ghost_shares);
           counts.ghost_term  = {shares[0], shares[1]};
         }
-      counts.warnings = lines_of(archive.text("run/warnings"));
+      counts.warnings = archive.lines("run/warnings");
       return counts;
     }
 
@@ -101,7 +77,7 @@ namespace moraine
           moments.push_back(report.moment);
           forces.push_back(report.force_magnitude);
         }
-      archive.write_text("reports/name", as_lines(names));
+      archive.write_lines("reports/name", names);
       archive.write("reports/reaction", reactions, dim, "force");
       archive.write("reports/violation_and_penetration", lengths, 2, "length");
       archive.write("reports/moment", moments, 1, "force length");
@@ -120,7 +96,7 @@ namespace moraine
       const auto &moments = archive.numbers("reports/moment");
       const auto &forces  = archive.numbers("reports/force_magnitude");
       std::vector<BoundaryReport<dim>> reports;
-      for (const std::string &name : lines_of(archive.text("reports/name")))
+      for (const std::string &name : archive.lines("reports/name"))
         {
           const unsigned int k = reports.size();
           Tensor<1, dim>     reaction;

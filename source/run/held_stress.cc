@@ -18,7 +18,7 @@ namespace moraine
   {
     /** Of the square of a cell's size: points that are spread by less along a
      * direction say nothing of how stress changes along it. */
-    constexpr double least_spread = 1e-3;
+    constexpr double least_spread_of_points = 1e-3;
 
 
 
@@ -42,7 +42,7 @@ namespace moraine
                     in_space[i][j] = sigma[i][j];
                 return in_space;
               },
-              least_spread * h * h};
+              least_spread_of_points * h * h};
     }
 
 

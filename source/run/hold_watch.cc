@@ -32,7 +32,7 @@ namespace moraine
     const std::string of_sides = "'surface traction' goes with the material";
 
     /** Of a cell: by then stresses beside a pressed side are wrong by half. */
-    constexpr double told_gap = 0.4;
+    constexpr double told_gap_at_side = 0.4;
 
 
 
@@ -324,7 +324,7 @@ namespace moraine
         model.mesh_motion.moves() || told.count(section) > 0)
       return "";
     const double gap = gap_at(traction, model);
-    if (!(gap > told_gap))
+    if (!(gap > told_gap_at_side))
       return "";
     told.insert(section);
     std::ostringstream text;

@@ -29,7 +29,7 @@ namespace moraine
 
 
     /** Of a cell: nodes join material that is no further apart. */
-    constexpr double largest_gap = 2.;
+    constexpr double largest_narrow_gap = 2.;
 
 
 
@@ -78,12 +78,12 @@ namespace moraine
     {
       const double step  = sample<dim> * h;
       double       begin = 0; // of the gap, once it has begun
-      for (double s = step; s < largest_gap * h + begin; s += step)
+      for (double s = step; s < largest_narrow_gap * h + begin; s += step)
         {
           const bool inside = level_of<dim>(shape, x + s * direction) > 0;
           if (!inside && begin == 0)
             begin = s;
-          else if (!inside && s - begin > largest_gap * h)
+          else if (!inside && s - begin > largest_narrow_gap * h)
             break;
           else if (inside && begin > 0)
             return Gap<dim>{s - begin,

@@ -34,7 +34,7 @@ namespace moraine
     constexpr double told_fill = 1.3;
 
     /** What a new body shares with others, of its volume. */
-    constexpr double told_share = 0.02;
+    constexpr double told_share_of_volume = 0.02;
 
 
 
@@ -160,7 +160,7 @@ namespace moraine
             of_known + comes > told_fill * cell->measure())
           twice += of_known + comes - cell->measure();
       }
-    if (!(twice > told_share * of_new))
+    if (!(twice > told_share_of_volume * of_new))
       return;
     std::string names;
     for (const std::string &body : bodies)

@@ -46,7 +46,7 @@ namespace moraine
     constexpr double no_energy = 1e-3;
 
     /** Over the largest part of the energy of a run. */
-    constexpr double round_off_of_energy = 1e-12;
+    constexpr double no_share_of_energy = 1e-12;
 
     /** Estimated error of stress: healthy scenes have up to 0.2. */
     constexpr double told_error = 0.25;
@@ -223,7 +223,7 @@ namespace moraine
         return false;
       const Works &works = model.motion->works();
       return works.stored <= no_energy * works.kinetic ||
-             works.stored <= round_off_of_energy * works.largest();
+             works.stored <= no_share_of_energy * works.largest();
     }
 
 

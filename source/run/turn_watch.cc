@@ -16,7 +16,7 @@ namespace moraine
   namespace
   {
     /** Of the largest elastic strain. */
-    constexpr double told_share = 0.2;
+    constexpr double told_share_of_turns = 0.2;
 
     /** A turn by a quarter of a degree: less is no stress to speak of. */
     constexpr double least_strain = 1e-5;
@@ -81,7 +81,7 @@ namespace moraine
     if (worst.empty())
       return "";
     const double strain = largest_elastic_strain();
-    if (!(largest > told_share * strain))
+    if (!(largest > told_share_of_turns * strain))
       return "";
     told = true;
     std::ostringstream text;
@@ -120,16 +120,16 @@ namespace moraine
   void
   TurnWatch<dim>::write(Archive &archive) const
   {
-    std::string         names;
-    std::vector<double> values;
+    std::vector<std::string> names;
+    std::vector<double>      values;
     for (const auto &[name, turn] : turns)
       {
-        names += name + "\n";
+        names.push_back(name);
         values.push_back(turn.since);
         values.push_back(turn.strain);
       }
     archive.write("checks/turns/last", last, "time");
-    archive.write_text("checks/turns/names", names);
+    archive.write_lines("checks/turns/names", names);
     archive.write("checks/turns/since_and_strain", values, 2);
     archive.write("checks/turns/told", told ? 1u : 0u);
   }
@@ -143,11 +143,13 @@ namespace moraine
     last              = archive.number("checks/turns/last");
     told              = archive.integer("checks/turns/told") != 0;
     const auto values = archive.numbers("checks/turns/since_and_strain", 2);
-    std::istringstream names(archive.text("checks/turns/names"));
     turns.clear();
     unsigned int k = 0;
-    for (std::string name; std::getline(names, name); k += 2)
-      turns[name] = {values[k], values[k + 1]};
+    for (const std::string &name : archive.lines("checks/turns/names"))
+      {
+        turns[name] = {values[k], values[k + 1]};
+        k += 2;
+      }
   }
 
 

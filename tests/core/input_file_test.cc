@@ -317,6 +317,7 @@ TEST(InputFile, ConstantsBesideOperators)
   EXPECT_EQ(with("0; -$c", "x - 1"), "0; -(x - 1)");
   EXPECT_EQ(with("$c/3", "t < 1 ? t : 1"), "(t < 1 ? t : 1)/3");
   EXPECT_EQ(with("2*($c)", "1+t"), "2*(1+t)");
+  EXPECT_EQ(with("x > $c", "t < 1 ? t : 1"), "x > (t < 1 ? t : 1)");
   EXPECT_EQ(with("0; $c", "1+t"), "0; 1+t");
   EXPECT_EQ(with("2*$c", "sin(1+t)"), "2*sin(1+t)");
   EXPECT_EQ(with("$c^2", "-3"), "(-3)^2");

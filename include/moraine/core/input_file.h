@@ -149,6 +149,9 @@ namespace moraine
     void
     scan_entry(const std::size_t line, const std::string &statement);
 
+    /** The section whose keys are names for values. */
+    inline static const std::string constants_section{"Constants"};
+
     std::string              file_name;
     std::vector<std::string> applied; ///< overrides
     std::vector<Line>        lines;

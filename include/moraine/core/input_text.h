@@ -23,9 +23,18 @@ namespace moraine
   void
   check_text(const std::string &statement, const std::string &origin);
 
+  /** Path of what has this name in a section, "" for the top level. */
+  std::string
+  join_path(const std::string &section, const std::string &name);
+
+  /** The names in the path of a section. */
+  std::vector<std::string>
+  parts_of_path(const std::string &section);
+
   /**
    * The value @p text of a key with every `$name` replaced by the value of that
-   * constant: a negative number in brackets where an operator is beside it.
+   * constant: where an operator is beside it, a negative number and a compound
+   * expression in brackets.
    * @throw InputError, beginning with @p where, for a name that @p constants do
    * not have and for a text of more than 100000 characters.
    */
