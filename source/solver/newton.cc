@@ -52,7 +52,7 @@ namespace moraine
     /**
      * Residuals below this say more about round-off than about order.
      */
-    constexpr double round_off = 1e-11;
+    constexpr double share_of_round_off = 1e-11;
 
     /**
      * Where this part of the first residual is left, Newton's method shows the
@@ -66,7 +66,7 @@ namespace moraine
     observed_order(const std::vector<double> &residuals)
     {
       std::size_t n = residuals.size();
-      while (n > 0 && residuals[n - 1] < round_off)
+      while (n > 0 && residuals[n - 1] < share_of_round_off)
         --n;
       if (n < 4 || residuals[n - 3] > already_near * residuals[0])
         return 0.;
