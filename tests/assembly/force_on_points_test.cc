@@ -57,6 +57,20 @@ namespace
 
 
 
+  /** That the force acts on one point, which is at @p place by now. */
+  void
+  expect_one_point_at(const Point<2>    &place,
+                      ForceOnPoints<2>  &force,
+                      const PointSet<2> &points)
+  {
+    find_points(force, points);
+    const auto places = places_of(force, points);
+    ASSERT_EQ(places.size(), 1u);
+    EXPECT_NEAR(places[0].distance(place), 0., 1e-12);
+  }
+
+
+
   TEST(ForceOnPoints, AllThatAreEquallyNearShareIt)
   {
     SmallScene<2> scene;
@@ -77,11 +91,7 @@ namespace
   {
     SmallScene<2> scene;
     auto          force = force_at({1.7, 2.3});
-    find_points(force, scene.points);
-    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
-    EXPECT_NEAR(places_of(force, scene.points)[0].distance({1.75, 2.25}),
-                0.,
-                1e-12);
+    expect_one_point_at({1.75, 2.25}, force, scene.points);
 
     // Into other cells, some of other ranks.
     for (unsigned int p = 0; p < scene.points.n_local(); ++p)
@@ -89,11 +99,7 @@ namespace
                                 scene.points.position(p) +
                                   Tensor<1, 2>({0.6, 0.55}));
     scene.points.find_cells();
-    find_points(force, scene.points);
-    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
-    EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
-                0.,
-                1e-12);
+    expect_one_point_at({2.35, 2.8}, force, scene.points);
   }
 
 
@@ -109,11 +115,7 @@ namespace
       }
     scene.points.find_cells();
     auto force = force_at({1.7, 2.3});
-    find_points(force, scene.points);
-    ASSERT_EQ(places_of(force, scene.points).size(), 1u);
-    EXPECT_NEAR(places_of(force, scene.points)[0].distance({2.35, 2.8}),
-                0.,
-                1e-12);
+    expect_one_point_at({2.35, 2.8}, force, scene.points);
   }
 
 
