@@ -70,6 +70,17 @@ namespace moraine
 
 
 
+    /** Whether points go far enough to come through cells. */
+    template <int dim>
+    bool
+    points_pass_cells(const State<dim> &state)
+    {
+      return state.mesh_after_step() == MeshAfterStep::reset &&
+             state.strain_measure() == StrainMeasure::finite;
+    }
+
+
+
     /** Of the points of this rank, by active_cell_index(). */
     template <int dim>
     std::vector<double>
@@ -114,6 +125,18 @@ namespace moraine
 
   template <int dim>
   bool
+  BoundaryTerm<dim>::holds_mean_in(
+    const StepContext<dim>                      &context,
+    const typename GridSpace<dim>::CellIterator &cell)
+  {
+    return points_pass_cells(context.state) &&
+           boundary.holds_mean_in(context.state.grid(), cell, context.t_start);
+  }
+
+
+
+  template <int dim>
+  bool
   BoundaryTerm<dim>::begin_step(const StepContext<dim> &context)
   {
     const bool moves_points =
@@ -130,7 +153,8 @@ namespace moraine
                         context.cells_moved,
                         context.motion != nullptr &&
                           context.motion->integrator().start_forces() == 0,
-                        covers);
+                        covers,
+                        points_pass_cells(context.state));
     // A form that is not definite feeds what one step leaves to the next: in
     // vibrations, and as points move. Elsewhere the larger factor costs
     // accuracy for nothing; there it is what is needed.
@@ -289,6 +313,85 @@ namespace moraine
           add_mean_penalty(boundary, piece, how, C, local);
         system.add(local, tangent);
       }
+    add_slopes(context, tangent, system);
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::add_slopes(const StepContext<dim> &context,
+                                const bool              tangent,
+                                GlobalSystem<dim>      &system) const
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    const unsigned int    n     = space.nodes_per_cell();
+    LocalSystem<dim>      local;
+    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+      {
+        const auto   &point = boundary.points()[boundary.slopes()[k].point];
+        const double *N     = boundary.slope_of_N(k);
+        const Tensor<1, dim>          t = slope_traction(context, k);
+        const SymmetricTensor<2, dim> C = slope_stiffness(context, point);
+        local.reinit(context.state, space.cell_nodes(point.cell), n, tangent);
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              local.force[dim * a + i] = point.JxW * N[a] * t[i];
+              if (tangent)
+                for (unsigned int b = 0; b < n; ++b)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    local.matrix(dim * a + i, dim * b + j) =
+                      point.JxW * N[a] * N[b] * C[i][j];
+            }
+        system.add(local, tangent);
+      }
+  }
+
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  BoundaryTerm<dim>::slope_stiffness(const StepContext<dim>   &context,
+                                     const BoundaryPoint<dim> &point) const
+  {
+    if (!point.holds)
+      return {};
+    const double mu = context.cell_materials.elastic_stiffness(point.cell).mu;
+    const SymmetricTensor<2, dim> M  = boundary.projection(point.normal);
+    const Tensor<1, dim>          Mn = M * point.normal;
+    return boundary.enforcement().slope_factor * mu / point.h *
+           (M + symmetrize(outer_product(Mn, Mn)));
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  BoundaryTerm<dim>::slope_traction(const StepContext<dim> &context,
+                                    const unsigned int      k) const
+  {
+    const BoundarySlope<dim> &slope = boundary.slopes()[k];
+    return slope.traction -
+           slope_stiffness(context, boundary.points()[slope.point]) *
+             slope_violation(context, k);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  BoundaryTerm<dim>::slope_violation(const StepContext<dim> &context,
+                                     const unsigned int      k) const
+  {
+    const GridSpace<dim>     &space     = context.state.grid();
+    const BoundarySlope<dim> &slope     = boundary.slopes()[k];
+    const BoundaryPoint<dim> &point     = boundary.points()[slope.point];
+    const double             *N         = boundary.slope_of_N(k);
+    Tensor<1, dim>            violation = -slope.prescribed;
+    for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+      violation += N[a] * context.increments()[space.cell_nodes(point.cell)[a]];
+    return violation;
   }
 
 
@@ -451,9 +554,25 @@ namespace moraine
                                  states[q].M,
                                  point.JxW});
       }
+    std::vector<Tensor<1, dim>> of_slopes;
+    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+      {
+        const auto       &slope = boundary.slopes()[k];
+        const double      JxW   = boundary.points()[slope.point].JxW;
+        const Point<dim> &place = states[slope.point].place;
+        // Where both moved to, as the place.
+        const Tensor<1, dim> arm =
+          slope.offset + slope.prescribed + slope_violation(context, k);
+        of_slopes.push_back(slope_traction(context, k));
+        const Tensor<1, dim> force = JxW * of_slopes.back();
+        prepared.work_of_motion += force * slope.prescribed;
+        prepared.moment +=
+          boundary.rigid_motion().moment(place + arm, force, context.t_end) -
+          boundary.rigid_motion().moment(place, force, context.t_end);
+      }
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
-    boundary.prepare(tractions, violations);
+    boundary.prepare(tractions, violations, of_slopes);
   }
 
 

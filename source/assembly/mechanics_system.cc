@@ -122,12 +122,18 @@ namespace moraine
     const double                 t,
     const std::function<void()> &before_new_tangent)
   {
+    context.t_start = context.t_end = t;
+    const auto holds_mean_in        = [this](const auto &cell) {
+      return std::any_of(terms.begin(), terms.end(), [&](const auto &term) {
+        return term->holds_mean_in(context, cell);
+      });
+    };
     {
       TimerOutput::Scope scope(timer, "stencils");
       // The first of this system need not be the first of the state.
-      context.couplings_changed = state.begin_step() || !sums.matrix();
+      context.couplings_changed =
+        state.begin_step(holds_mean_in) || !sums.matrix();
     }
-    context.t_start = context.t_end = t;
     if (context.motion)
       context.motion->begin_step();
     context.cells_moved =

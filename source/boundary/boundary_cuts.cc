@@ -32,6 +32,17 @@ namespace moraine
 
 
 
+    /** Of the spread of a piece over the square of the size of its cell: below,
+     * it is a place. */
+    constexpr double spread_of_a_place = 1e-12;
+
+
+
+    /** A cell as large as with those that touch it. */
+    constexpr double with_neighbours = 3;
+
+
+
     template <int dim>
     unsigned int
     n_gauss_points_in(const CellVertices<dim> &cell)
@@ -188,6 +199,7 @@ namespace moraine
   {
     const unsigned int              n = shapes.n_nodes;
     std::vector<BoundaryPoint<dim>> means;
+    std::vector<unsigned int>       mean_of;
     Shapes                          of_means;
     CellVertices<dim>               vertices;
     unsigned int                    first = 0; ///< of the cell
@@ -210,6 +222,7 @@ namespace moraine
                                           cosine_of_corner * m.normal.norm() &&
                                         !is_along_faces(vertices, m.normal);
                                });
+        mean_of.push_back(same - means.begin());
         const double         *N      = &shapes.values[q * n];
         const Tensor<1, dim> *grad_N = &shapes.gradients[q * n];
         if (same == means.end())
@@ -235,8 +248,83 @@ namespace moraine
       }
     for (BoundaryPoint<dim> &mean : means)
       mean.normal /= mean.normal.norm();
+    if (kind.holds_slopes)
+      find_slopes(means, mean_of);
     boundary_points = std::move(means);
     shapes          = std::move(of_means);
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::find_slopes(
+    const std::vector<BoundaryPoint<dim>> &means,
+    const std::vector<unsigned int>       &mean_of)
+  {
+    const unsigned int                   n = shapes.n_nodes;
+    std::vector<SymmetricTensor<2, dim>> spreads(means.size());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const BoundaryPoint<dim> &mean     = means[mean_of[q]];
+        const Tensor<1, dim>      distance = boundary_points[q].x - mean.x;
+        spreads[mean_of[q]] += boundary_points[q].JxW / mean.JxW *
+                               symmetrize(outer_product(distance, distance));
+      }
+    std::vector<unsigned int> first_of = {0};
+    for (unsigned int m = 0; m < means.size(); ++m)
+      {
+        const auto axes = eigenvectors(spreads[m]);
+        for (unsigned int k = 0; k + 1 < dim; ++k)
+          if (axes[k].first > spread_of_a_place * means[m].h * means[m].h)
+            held_slopes.all.push_back(
+              {m, std::sqrt(axes[k].first) * axes[k].second, {}, {}, {}});
+        first_of.push_back(held_slopes.all.size());
+      }
+    held_slopes.values.assign(held_slopes.all.size() * n, 0.);
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const BoundaryPoint<dim> &mean = means[mean_of[q]];
+        for (unsigned int k = first_of[mean_of[q]];
+             k < first_of[mean_of[q] + 1];
+             ++k)
+          {
+            const Tensor<1, dim> &offset = held_slopes.all[k].offset;
+            const double          share  = boundary_points[q].JxW / mean.JxW *
+                                 ((boundary_points[q].x - mean.x) * offset) /
+                                 offset.norm_square();
+            for (unsigned int a = 0; a < n; ++a)
+              held_slopes.values[k * n + a] += share * shapes.values[q * n + a];
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  ImplicitBoundary<dim>::holds_mean_in(
+    const GridSpace<dim>                        &space,
+    const typename GridSpace<dim>::CellIterator &cell,
+    const double                                 t)
+  {
+    const bool curved_roller =
+      at_start.curved() && constraint.kind == Constraint<dim>::roller;
+    if (!how.augments || !how.holds_means(space.degree(), curved_roller, false))
+      return false;
+    if (!placed_at || (motion.moves() && *placed_at != t))
+      place_at(t);
+    CellVertices<dim> vertices = vertices_of<dim>(cell);
+    const Point<dim>  middle   = cell->center();
+    for (Point<dim> &vertex : vertices)
+      vertex = middle + with_neighbours * (vertex - middle);
+    if (!overlap(box_of<dim>(vertices), at_start.bounding_box(), 0.))
+      return false;
+    std::vector<SurfacePoint<dim>> pieces;
+    at_start.pieces(vertices, n_gauss_points_in<dim>(vertices), pieces);
+    return std::any_of(pieces.begin(), pieces.end(), [&](const auto &piece) {
+      return !is_along_faces(vertices, piece.normal);
+    });
   }
 
 
@@ -349,6 +437,10 @@ namespace moraine
                                                    const double);          \
   template void ImplicitBoundary<dim>::number_points();                    \
   template void ImplicitBoundary<dim>::take_means(const GridSpace<dim> &); \
+  template bool ImplicitBoundary<dim>::holds_mean_in(                      \
+    const GridSpace<dim> &,                                                \
+    const GridSpace<dim>::CellIterator &,                                  \
+    const double);                                                         \
   template void ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -38,7 +38,9 @@ namespace moraine
       "Of Nitsche's method: gamma in gamma/h, > 0. In dynamics, "
       "and of the symmetric one with finite strain, the depth "
       "of the material in the cell takes the place of h; "
-      "elsewhere the symmetric one has at least 4 over this depth.",
+      "elsewhere the symmetric one has at least 4 over this depth. Of "
+      "'augmented Lagrangian' with means, at finite strain, where points move "
+      "through cells: that of what varies along the piece in a cell.",
       Patterns::Double(1e-12));
     prm.add_parameter("Penalty factor",
                       penalty_factor,
@@ -68,7 +70,10 @@ namespace moraine
     // lose definiteness where the points of a cut cell hold little energy
     // against the flux on its surface, and updates of t diverge.
     if (enforcement == "augmented Lagrangian")
-      how = {0., 0., 0., c3, true, true, enforcement};
+      {
+        how              = {0., 0., 0., c3, true, true, enforcement};
+        how.slope_factor = nitsche_factor;
+      }
     else if (enforcement == "weighted")
       how = {weight.integral_value_derivative(),
              weight.integral_derivative(),

@@ -64,18 +64,23 @@ namespace moraine
     const StrainMeasure                     measure,
     const bool                              cells_changed,
     const bool                              in_motion,
-    const typename BodyBehind<dim>::Covers &covers)
+    const typename BodyBehind<dim>::Covers &covers,
+    const bool                              through_cells)
   {
     t_start = t;
     const bool curved_roller =
       at_start.curved() && constraint.kind == Constraint<dim>::roller;
-    const Kind before     = kind;
-    kind                  = {moves_points,
-                             moves_points && curved_roller,
-                             moves_points && measure == StrainMeasure::finite &&
-                               constraint.kind == Constraint<dim>::fixed,
-                             how.holds_means(space.degree(), curved_roller, in_motion)};
-    const bool changes    = kind.holds_means != before.holds_means;
+    const Kind before = kind;
+    kind              = {moves_points,
+                         moves_points && curved_roller,
+                         moves_points && measure == StrainMeasure::finite &&
+                           constraint.kind == Constraint<dim>::fixed,
+                         how.holds_means(space.degree(), curved_roller, in_motion),
+                         false};
+    kind.holds_slopes = kind.holds_means && through_cells &&
+                        how.slope_factor > 0 && !curved_roller;
+    const bool changes = kind.holds_means != before.holds_means ||
+                         kind.holds_slopes != before.holds_slopes;
     const bool moves      = moves_points && motion.moves();
     const auto body_moved = [&]() {
       return moves_points &&
@@ -87,16 +92,13 @@ namespace moraine
         for (auto &point : boundary_points)
           point.depth = point.h;
         if (kept_at_points)
-          for (unsigned int q = 0; q < carried.size(); ++q)
-            take_over(carried[q], boundary_points[q]);
+          take_over(carried);
         return;
       }
-    if (!placed || moves)
-      {
-        t_placed = t;
-        at_start.set_pose(motion.pose(t));
-      }
+    if (!placed_at || moves)
+      place_at(t);
     boundary_points.clear();
+    held_slopes = {};
     body.ask(covers);
     find_pieces(space, search_tolerance);
     body.stop_asking();
@@ -111,8 +113,18 @@ namespace moraine
       find_levels(space.communicator());
     take_over_nearest(space.communicator());
     kept_at_points = false;
-    placed = search.done = true;
+    search.done    = true;
     ++search.number;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::place_at(const double t)
+  {
+    placed_at = t;
+    at_start.set_pose(motion.pose(t));
   }
 
 
@@ -135,17 +147,22 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::take_over(const CarriedPlace<dim> &from,
-                                   BoundaryPoint<dim>      &point) const
+  ImplicitBoundary<dim>::take_over(const std::vector<CarriedPlace<dim>> &from)
   {
-    point.multiplier_at_start   = from.multiplier;
-    point.accumulated_violation = from.violation;
-    if (constraint.kind == Constraint<dim>::roller)
+    const Tensor<2, dim> R = at_start.pose().rotation();
+    const Tensor<2, dim> from_frame =
+      constraint.kind == Constraint<dim>::roller ?
+        R :
+        Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        const Tensor<2, dim> R      = at_start.pose().rotation();
-        point.multiplier_at_start   = R * from.multiplier;
-        point.accumulated_violation = R * from.violation;
+        BoundaryPoint<dim> &point   = boundary_points[q];
+        point.multiplier_at_start   = from_frame * from[q].multiplier;
+        point.accumulated_violation = from_frame * from[q].violation;
       }
+    for (BoundarySlope<dim> &slope : held_slopes.all)
+      slope.traction_at_start =
+        from_frame * from[slope.point].slope * (transpose(R) * slope.offset);
   }
 
 
@@ -157,6 +174,7 @@ namespace moraine
     std::vector<CarriedPlace<dim>> places;
     for (const auto &point : boundary_points)
       places.push_back({Tensor<1, dim>(at_start.pose().inverse(point.x)),
+                        {},
                         {},
                         {},
                         point.JxW,
@@ -245,14 +263,17 @@ namespace moraine
         for (unsigned int k = 0; k < old_places.size(); ++k)
           nearest_to[new_places[nearest_new[k]].id].push_back(k);
       }
+    std::vector<CarriedPlace<dim>> of_points;
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        const auto found = nearest_to.find(of_this_rank[q].id);
-        take_over(found == nearest_to.end() ?
-                    old_places[nearest_old[q]] :
-                    mean_of(found->second, old_places),
-                  boundary_points[q]);
+        const auto               found   = nearest_to.find(of_this_rank[q].id);
+        const CarriedPlace<dim> &nearest = old_places[nearest_old[q]];
+        of_points.push_back(found == nearest_to.end() ?
+                              nearest :
+                              mean_of(found->second, old_places));
+        of_points.back().slope = nearest.slope;
       }
+    take_over(of_points);
   }
 
 
@@ -293,6 +314,22 @@ namespace moraine
     for (auto &point : boundary_points)
       point.multiplier =
         takes ? turn * point.multiplier_at_start : Tensor<1, dim>();
+    for (auto &slope : held_slopes.all)
+      slope.traction = turn * slope.traction_at_start;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  ImplicitBoundary<dim>::increment_at(const Point<dim>     &x,
+                                      const Placement<dim> &start,
+                                      const Placement<dim> &end,
+                                      const double          t_end) const
+  {
+    const Point<dim> X = at_start.pose().inverse(x);
+    return (end.map(X) - start.map(X)) + displacement(x, t_end) -
+           displacement(x, t_start);
   }
 
 
@@ -304,11 +341,13 @@ namespace moraine
     const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);
     at_end.set_pose(kind.moves_with_points ? end : at_start.pose());
     for (auto &point : boundary_points)
+      point.prescribed = increment_at(point.x, start, end, t_end);
+    for (auto &slope : held_slopes.all)
       {
-        const Point<dim> X = at_start.pose().inverse(point.x);
-        point.prescribed   = (end.map(X) - start.map(X)) +
-                           displacement(point.x, t_end) -
-                           displacement(point.x, t_start);
+        const Point<dim> &x = boundary_points[slope.point].x;
+        slope.prescribed =
+          0.5 * (increment_at(x + slope.offset, start, end, t_end) -
+                 increment_at(x - slope.offset, start, end, t_end));
       }
   }
 
@@ -428,7 +467,8 @@ namespace moraine
   template <int dim>
   void
   ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
-                                 const std::vector<Tensor<1, dim>> &violations)
+                                 const std::vector<Tensor<1, dim>> &violations,
+                                 const std::vector<Tensor<1, dim>> &of_slopes)
   {
     const Placement<dim> &pose = at_start.pose();
     const Tensor<2, dim>  into_frame =
@@ -451,8 +491,17 @@ namespace moraine
         prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
                        into_frame * multiplier,
                        into_frame * violation,
+                       {},
                        point.JxW,
                        {{point.cell, point.number}}};
+      }
+    for (unsigned int k = 0; k < of_slopes.size(); ++k)
+      {
+        const BoundarySlope<dim> &slope = held_slopes.all[k];
+        prepared[slope.point].slope +=
+          outer_product(into_frame * of_slopes[k],
+                        transpose(pose.rotation()) * slope.offset) /
+          slope.offset.norm_square();
       }
   }
 
@@ -472,7 +521,7 @@ namespace moraine
   void
   ImplicitBoundary<dim>::write(Archive &archive) const
   {
-    std::vector<double>       places, multipliers, violations, areas;
+    std::vector<double>       places, multipliers, violations, slopes, areas;
     std::vector<unsigned int> ids;
     for (const CarriedPlace<dim> &of : carried)
       {
@@ -481,17 +530,20 @@ namespace moraine
             places.push_back(of.place[d]);
             multipliers.push_back(of.multiplier[d]);
             violations.push_back(of.violation[d]);
+            for (unsigned int e = 0; e < dim; ++e)
+              slopes.push_back(of.slope[d][e]);
           }
         areas.push_back(of.area);
         ids.insert(ids.end(), of.id.begin(), of.id.end());
       }
     const std::string group = "boundaries/" + boundary_name;
-    archive.write(group + "/is_placed", placed ? 1u : 0u);
-    archive.write(group + "/t_placed", t_placed, "time");
+    archive.write(group + "/is_placed", placed_at ? 1u : 0u);
+    archive.write(group + "/t_placed", placed_at.value_or(0.), "time");
     archive.distribute(group + "/carried", ids, 2);
     archive.write(group + "/carried/place", places, dim, "length");
     archive.write(group + "/carried/multiplier", multipliers, dim, "stress");
     archive.write(group + "/carried/violation", violations, dim, "length");
+    archive.write(group + "/carried/slope", slopes, dim * dim, "stress/length");
     archive.write(group + "/carried/area",
                   areas,
                   1,
@@ -505,16 +557,16 @@ namespace moraine
   ImplicitBoundary<dim>::read(const Archive &archive)
   {
     const std::string group = "boundaries/" + boundary_name;
-    placed                  = archive.integer(group + "/is_placed") != 0;
-    t_placed                = archive.number(group + "/t_placed");
-    if (placed)
-      at_start.set_pose(motion.pose(t_placed));
+    placed_at.reset();
+    if (archive.integer(group + "/is_placed") != 0)
+      place_at(archive.number(group + "/t_placed"));
     const auto &ids    = archive.integers(group + "/carried/id", 2);
     const auto &places = archive.numbers(group + "/carried/place", dim);
     const auto &multipliers =
       archive.numbers(group + "/carried/multiplier", dim);
     const auto &violations = archive.numbers(group + "/carried/violation", dim);
-    const auto &areas      = archive.numbers(group + "/carried/area", 1);
+    const auto &slopes = archive.numbers(group + "/carried/slope", dim * dim);
+    const auto &areas  = archive.numbers(group + "/carried/area", 1);
     carried.resize(ids.size() / 2);
     for (unsigned int k = 0; k < carried.size(); ++k)
       {
@@ -523,6 +575,8 @@ namespace moraine
             carried[k].place[d]      = places[dim * k + d];
             carried[k].multiplier[d] = multipliers[dim * k + d];
             carried[k].violation[d]  = violations[dim * k + d];
+            for (unsigned int e = 0; e < dim; ++e)
+              carried[k].slope[d][e] = slopes[dim * (dim * k + d) + e];
           }
         carried[k].area = areas[k];
         carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};

@@ -430,7 +430,9 @@ namespace moraine
       "functions of the nearest cell that they fill more of, so that small "
       "cuts are not felt (aggregation). 0: they are free. With more, at most "
       "0.5, bodies that bend far need fewer iterations; coarse meshes get "
-      "less exact.",
+      "less exact. If not 0 it is at least 0.5 in the cells that multipliers of "
+      "implicit boundaries hold the means of, and in those that touch them, "
+      "where points move through cells at finite strain.",
       Patterns::Double(0., 1.));
     prm.add_parameter(
       "Cut cells",

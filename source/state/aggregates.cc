@@ -20,6 +20,9 @@ namespace moraine
      * about one and a half cells thick or more. */
     constexpr double fill_of_bulk = 0.75;
 
+    /** Where means of a surface are held. */
+    constexpr double fill_of_held = 0.5;
+
     /** Of the threshold, away from the bulk: a thin part that follows cells
      * filled little better than its others would not bend. */
     constexpr double share_in_thin_part = 0.2;
@@ -155,9 +158,10 @@ namespace moraine
     GridSpace<dim>                                  &space,
     const PointSet<dim>                             &points,
     const std::function<double(const unsigned int)> &volume,
-    std::vector<unsigned char>                       active)
+    std::vector<unsigned char>                       active,
+    const AskOfCell                                 &holds_mean_in)
   {
-    find_parts(space, points, volume);
+    find_parts(space, points, volume, holds_mean_in);
     const std::vector<Tie> ties_before  = std::move(tied);
     const RootsOfCells     roots_before = std::move(roots);
     group_cells(space);
@@ -188,7 +192,8 @@ namespace moraine
   Aggregates<dim>::find_parts(
     const GridSpace<dim>                            &space,
     const PointSet<dim>                             &points,
-    const std::function<double(const unsigned int)> &volume)
+    const std::function<double(const unsigned int)> &volume,
+    const AskOfCell                                 &holds_mean_in)
   {
     const auto         &tria = space.mesh().triangulation();
     std::vector<double> filled(tria.n_active_cells(), 0.);
@@ -214,6 +219,9 @@ namespace moraine
           // digit.
           const unsigned int c    = cell->active_cell_index();
           const double       part = (1 + 1e-9) * filled[c];
+          if (holds_mean_in && fill[c] > 0 && part >= fill[c] &&
+              part < fill_of_held && holds_mean_in(cell))
+            fill[c] = fill_of_held;
           parts[c] =
             part >= fill[c] ||
                 part >= threshold_of(space, cell, filled, in_bulk, fill[c]) ?

@@ -167,7 +167,8 @@ namespace moraine
 
   template <int dim>
   bool
-  State<dim>::begin_step()
+  State<dim>::begin_step(
+    const typename Aggregates<dim>::AskOfCell &holds_mean_in)
   {
     bool       changed = false;
     const bool moved   = first_step || after_step != MeshAfterStep::keep;
@@ -178,7 +179,7 @@ namespace moraine
         basis.mark_cells(active);
         changed = space.set_active_cells(active);
         if (cell_aggregates)
-          changed = tie_nodes(std::move(active)) || changed;
+          changed = tie_nodes(std::move(active), holds_mean_in) || changed;
         changed    = basis.batch_points() || changed;
         first_step = false;
         if (fitted_weights)
@@ -200,14 +201,17 @@ namespace moraine
 
   template <int dim>
   bool
-  State<dim>::tie_nodes(std::vector<unsigned char> active)
+  State<dim>::tie_nodes(
+    std::vector<unsigned char>                 active,
+    const typename Aggregates<dim>::AskOfCell &holds_mean_in)
   {
     // Where cells go with their points, they are filled as at the start.
     const auto volume = [this](const unsigned int p) {
       return after_step == MeshAfterStep::reset ? points.volume(p) :
                                                   initial_volume(p);
     };
-    return cell_aggregates->tie_nodes(space, points, volume, std::move(active));
+    return cell_aggregates->tie_nodes(
+      space, points, volume, std::move(active), holds_mean_in);
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/aggregation.h>
+#include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/assembly/rayleigh_damping.h>
 #include <moraine/basis/cpdi1_basis.h>
@@ -561,6 +562,44 @@ namespace
     EXPECT_GT(range, 1.);
     EXPECT_GT(Utilities::MPI::max(n_largest, MPI_COMM_WORLD), 1u);
   }
+
+  TEST(BoundarySlopes, TangentIsTheDerivativeOfTheForces)
+  {
+    for (const Method method : {Method::material_point, Method::cpdi2})
+      {
+        Box<2>                box(method, /* plastic = */ false);
+        EnforcementParameters parameters;
+        parameters.enforcement = "augmented Lagrangian";
+        parameters.band_width  = 0.1;
+        box.boundaries.emplace_back(
+          "line",
+          make_flat_face<2>(std::vector<Point<2>>{{0.3, -0.1}, {0.9, 2.6}}),
+          RigidMotion<2>(),
+          [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+          Constraint<2>{Constraint<2>::roller, {}},
+          parameters.enforcement_of(),
+          0.);
+        const ImplicitBoundary<2> &line = box.boundaries.front();
+        box.system->add(
+          std::make_unique<BoundaryTerm<2>>(box.boundaries.front()));
+        box.state->points_changed();
+        box.begin_step(0);
+        EXPECT_GT(Utilities::MPI::sum<unsigned int>(line.slopes().size(),
+                                                    MPI_COMM_WORLD),
+                  1u);
+        check_tangent(box);
+        EXPECT_TRUE(box.system->symmetric());
+        // With what it carries.
+        box.deform();
+        double carried = 0;
+        for (const BoundarySlope<2> &slope : line.slopes())
+          carried = std::max(carried, slope.traction.norm());
+        EXPECT_GT(Utilities::MPI::max(carried, MPI_COMM_WORLD), 1.);
+        check_tangent(box);
+      }
+  }
+
+
 
   TEST(CellMeans, OneMeanForACutCellAndTheFilledOneNearest)
   {

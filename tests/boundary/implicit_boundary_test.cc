@@ -178,6 +178,175 @@ TEST(ImplicitBoundary, AStepThatIsNotKeptLeavesNoTrace)
 
 
 
+namespace
+{
+  /** A plane through a body, at an angle to its cells, that turns. */
+  template <int dim>
+  struct TurningPlane
+  {
+    TurningPlane()
+      : scene(false, 2, StrainMeasure::finite)
+      , state(scene.space,
+              scene.points,
+              *scene.basis,
+              {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+              MeshAfterStep::reset,
+              StrainMeasure::finite)
+      , motion({}, angle, middle())
+      , plane(make(motion))
+    {
+      state.begin_step();
+    }
+
+    static Point<dim>
+    middle()
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = 2;
+      return x;
+    }
+
+    static ImplicitBoundary<dim>
+    make(const RigidMotion<dim> &motion)
+    {
+      EnforcementParameters parameters;
+      parameters.enforcement     = "augmented Lagrangian";
+      const double            dy = 0.4, dz = dim == 3 ? 0.2 : 0;
+      std::vector<Point<dim>> corners;
+      for (const auto &[y, z] : {std::array<double, 2>{{-1, -1}},
+                                 std::array<double, 2>{{1, -1}},
+                                 std::array<double, 2>{{1, 1}},
+                                 std::array<double, 2>{{-1, 1}}})
+        if (dim == 3 || z < 0)
+          {
+            Point<dim> x = middle();
+            x[0] += dy * y + dz * z;
+            x[1] += y;
+            if (dim == 3)
+              x[dim - 1] += z;
+            corners.push_back(x);
+          }
+      return ImplicitBoundary<dim>(
+        "plane",
+        make_flat_face<dim>(corners),
+        motion,
+        [](const Point<dim> &, const double) { return Tensor<1, dim>(); },
+        {Constraint<dim>::fixed, {}},
+        parameters.enforcement_of(),
+        0.);
+    }
+
+    void
+    begin_step(ImplicitBoundary<dim> &of,
+               const double           t,
+               const bool             through_cells = true)
+    {
+      of.begin_step(scene.space,
+                    t,
+                    0.5,
+                    true,
+                    StrainMeasure::finite,
+                    true,
+                    false,
+                    {},
+                    through_cells);
+    }
+
+    unsigned int
+    n_slopes() const
+    {
+      return Utilities::MPI::sum<unsigned int>(plane.slopes().size(),
+                                               MPI_COMM_WORLD);
+    }
+
+    SmallScene<dim>       scene;
+    State<dim>            state;
+    RigidMotion<dim>      motion;
+    ImplicitBoundary<dim> plane;
+  };
+
+
+
+  template <int dim>
+  void
+  check_slopes()
+  {
+    TurningPlane<dim> turning;
+    auto             &plane = turning.plane;
+    turning.begin_step(plane, 0, false);
+    EXPECT_EQ(turning.n_slopes(), 0u);
+    turning.begin_step(plane, 0);
+    EXPECT_GT(turning.n_slopes(), 1u);
+    plane.set_target(1);
+    const Tensor<2, dim> turn_0_1 = turning.motion.pose(1).rotation();
+    const Tensor<2, dim> turn_1_3 =
+      turning.motion.pose(3).rotation() * transpose(turn_0_1);
+
+    // Tractions that are linear along all of the plane.
+    Tensor<2, dim> gradient;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        gradient[i][j] = 1 + i - 0.3 * j;
+    std::vector<Tensor<1, dim>> tractions;
+    for (unsigned int k = 0; k < plane.slopes().size(); ++k)
+      {
+        const BoundarySlope<dim> &slope = plane.slopes()[k];
+        const BoundaryPoint<dim> &point = plane.points()[slope.point];
+        Tensor<1, dim>            of_places;
+        double                    of_one = 0;
+        for (unsigned int a = 0; a < turning.scene.space.nodes_per_cell(); ++a)
+          {
+            const unsigned int node =
+              turning.scene.space.cell_nodes(point.cell)[a];
+            of_one += plane.slope_of_N(k)[a];
+            of_places += plane.slope_of_N(k)[a] *
+                         (turning.scene.space.node_position(node) - point.x);
+          }
+        EXPECT_NEAR(of_one, 0, 1e-13);
+        EXPECT_LT((of_places - slope.offset).norm(), 1e-13);
+        EXPECT_NEAR(slope.offset * point.normal, 0, 1e-13);
+        EXPECT_LT(
+          (slope.prescribed - (turn_0_1 * slope.offset - slope.offset)).norm(),
+          1e-13);
+        EXPECT_EQ(slope.traction.norm(), 0.);
+        tractions.push_back(gradient * slope.offset);
+      }
+    const std::vector<Tensor<1, dim>> none(plane.points().size());
+    plane.prepare(none, none, tractions);
+    plane.keep();
+    Archive written;
+    plane.write(written);
+
+    ImplicitBoundary<dim> resumed = TurningPlane<dim>::make(turning.motion);
+    resumed.read(written.gathered(MPI_COMM_WORLD).scattered(MPI_COMM_WORLD));
+    for (ImplicitBoundary<dim> *next : {&plane, &resumed})
+      {
+        turning.begin_step(*next, 1);
+        next->set_target(3);
+        EXPECT_GT(turning.n_slopes(), 1u);
+        EXPECT_EQ(next->slopes().size(), plane.slopes().size());
+        for (const BoundarySlope<dim> &slope : next->slopes())
+          {
+            const Tensor<1, dim> at_start =
+              gradient * (transpose(turn_0_1) * slope.offset);
+            EXPECT_LT((slope.traction_at_start - at_start).norm(), 1e-13);
+            EXPECT_LT((slope.traction - turn_1_3 * at_start).norm(), 1e-13);
+          }
+      }
+  }
+} // namespace
+
+
+
+TEST(ImplicitBoundary, SlopesHoldWhatVariesAlongAPieceAndGoWithTheSurface)
+{
+  check_slopes<2>();
+  check_slopes<3>();
+}
+
+
+
 TEST(ImplicitBoundary, DepthsAreThoseOfTheMaterialWithinTheCellAndATenthOfIt)
 {
   SmallScene<2> scene;

@@ -45,13 +45,15 @@ namespace
     }
 
     bool
-    tie(const std::vector<unsigned char> &active)
+    tie(const std::vector<unsigned char>          &active,
+        const typename Aggregates<dim>::AskOfCell &holds_mean_in = {})
     {
       return aggregates.tie_nodes(
         this->space,
         this->points,
         [this](const unsigned int p) { return this->points.volume(p); },
-        active);
+        active,
+        holds_mean_in);
     }
 
     /** Which part of the cell with this lower corner the body fills. */
@@ -106,6 +108,32 @@ namespace
   {
     tied_are_the_nodes_without_a_filled_cell<2>();
     tied_are_the_nodes_without_a_filled_cell<3>();
+  }
+
+
+
+  TEST(Aggregates, HalfOfACellInWhichMeansAreHeldHasToBeFilled)
+  {
+    // 0.4 of the last column of cells, 0.7 of the first, is filled.
+    const auto ties_with = [](const double                    fill,
+                              const Aggregates<2>::AskOfCell &holds_mean_in) {
+      TiedScene<2> scene(fill);
+      scene.tie(cells_of_points(scene.points, scene.mesh), holds_mean_in);
+      return scene.aggregates.ties();
+    };
+    const auto on_the_right = [](const auto &cell) {
+      return cell->center()[0] > 3 && cell->center()[1] < 3;
+    };
+    const auto n = [](const std::vector<Aggregates<2>::Tie> &ties) {
+      return Utilities::MPI::sum<unsigned int>(ties.size(), MPI_COMM_WORLD);
+    };
+    EXPECT_EQ(n(ties_with(0.1, {})), 0u);
+    EXPECT_GT(n(ties_with(0.1, on_the_right)), 2u);
+    EXPECT_EQ(n(ties_with(0., on_the_right)), 0u);
+    EXPECT_EQ(ties_with(0.8, on_the_right), ties_with(0.8, {}));
+    // The corner above is not asked for.
+    for (const auto &tie : ties_with(0.1, on_the_right))
+      EXPECT_FALSE(tie.nodes.empty());
   }
 
 

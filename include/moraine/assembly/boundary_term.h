@@ -50,6 +50,10 @@ namespace moraine
     }
 
     bool
+    holds_mean_in(const StepContext<dim>                      &context,
+                  const typename GridSpace<dim>::CellIterator &cell) override;
+
+    bool
     begin_step(const StepContext<dim> &context) override;
 
     void
@@ -135,6 +139,29 @@ namespace moraine
     }
 
   private:
+    /** Add what BoundarySlope says. */
+    void
+    add_slopes(const StepContext<dim> &context,
+               const bool              tangent,
+               GlobalSystem<dim>      &system) const;
+
+    /** Of a piece whose mean @p point is, by the shear modulus alone: with the
+     * other one, of material that keeps its volume, every place would be held.
+     */
+    dealii::SymmetricTensor<2, dim>
+    slope_stiffness(const StepContext<dim>   &context,
+                    const BoundaryPoint<dim> &point) const;
+
+    /** What slope @p k of the trial increment misses of the prescribed one, all
+     * components of it. */
+    dealii::Tensor<1, dim>
+    slope_violation(const StepContext<dim> &context,
+                    const unsigned int      k) const;
+
+    /** On the body, of slope @p k in the trial state. */
+    dealii::Tensor<1, dim>
+    slope_traction(const StepContext<dim> &context, const unsigned int k) const;
+
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,

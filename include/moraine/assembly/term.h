@@ -56,6 +56,16 @@ namespace moraine
       return "";
     }
 
+    /** Before cells are found: whether it holds means over pieces of a surface
+     * in @p cell, through which points move; see State::begin_step(). The same
+     * on all ranks. */
+    virtual bool
+    holds_mean_in(const StepContext<dim> &,
+                  const typename GridSpace<dim>::CellIterator &)
+    {
+      return false;
+    }
+
     /**
      * Find cells, pieces, nodes at the start of a step, from committed values.
      * @return whether couplings or constraints of this rank are new.

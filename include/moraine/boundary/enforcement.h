@@ -87,7 +87,11 @@ namespace moraine
     /** By @f$\lambda@f$ times this the mean of what is missed along the normal
      * on the piece of the surface in a cell is held [1/length]. */
     double mean_factor = 0;
-    Held   held        = Held::automatic;
+    /** The shear modulus times this, over h, holds how displacements vary along
+     * a piece that is held by its mean, where points move through cells
+     * (BoundarySlope): @f$\gamma@f$. */
+    double slope_factor = 0;
+    Held   held         = Held::automatic;
   };
 
   /**

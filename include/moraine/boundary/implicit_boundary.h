@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,23 @@ namespace moraine
     dealii::Point<dim> place;
   };
 
+  /**
+   * How displacements and tractions vary along the piece of a flat surface that
+   * is held by its mean, as the function @f$\psi = s^{-1}\, e \cdot (x - \bar
+   * x)@f$ with @f$\int_{\Gamma_c} \psi^2 = |\Gamma_c|@f$; e is a principal
+   * axis of the piece and s the root of the mean square of distances along it.
+   * Of a field f it is @f$|\Gamma_c|^{-1} \int_{\Gamma_c} \psi f@f$.
+   */
+  template <int dim>
+  struct BoundarySlope
+  {
+    unsigned int           point;      ///< whose mean is held
+    dealii::Tensor<1, dim> offset;     ///< @f$s\, e@f$ at the start of the step
+    dealii::Tensor<1, dim> prescribed; ///< of @f$\Delta g@f$
+    dealii::Tensor<1, dim> traction;   ///< carried, in the trial state
+    dealii::Tensor<1, dim> traction_at_start; ///< of the step
+  };
+
   /** What a place of a surface carries from step to step. */
   template <int dim>
   struct CarriedPlace
@@ -95,6 +113,9 @@ namespace moraine
     /** Multiplier and accumulated violation; a roller's in that frame too. */
     dealii::Tensor<1, dim> multiplier;
     dealii::Tensor<1, dim> violation;
+    /** How the traction of the piece varies along it [stress/length]: a row for
+     * each of its components, columns in the surface's own frame. */
+    dealii::Tensor<2, dim> slope;
     double                 area = 0; ///< of the surface that it stands for
     /** Cell and number of the point it was: names that ranks share. */
     std::array<unsigned int, 2> id;
@@ -103,7 +124,7 @@ namespace moraine
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &place &multiplier &violation &area &id;
+      archive &place &multiplier &violation &slope &area &id;
     }
   };
 
@@ -117,6 +138,9 @@ namespace moraine
    *
    * What it carries is written by keep() alone; points and their values are
    * derived from that by begin_step() and set_target().
+   *
+   * What turns in a cell about a mean is not held by it. Where material comes
+   * through the cells, that adds up; there slopes() are held too, by a penalty.
    *
    * A piece in a cell without unknowns that lies within @p search_tolerance of
    * an active cell belongs to the nearest one and sees its functions continued
@@ -159,7 +183,8 @@ namespace moraine
      * stands still.
      *
      * @p in_motion says that it is dynamics by forces of this step alone; see
-     * Enforcement::holds_means().
+     * Enforcement::holds_means(). @p through_cells says that points move
+     * through the cells.
      *
      * Where @p covers finds no body behind a part of the surface in a cell,
      * that part is left out.
@@ -171,8 +196,16 @@ namespace moraine
                const bool                              moves_points,
                const StrainMeasure                     measure,
                const bool                              cells_changed,
-               const bool                              in_motion = false,
-               const typename BodyBehind<dim>::Covers &covers    = {});
+               const bool                              in_motion     = false,
+               const typename BodyBehind<dim>::Covers &covers        = {},
+               const bool                              through_cells = false);
+
+    /** Whether means over pieces are held by multipliers in @p cell at time
+     * @p t, where the surface is by then. */
+    bool
+    holds_mean_in(const GridSpace<dim>                        &space,
+                  const typename GridSpace<dim>::CellIterator &cell,
+                  const double                                 t);
 
     /**
      * Let the factor of Nitsche's method act over @p share of the depth of the
@@ -224,15 +257,31 @@ namespace moraine
     hold_in_cells(
       const std::function<bool(const unsigned int active_cell_index)> &holds);
 
+    /** Those that are held: of flat pieces at an angle to the faces of their
+     * cell that points move through, by multipliers. */
+    const std::vector<BoundarySlope<dim>> &
+    slopes() const
+    {
+      return held_slopes.all;
+    }
+
+    /** Of the functions of the nodes of its cell, what slope @p k has. */
+    const double *
+    slope_of_N(const unsigned int k) const
+    {
+      return &held_slopes.values[k * shapes.n_nodes];
+    }
+
     /** Take these multipliers until the next set_target(). */
     void
     set_multipliers(const std::vector<dealii::Tensor<1, dim>> &multipliers);
 
     /** Find what the surface will carry with the tractions and violations of
-     * the trial state. */
+     * the trial state, and the tractions of slopes(). */
     void
     prepare(const std::vector<dealii::Tensor<1, dim>> &tractions,
-            const std::vector<dealii::Tensor<1, dim>> &violations);
+            const std::vector<dealii::Tensor<1, dim>> &violations,
+            const std::vector<dealii::Tensor<1, dim>> &of_slopes = {});
 
     /** Carry what was prepared. */
     void
@@ -388,6 +437,7 @@ namespace moraine
       bool projects          = false; ///< points onto a curved roller
       bool turns_multiplier  = false;
       bool holds_means       = false; ///< of the pieces in cells
+      bool holds_slopes      = false; ///< of flat pieces too
     };
 
     /** Whether there are pieces, and how often they were found. */
@@ -404,6 +454,23 @@ namespace moraine
       std::vector<double>                 values;
       std::vector<dealii::Tensor<1, dim>> gradients;
     };
+
+    struct Slopes
+    {
+      std::vector<BoundarySlope<dim>> all;
+      std::vector<double>             values; ///< of functions, as of Shapes
+    };
+
+    /** Be where the surface is at @p t. */
+    void
+    place_at(const double t);
+
+    /** The increment it prescribes at @p x from one pose to the other. */
+    dealii::Tensor<1, dim>
+    increment_at(const dealii::Point<dim> &x,
+                 const Placement<dim>     &start,
+                 const Placement<dim>     &end,
+                 const double              t_end) const;
 
     void
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);
@@ -434,6 +501,12 @@ namespace moraine
     void
     take_means(const GridSpace<dim> &space);
 
+    /** Find the slopes of @p means, of which the present point q is part of
+     * mean @p mean_of[q]. */
+    void
+    find_slopes(const std::vector<BoundaryPoint<dim>> &means,
+                const std::vector<unsigned int>       &mean_of);
+
     void
     number_points();
 
@@ -445,10 +518,9 @@ namespace moraine
     void
     find_levels(const MPI_Comm &communicator);
 
-    /** Give @p point what @p carried says. */
+    /** Give each point and its slopes what @p carried says. */
     void
-    take_over(const CarriedPlace<dim> &carried,
-              BoundaryPoint<dim>      &point) const;
+    take_over(const std::vector<CarriedPlace<dim>> &carried);
 
     /** Where the points of this rank are, in the surface's own frame. */
     std::vector<CarriedPlace<dim>>
@@ -463,26 +535,26 @@ namespace moraine
     void
     take_over_nearest(const MPI_Comm &communicator);
 
-    const std::string               boundary_name;
-    MovedSurface<dim>               at_start;
-    MovedSurface<dim>               at_end;
-    const RigidMotion<dim>          motion;
-    const Displacement              displacement;
-    const Constraint<dim>           constraint;
-    const Enforcement               how;
-    const double                    limit;
-    double                          t_start  = 0;
-    double                          t_placed = 0;
-    bool                            placed   = false;
-    Search                          search;
-    Kind                            kind;
-    double                          largest_coordinate = 0; ///< of points
-    BodyBehind<dim>                 body;
-    std::vector<CarriedPlace<dim>>  carried;
-    std::vector<CarriedPlace<dim>>  prepared;
-    bool                            kept_at_points = false;
+    const std::string              boundary_name;
+    MovedSurface<dim>              at_start;
+    MovedSurface<dim>              at_end;
+    const RigidMotion<dim>         motion;
+    const Displacement             displacement;
+    const Constraint<dim>          constraint;
+    const Enforcement              how;
+    const double                   limit;
+    double                         t_start = 0;
+    std::optional<double>          placed_at; ///< a time; none before the first
+    Search                         search;
+    Kind                           kind;
+    double                         largest_coordinate = 0; ///< of points
+    BodyBehind<dim>                body;
+    std::vector<CarriedPlace<dim>> carried;
+    std::vector<CarriedPlace<dim>> prepared;
+    bool                           kept_at_points = false;
     std::vector<BoundaryPoint<dim>> boundary_points;
     Shapes                          shapes;
+    Slopes                          held_slopes;
   };
 } // namespace moraine
 

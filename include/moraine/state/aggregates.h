@@ -66,6 +66,10 @@ namespace moraine
       }
     };
 
+    /** The same on all ranks. */
+    using AskOfCell =
+      std::function<bool(const typename GridSpace<dim>::CellIterator &)>;
+
     /** @p fill_of_bodies, 0 <= fill <= 1, has for each body which part of a
      * cell has to be filled for its nodes to be free: the least one of the
      * bodies in it; roots_of_cells() may be asked for if @p group_cells. */
@@ -74,7 +78,10 @@ namespace moraine
 
     /**
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
-     * cell that holds it. If cells are grouped, those that have a root in
+     * cell that holds it. A surface that holds means over its pieces may tear
+     * off material that fills less than half a cell as that moves on, so where
+     * it @p holds_mean_in a cell half of it has to be filled, at least, if it
+     * has to be filled at all. If cells are grouped, those that have a root in
      * common with one of @p active, its own cells, or one that it owns are
      * asked for beside these; so are the roots of all nodes this rank knows
      * then.
@@ -84,7 +91,8 @@ namespace moraine
     tie_nodes(GridSpace<dim>                                  &space,
               const PointSet<dim>                             &points,
               const std::function<double(const unsigned int)> &volume,
-              std::vector<unsigned char>                       active);
+              std::vector<unsigned char>                       active,
+              const AskOfCell &holds_mean_in = {});
 
     /** Of all nodes this rank knows, in their order. */
     const std::vector<Tie> &
@@ -133,7 +141,8 @@ namespace moraine
     void
     find_parts(const GridSpace<dim>                            &space,
                const PointSet<dim>                             &points,
-               const std::function<double(const unsigned int)> &volume);
+               const std::function<double(const unsigned int)> &volume,
+               const AskOfCell                                 &holds_mean_in);
 
     void
     find_ties(const GridSpace<dim> &space);

@@ -94,10 +94,11 @@ namespace moraine
 
     /**
      * Bring cells, unknowns and batches up to date with the points.
+     * @param holds_mean_in see Aggregates::tie_nodes()
      * @return whether the coupling of unknowns changed. Collective.
      */
     bool
-    begin_step();
+    begin_step(const typename Aggregates<dim>::AskOfCell &holds_mean_in = {});
 
     /**
      * Before the first step: give point @p p the @p stress and the elastic
@@ -326,7 +327,8 @@ namespace moraine
   private:
     /** Tie the nodes of cut cells; @p active are the cells of this rank. */
     bool
-    tie_nodes(std::vector<unsigned char> active);
+    tie_nodes(std::vector<unsigned char>                 active,
+              const typename Aggregates<dim>::AskOfCell &holds_mean_in);
 
     /** The volume with which the i-th point of a block counts in the mean over
      * its cell. */
