@@ -70,6 +70,16 @@ namespace moraine
 
 
 
+    /** Whether it is dynamics by forces of a step alone. */
+    template <int dim>
+    bool
+    is_in_motion(const StepContext<dim> &context)
+    {
+      return context.motion && context.motion->integrator().start_forces() == 0;
+    }
+
+
+
     /** Whether points go far enough to come through cells. */
     template <int dim>
     bool
@@ -77,6 +87,22 @@ namespace moraine
     {
       return state.mesh_after_step() == MeshAfterStep::reset &&
              state.strain_measure() == StrainMeasure::finite;
+    }
+
+
+
+    /** See Term::holds_mean_in(). */
+    template <int dim>
+    bool
+    holds_mean_in(const StepContext<dim>                      &context,
+                  ImplicitBoundary<dim>                       &boundary,
+                  const typename GridSpace<dim>::CellIterator &cell)
+    {
+      return points_pass_cells(context.state) &&
+             boundary.holds_mean_in(context.state.grid(),
+                                    cell,
+                                    context.t_start,
+                                    is_in_motion(context));
     }
 
 
@@ -129,8 +155,7 @@ namespace moraine
     const StepContext<dim>                      &context,
     const typename GridSpace<dim>::CellIterator &cell)
   {
-    return points_pass_cells(context.state) &&
-           boundary.holds_mean_in(context.state.grid(), cell, context.t_start);
+    return moraine::holds_mean_in(context, boundary, cell);
   }
 
 
@@ -151,8 +176,7 @@ namespace moraine
                         moves_points,
                         context.state.strain_measure(),
                         context.cells_moved,
-                        context.motion != nullptr &&
-                          context.motion->integrator().start_forces() == 0,
+                        is_in_motion(context),
                         covers,
                         points_pass_cells(context.state));
     // A form that is not definite feeds what one step leaves to the next: in
@@ -554,25 +578,42 @@ namespace moraine
                                  states[q].M,
                                  point.JxW});
       }
-    std::vector<Tensor<1, dim>> of_slopes;
-    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
-      {
-        const auto       &slope = boundary.slopes()[k];
-        const double      JxW   = boundary.points()[slope.point].JxW;
-        const Point<dim> &place = states[slope.point].place;
-        // Where both moved to, as the place.
-        const Tensor<1, dim> arm =
-          slope.offset + slope.prescribed + slope_violation(context, k);
-        of_slopes.push_back(slope_traction(context, k));
-        const Tensor<1, dim> force = JxW * of_slopes.back();
-        prepared.work_of_motion += force * slope.prescribed;
-        prepared.moment +=
-          boundary.rigid_motion().moment(place + arm, force, context.t_end) -
-          boundary.rigid_motion().moment(place, force, context.t_end);
-      }
+    const auto of_slopes = prepare_slopes(context, states);
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
     boundary.prepare(tractions, violations, of_slopes);
+  }
+
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  BoundaryTerm<dim>::prepare_slopes(
+    const StepContext<dim>                  &context,
+    const std::vector<ConstraintState<dim>> &states)
+  {
+    const double share_of_move =
+      context.motion && context.motion->integrator().forces_in_the_middle() ?
+        0.5 :
+        1.;
+    const RigidMotion<dim>     &motion = boundary.rigid_motion();
+    std::vector<Tensor<1, dim>> tractions;
+    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+      {
+        const BoundarySlope<dim> &slope = boundary.slopes()[k];
+        const Point<dim>         &place = states[slope.point].place;
+        // Where it moved to, as the place.
+        const Tensor<1, dim> arm =
+          slope.offset +
+          share_of_move * (slope.prescribed + slope_violation(context, k));
+        tractions.push_back(slope_traction(context, k));
+        const Tensor<1, dim> force =
+          boundary.points()[slope.point].JxW * tractions.back();
+        prepared.work_of_motion += force * slope.prescribed;
+        prepared.moment += motion.moment(place + arm, force, context.t_end) -
+                           motion.moment(place, force, context.t_end);
+      }
+    return tractions;
   }
 
 
@@ -597,6 +638,27 @@ namespace moraine
 
 
 
+  template <int dim>
+  ReleasedBoundaryTerm<dim>::ReleasedBoundaryTerm(
+    ImplicitBoundary<dim> &boundary)
+    : boundary(boundary)
+  {}
+
+
+
+  template <int dim>
+  bool
+  ReleasedBoundaryTerm<dim>::holds_mean_in(
+    const StepContext<dim>                      &context,
+    const typename GridSpace<dim>::CellIterator &cell)
+  {
+    return moraine::holds_mean_in(context, boundary, cell);
+  }
+
+
+
   template class BoundaryTerm<2>;
   template class BoundaryTerm<3>;
+  template class ReleasedBoundaryTerm<2>;
+  template class ReleasedBoundaryTerm<3>;
 } // namespace moraine

@@ -38,8 +38,8 @@ namespace moraine
 
 
 
-    /** A cell as large as with those that touch it. */
-    constexpr double with_neighbours = 3;
+    /** How far normals of one plane are apart at most. */
+    constexpr double same_normal = 1e-6;
 
 
 
@@ -271,11 +271,18 @@ namespace moraine
         spreads[mean_of[q]] += boundary_points[q].JxW / mean.JxW *
                                symmetrize(outer_product(distance, distance));
       }
+    // What slides around a bend has a slope along the mean of its normals.
+    std::vector<bool> is_bent(means.size(), false);
+    if (is_roller())
+      for (unsigned int q = 0; q < boundary_points.size(); ++q)
+        if ((boundary_points[q].normal - means[mean_of[q]].normal).norm() >
+            same_normal)
+          is_bent[mean_of[q]] = true;
     std::vector<unsigned int> first_of = {0};
     for (unsigned int m = 0; m < means.size(); ++m)
       {
         const auto axes = eigenvectors(spreads[m]);
-        for (unsigned int k = 0; k + 1 < dim; ++k)
+        for (unsigned int k = 0; k + 1 < dim && !is_bent[m]; ++k)
           if (axes[k].first > spread_of_a_place * means[m].h * means[m].h)
             held_slopes.all.push_back(
               {m, std::sqrt(axes[k].first) * axes[k].second, {}, {}, {}});
@@ -306,19 +313,18 @@ namespace moraine
   ImplicitBoundary<dim>::holds_mean_in(
     const GridSpace<dim>                        &space,
     const typename GridSpace<dim>::CellIterator &cell,
-    const double                                 t)
+    const double                                 t,
+    const bool                                   in_motion)
   {
-    const bool curved_roller =
-      at_start.curved() && constraint.kind == Constraint<dim>::roller;
-    if (!how.augments || !how.holds_means(space.degree(), curved_roller, false))
+    if (!how.augments ||
+        !how.holds_means(space.degree(), is_curved_roller(), in_motion))
       return false;
     if (!placed_at || (motion.moves() && *placed_at != t))
       place_at(t);
-    CellVertices<dim> vertices = vertices_of<dim>(cell);
-    const Point<dim>  middle   = cell->center();
-    for (Point<dim> &vertex : vertices)
-      vertex = middle + with_neighbours * (vertex - middle);
-    if (!overlap(box_of<dim>(vertices), at_start.bounding_box(), 0.))
+    const CellVertices<dim> vertices = vertices_of<dim>(cell);
+    if (!overlap(box_of<dim>(vertices),
+                 at_start.bounding_box(),
+                 1e-9 * cell->diameter()))
       return false;
     std::vector<SurfacePoint<dim>> pieces;
     at_start.pieces(vertices, n_gauss_points_in<dim>(vertices), pieces);
@@ -440,7 +446,8 @@ namespace moraine
   template bool ImplicitBoundary<dim>::holds_mean_in(                      \
     const GridSpace<dim> &,                                                \
     const GridSpace<dim>::CellIterator &,                                  \
-    const double);                                                         \
+    const double,                                                          \
+    const bool);                                                           \
   template void ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -67,17 +67,16 @@ namespace moraine
     const typename BodyBehind<dim>::Covers &covers,
     const bool                              through_cells)
   {
-    t_start = t;
-    const bool curved_roller =
-      at_start.curved() && constraint.kind == Constraint<dim>::roller;
-    const Kind before = kind;
-    kind              = {moves_points,
-                         moves_points && curved_roller,
-                         moves_points && measure == StrainMeasure::finite &&
-                           constraint.kind == Constraint<dim>::fixed,
-                         how.holds_means(space.degree(), curved_roller, in_motion),
-                         false};
-    kind.holds_slopes = kind.holds_means && through_cells &&
+    t_start                  = t;
+    const bool curved_roller = is_curved_roller();
+    const Kind before        = kind;
+    kind                     = {moves_points,
+                                moves_points && curved_roller,
+                                moves_points && measure == StrainMeasure::finite &&
+                                  constraint.kind == Constraint<dim>::fixed,
+                                how.holds_means(space.degree(), curved_roller, in_motion),
+                                false};
+    kind.holds_slopes        = kind.holds_means && through_cells &&
                         how.slope_factor > 0 && !curved_roller;
     const bool changes = kind.holds_means != before.holds_means ||
                          kind.holds_slopes != before.holds_slopes;

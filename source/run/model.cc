@@ -290,6 +290,9 @@ namespace moraine
           return factors.damps();
         }))
       terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
+    for (auto &boundary : boundaries)
+      if (contains(stage.absorbing, boundary.name()))
+        terms.push_back(std::make_unique<ReleasedBoundaryTerm<dim>>(boundary));
     for (auto &boundary : absorbing_boundaries)
       if (absorbs_in(stage, scene, boundary))
         terms.push_back(std::make_unique<AbsorbingTerm<dim>>(boundary));

@@ -210,6 +210,16 @@ namespace moraine
     for (const auto &cell : tria.active_cell_iterators())
       if (space.is_active(cell))
         filled[cell->active_cell_index()] /= cell->measure();
+    const auto &cells_at_vertex =
+      space.mesh().search_cache().get_vertex_to_cell_map();
+    const auto is_held_near = [&](const auto &cell) {
+      const auto vertices = cell->vertex_indices();
+      return holds_mean_in &&
+             std::any_of(vertices.begin(), vertices.end(), [&](const auto v) {
+               const auto &cells = cells_at_vertex[cell->vertex_index(v)];
+               return std::any_of(cells.begin(), cells.end(), holds_mean_in);
+             });
+    };
     const std::vector<bool> in_bulk = vertices_in_bulk(space, filled);
     parts.assign(filled.size(), Part::none);
     for (const auto &cell : tria.active_cell_iterators())
@@ -219,9 +229,8 @@ namespace moraine
           // digit.
           const unsigned int c    = cell->active_cell_index();
           const double       part = (1 + 1e-9) * filled[c];
-          if (holds_mean_in && fill[c] > 0 && part >= fill[c] &&
-              part < fill_of_held && holds_mean_in(cell))
-            fill[c] = fill_of_held;
+          if (fill[c] > 0 && part < fill_of_held && is_held_near(cell))
+            fill[c] = std::max(fill[c], fill_of_held);
           parts[c] =
             part >= fill[c] ||
                 part >= threshold_of(space, cell, filled, in_bulk, fill[c]) ?

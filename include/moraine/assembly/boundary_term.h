@@ -162,6 +162,12 @@ namespace moraine
     dealii::Tensor<1, dim>
     slope_traction(const StepContext<dim> &context, const unsigned int k) const;
 
+    /** Count moments and work of slopes among what is prepared.
+     * @return the tractions */
+    std::vector<dealii::Tensor<1, dim>>
+    prepare_slopes(const StepContext<dim>                  &context,
+                   const std::vector<ConstraintState<dim>> &states);
+
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,
@@ -196,6 +202,28 @@ namespace moraine
      * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points
      * and the area A of the boundary. Empty where means are not penalised. */
     std::vector<double> depths_of_means;
+  };
+
+  /** An implicit boundary that held and now absorbs: it holds nothing, but
+   * cells count as filled as they did, so that forces in balance stay so. */
+  template <int dim>
+  class ReleasedBoundaryTerm : public Term<dim>
+  {
+  public:
+    explicit ReleasedBoundaryTerm(ImplicitBoundary<dim> &boundary);
+
+    std::vector<Effect>
+    effects(const StepContext<dim> &) const override
+    {
+      return {};
+    }
+
+    bool
+    holds_mean_in(const StepContext<dim>                      &context,
+                  const typename GridSpace<dim>::CellIterator &cell) override;
+
+  private:
+    ImplicitBoundary<dim> &boundary;
   };
 } // namespace moraine
 

@@ -201,11 +201,12 @@ namespace moraine
                const bool                              through_cells = false);
 
     /** Whether means over pieces are held by multipliers in @p cell at time
-     * @p t, where the surface is by then. */
+     * @p t, where the surface is by then; @p in_motion as of begin_step(). */
     bool
     holds_mean_in(const GridSpace<dim>                        &space,
                   const typename GridSpace<dim>::CellIterator &cell,
-                  const double                                 t);
+                  const double                                 t,
+                  const bool                                   in_motion);
 
     /**
      * Let the factor of Nitsche's method act over @p share of the depth of the
@@ -460,6 +461,12 @@ namespace moraine
       std::vector<BoundarySlope<dim>> all;
       std::vector<double>             values; ///< of functions, as of Shapes
     };
+
+    bool
+    is_curved_roller() const
+    {
+      return at_start.curved() && is_roller();
+    }
 
     /** Be where the surface is at @p t. */
     void

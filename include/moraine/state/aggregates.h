@@ -80,11 +80,11 @@ namespace moraine
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the
      * cell that holds it. A surface that holds means over its pieces may tear
      * off material that fills less than half a cell as that moves on, so where
-     * it @p holds_mean_in a cell half of it has to be filled, at least, if it
-     * has to be filled at all. If cells are grouped, those that have a root in
-     * common with one of @p active, its own cells, or one that it owns are
-     * asked for beside these; so are the roots of all nodes this rank knows
-     * then.
+     * it @p holds_mean_in a cell half of it, and of those that touch it, has
+     * to be filled, at least, if anything has to be. If cells are grouped,
+     * those that have a root in common with one of @p active, its own cells, or
+     * one that it owns are asked for beside these; so are the roots of all
+     * nodes this rank knows then.
      * @return whether ties, groups or nodes of this rank changed. Collective.
      */
     bool
