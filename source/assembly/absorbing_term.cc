@@ -129,18 +129,7 @@ namespace moraine
 
 
   namespace
-  {
-    /** How far in the step the integrator asks for forces. */
-    template <int dim>
-    double
-    share_of_step(const StepContext<dim> &context)
-    {
-      return context.motion &&
-                 context.motion->integrator().forces_in_the_middle() ?
-               0.5 :
-               1.;
-    }
-  } // namespace
+  {} // namespace
 
 
 
@@ -153,7 +142,7 @@ namespace moraine
     const LocalPlace   &place = local_places[q];
     const unsigned int *nodes = context.state.grid().cell_nodes(place.cell);
     const double       *N     = &shapes[increments.size() * q];
-    const double        share = share_of_step(context);
+    const double        share = context.share_of_step();
     const double        t     = context.t_start + share * context.step_size();
     Vector              v;
     if (context.motion)
@@ -181,7 +170,7 @@ namespace moraine
     LocalSystem<dim>      local;
     const GridSpace<dim> &space = context.state.grid();
     const unsigned int    n     = space.nodes_per_cell();
-    const double          share = share_of_step(context);
+    const double          share = context.share_of_step();
     const double          dv_du =
       context.motion ? context.motion->velocity_by_increment() : 0.;
     for (unsigned int begin = 0, end = 0; begin < local_places.size();

@@ -20,8 +20,7 @@ namespace moraine
     first_point        = first;
     cell_index         = points[first].cell;
     find_nodes(context.state);
-    const bool in_the_middle =
-      context.motion && context.motion->integrator().forces_in_the_middle();
+    const bool in_the_middle = context.share_of_step() < 1;
     increments.clear();
     constraints.clear();
     double missed = 0, area = 0;

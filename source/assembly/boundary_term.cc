@@ -70,16 +70,6 @@ namespace moraine
 
 
 
-    /** Whether it is dynamics by forces of a step alone. */
-    template <int dim>
-    bool
-    is_in_motion(const StepContext<dim> &context)
-    {
-      return context.motion && context.motion->integrator().start_forces() == 0;
-    }
-
-
-
     /** Whether points go far enough to come through cells. */
     template <int dim>
     bool
@@ -101,8 +91,7 @@ namespace moraine
       return points_pass_cells(context.state) &&
              boundary.holds_mean_in(context.state.grid(),
                                     cell,
-                                    context.t_start,
-                                    is_in_motion(context));
+                                    context.t_start);
     }
 
 
@@ -176,7 +165,8 @@ namespace moraine
                         moves_points,
                         context.state.strain_measure(),
                         context.cells_moved,
-                        is_in_motion(context),
+                        context.motion != nullptr &&
+                          context.motion->integrator().start_forces() == 0,
                         covers,
                         points_pass_cells(context.state));
     // A form that is not definite feeds what one step leaves to the next: in
@@ -344,84 +334,6 @@ namespace moraine
 
   template <int dim>
   void
-  BoundaryTerm<dim>::add_slopes(const StepContext<dim> &context,
-                                const bool              tangent,
-                                GlobalSystem<dim>      &system) const
-  {
-    const GridSpace<dim> &space = context.state.grid();
-    const unsigned int    n     = space.nodes_per_cell();
-    LocalSystem<dim>      local;
-    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
-      {
-        const auto   &point = boundary.points()[boundary.slopes()[k].point];
-        const double *N     = boundary.slope_of_N(k);
-        const Tensor<1, dim>          t = slope_traction(context, k);
-        const SymmetricTensor<2, dim> C = slope_stiffness(context, point);
-        local.reinit(context.state, space.cell_nodes(point.cell), n, tangent);
-        for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              local.force[dim * a + i] = point.JxW * N[a] * t[i];
-              if (tangent)
-                for (unsigned int b = 0; b < n; ++b)
-                  for (unsigned int j = 0; j < dim; ++j)
-                    local.matrix(dim * a + i, dim * b + j) =
-                      point.JxW * N[a] * N[b] * C[i][j];
-            }
-        system.add(local, tangent);
-      }
-  }
-
-
-
-  template <int dim>
-  SymmetricTensor<2, dim>
-  BoundaryTerm<dim>::slope_stiffness(const StepContext<dim>   &context,
-                                     const BoundaryPoint<dim> &point) const
-  {
-    if (!point.holds)
-      return {};
-    const double mu = context.cell_materials.elastic_stiffness(point.cell).mu;
-    const SymmetricTensor<2, dim> M  = boundary.projection(point.normal);
-    const Tensor<1, dim>          Mn = M * point.normal;
-    return boundary.enforcement().slope_factor * mu / point.h *
-           (M + symmetrize(outer_product(Mn, Mn)));
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  BoundaryTerm<dim>::slope_traction(const StepContext<dim> &context,
-                                    const unsigned int      k) const
-  {
-    const BoundarySlope<dim> &slope = boundary.slopes()[k];
-    return slope.traction -
-           slope_stiffness(context, boundary.points()[slope.point]) *
-             slope_violation(context, k);
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  BoundaryTerm<dim>::slope_violation(const StepContext<dim> &context,
-                                     const unsigned int      k) const
-  {
-    const GridSpace<dim>     &space     = context.state.grid();
-    const BoundarySlope<dim> &slope     = boundary.slopes()[k];
-    const BoundaryPoint<dim> &point     = boundary.points()[slope.point];
-    const double             *N         = boundary.slope_of_N(k);
-    Tensor<1, dim>            violation = -slope.prescribed;
-    for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
-      violation += N[a] * context.increments()[space.cell_nodes(point.cell)[a]];
-    return violation;
-  }
-
-
-
-  template <int dim>
-  void
   BoundaryTerm<dim>::evaluate(const StepContext<dim>            &context,
                               std::vector<Tensor<1, dim>>       &tractions,
                               std::vector<ConstraintState<dim>> &states) const
@@ -582,38 +494,6 @@ namespace moraine
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
     boundary.prepare(tractions, violations, of_slopes);
-  }
-
-
-
-  template <int dim>
-  std::vector<Tensor<1, dim>>
-  BoundaryTerm<dim>::prepare_slopes(
-    const StepContext<dim>                  &context,
-    const std::vector<ConstraintState<dim>> &states)
-  {
-    const double share_of_move =
-      context.motion && context.motion->integrator().forces_in_the_middle() ?
-        0.5 :
-        1.;
-    const RigidMotion<dim>     &motion = boundary.rigid_motion();
-    std::vector<Tensor<1, dim>> tractions;
-    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
-      {
-        const BoundarySlope<dim> &slope = boundary.slopes()[k];
-        const Point<dim>         &place = states[slope.point].place;
-        // Where it moved to, as the place.
-        const Tensor<1, dim> arm =
-          slope.offset +
-          share_of_move * (slope.prescribed + slope_violation(context, k));
-        tractions.push_back(slope_traction(context, k));
-        const Tensor<1, dim> force =
-          boundary.points()[slope.point].JxW * tractions.back();
-        prepared.work_of_motion += force * slope.prescribed;
-        prepared.moment += motion.moment(place + arm, force, context.t_end) -
-                           motion.moment(place, force, context.t_end);
-      }
-    return tractions;
   }
 
 

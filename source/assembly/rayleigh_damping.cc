@@ -102,7 +102,7 @@ namespace moraine
     // The part of the increment that has moved the gradients.
     double share = 0;
     if (state.strain_measure() == StrainMeasure::finite)
-      share = context.motion->integrator().forces_in_the_middle() ? 0.5 : 1.;
+      share = context.share_of_step();
     std::vector<Tensor<1, dim>> &g = scratch.gradients;
     std::copy_n(block.grad_N(p), n, g.begin());
     if (share > 0)

@@ -313,11 +313,10 @@ namespace moraine
   ImplicitBoundary<dim>::holds_mean_in(
     const GridSpace<dim>                        &space,
     const typename GridSpace<dim>::CellIterator &cell,
-    const double                                 t,
-    const bool                                   in_motion)
+    const double                                 t)
   {
     if (!how.augments ||
-        !how.holds_means(space.degree(), is_curved_roller(), in_motion))
+        !how.holds_means(space.degree(), is_curved_roller(), false))
       return false;
     if (!placed_at || (motion.moves() && *placed_at != t))
       place_at(t);
@@ -446,8 +445,7 @@ namespace moraine
   template bool ImplicitBoundary<dim>::holds_mean_in(                      \
     const GridSpace<dim> &,                                                \
     const GridSpace<dim>::CellIterator &,                                  \
-    const double,                                                          \
-    const bool);                                                           \
+    const double);                                                         \
   template void ImplicitBoundary<dim>::evaluate_shapes(const GridSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -322,13 +322,14 @@ namespace moraine
   template <int dim>
   Tensor<1, dim>
   ImplicitBoundary<dim>::increment_at(const Point<dim>     &x,
-                                      const Placement<dim> &start,
-                                      const Placement<dim> &end,
-                                      const double          t_end) const
+                                      const double          t_0,
+                                      const Placement<dim> &pose_0,
+                                      const double          t_1,
+                                      const Placement<dim> &pose_1) const
   {
     const Point<dim> X = at_start.pose().inverse(x);
-    return (end.map(X) - start.map(X)) + displacement(x, t_end) -
-           displacement(x, t_start);
+    return (pose_1.map(X) - pose_0.map(X)) + displacement(x, t_1) -
+           displacement(x, t_0);
   }
 
 
@@ -340,13 +341,13 @@ namespace moraine
     const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);
     at_end.set_pose(kind.moves_with_points ? end : at_start.pose());
     for (auto &point : boundary_points)
-      point.prescribed = increment_at(point.x, start, end, t_end);
+      point.prescribed = increment_at(point.x, t_start, start, t_end, end);
     for (auto &slope : held_slopes.all)
       {
         const Point<dim> &x = boundary_points[slope.point].x;
         slope.prescribed =
-          0.5 * (increment_at(x + slope.offset, start, end, t_end) -
-                 increment_at(x - slope.offset, start, end, t_end));
+          0.5 * (increment_at(x + slope.offset, t_start, start, t_end, end) -
+                 increment_at(x - slope.offset, t_start, start, t_end, end));
       }
   }
 
@@ -428,12 +429,10 @@ namespace moraine
     for (const double t : times)
       poses.push_back(motion.pose(t));
     return [this, times, poses](const Point<dim> &x) {
-      const Point<dim>            X = at_start.pose().inverse(x);
       std::vector<Tensor<1, dim>> increments;
       for (unsigned int k = 1; k < times.size(); ++k)
-        increments.push_back((poses[k].map(X) - poses[k - 1].map(X)) +
-                             displacement(x, times[k]) -
-                             displacement(x, times[k - 1]));
+        increments.push_back(
+          increment_at(x, times[k - 1], poses[k - 1], times[k], poses[k]));
       return increments;
     };
   }

@@ -47,36 +47,61 @@ namespace moraine
 
 
 
-    /** @f$M \sigma n@f$ at the points of a boundary that a body is at. */
+    /** At the points of a boundary, and of its slopes. */
     template <int dim>
-    std::vector<Tensor<1, dim>>
+    struct Tractions
+    {
+      explicit Tractions(const ImplicitBoundary<dim> &boundary)
+        : at_points(boundary.points().size())
+        , of_slopes(boundary.slopes().size())
+      {}
+
+      std::vector<Tensor<1, dim>> at_points;
+      std::vector<Tensor<1, dim>> of_slopes;
+    };
+
+
+
+    /** @f$M \sigma n@f$ where a body is at a boundary. */
+    template <int dim>
+    Tractions<dim>
     tractions_on(const ImplicitBoundary<dim> &boundary,
                  const PointSet<dim>         &points,
                  const BodyCover<dim>        &covers)
     {
-      std::vector<Tensor<1, dim>> tractions(boundary.points().size());
-      std::vector<std::vector<unsigned int>> places(
+      const auto                            &places = boundary.points();
+      Tractions<dim>                         tractions(boundary);
+      std::vector<std::vector<unsigned int>> places_in(
         points.mesh().triangulation().n_active_cells());
-      for (unsigned int q = 0; q < tractions.size(); ++q)
-        places[boundary.points()[q].cell].push_back(q);
+      std::vector<std::vector<unsigned int>> slopes_of(places.size());
+      for (unsigned int q = 0; q < places.size(); ++q)
+        places_in[places[q].cell].push_back(q);
+      for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+        slopes_of[boundary.slopes()[k].point].push_back(k);
       for (const auto &in_cell : points.cells())
         {
-          const auto &here = places[in_cell.cell->active_cell_index()];
+          const auto &here = places_in[in_cell.cell->active_cell_index()];
           if (here.empty())
             continue;
           const auto stress = fit_stress(points, in_cell);
           for (const unsigned int q : here)
             {
-              const BoundaryPoint<dim> &point       = boundary.points()[q];
+              const BoundaryPoint<dim> &place       = places[q];
               const Covers<dim>         covers_here = [&](const Point<dim> &x,
                                                   const double      margin) {
-                return covers(point.cell, x, margin);
+                return covers(place.cell, x, margin);
               };
-              if (!is_at_body(covers_here, point.x, point.normal, point.h))
+              if (!is_at_body(covers_here, place.x, place.normal, place.h))
                 continue;
-              tractions[q] =
-                boundary.projection(point.normal) *
-                (stress.at(point.x - in_cell.cell->center()) * point.normal);
+              const auto traction = [&](const Tensor<1, dim> &offset) {
+                return boundary.projection(place.normal) *
+                       (stress.at(place.x + offset - in_cell.cell->center()) *
+                        place.normal);
+              };
+              tractions.at_points[q] = traction(Tensor<1, dim>());
+              for (const unsigned int k : slopes_of[q])
+                tractions.of_slopes[k] = traction(boundary.slopes()[k].offset) -
+                                         tractions.at_points[q];
             }
         }
       return tractions;
@@ -91,7 +116,6 @@ namespace moraine
                        const std::vector<std::string> &before,
                        Model<dim>                     &model)
   {
-    using Tractions = std::vector<Tensor<1, dim>>;
     std::vector<ImplicitBoundary<dim> *> holding;
     for (ImplicitBoundary<dim> &boundary : model.boundaries)
       if (contains(stage.boundaries, boundary.name()) &&
@@ -105,8 +129,10 @@ namespace moraine
                                 model.state->mesh_after_step() !=
                                   MeshAfterStep::keep);
     const auto                hold = [&](ImplicitBoundary<dim> &boundary,
-                          const Tractions       &tractions) {
-      boundary.prepare(tractions, Tractions(tractions.size()));
+                          const Tractions<dim>  &tractions) {
+      boundary.prepare(tractions.at_points,
+                       Tractions<dim>(boundary).at_points,
+                       tractions.of_slopes);
       boundary.keep();
       model.system->begin_step(stage.time.start_time);
     };
@@ -116,9 +142,9 @@ namespace moraine
     double share = model.system->unbalanced_share();
     for (ImplicitBoundary<dim> *boundary : holding)
       {
-        const Tractions tractions =
+        const Tractions<dim> tractions =
           tractions_on(*boundary, *model.points, covers);
-        hold(*boundary, Tractions(tractions.size()));
+        hold(*boundary, Tractions<dim>(*boundary));
         const double without = model.system->unbalanced_share();
         if (without <= share)
           share = without;

@@ -212,12 +212,19 @@ namespace moraine
         filled[cell->active_cell_index()] /= cell->measure();
     const auto &cells_at_vertex =
       space.mesh().search_cache().get_vertex_to_cell_map();
+    std::map<unsigned int, bool> held; // of cells that were asked about
+    const auto                   is_held = [&](const auto &cell) {
+      const auto [it, is_new] = held.emplace(cell->active_cell_index(), false);
+      if (is_new)
+        it->second = holds_mean_in(cell);
+      return it->second;
+    };
     const auto is_held_near = [&](const auto &cell) {
       const auto vertices = cell->vertex_indices();
       return holds_mean_in &&
              std::any_of(vertices.begin(), vertices.end(), [&](const auto v) {
                const auto &cells = cells_at_vertex[cell->vertex_index(v)];
-               return std::any_of(cells.begin(), cells.end(), holds_mean_in);
+               return std::any_of(cells.begin(), cells.end(), is_held);
              });
     };
     const std::vector<bool> in_bulk = vertices_in_bulk(space, filled);

@@ -158,9 +158,12 @@ namespace moraine
     slope_violation(const StepContext<dim> &context,
                     const unsigned int      k) const;
 
-    /** On the body, of slope @p k in the trial state. */
+    /** On the body, of slope @p k in the trial state; in the middle of the step
+     * with half of what it adds, so that it keeps energy as a spring does. */
     dealii::Tensor<1, dim>
-    slope_traction(const StepContext<dim> &context, const unsigned int k) const;
+    slope_traction(const StepContext<dim> &context,
+                   const unsigned int      k,
+                   const double            share_of_step) const;
 
     /** Count moments and work of slopes among what is prepared.
      * @return the tractions */

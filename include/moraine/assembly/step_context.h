@@ -50,6 +50,13 @@ namespace moraine
       return t_end - t_start;
     }
 
+    /** How far in the step the forces are that are asked for: 1, or 1/2. */
+    double
+    share_of_step() const
+    {
+      return motion && motion->integrator().forces_in_the_middle() ? 0.5 : 1.;
+    }
+
     /** Trial increments @f$\Delta u_a@f$ of the nodes. */
     const std::vector<dealii::Tensor<1, dim>> &
     increments() const

@@ -140,7 +140,8 @@ namespace moraine
    * derived from that by begin_step() and set_target().
    *
    * What turns in a cell about a mean is not held by it. Where material comes
-   * through the cells, that adds up; there slopes() are held too, by a penalty.
+   * through the cells, that adds up; there slopes() are held too, by a penalty,
+   * but for rollers on curves and around bends.
    *
    * A piece in a cell without unknowns that lies within @p search_tolerance of
    * an active cell belongs to the nearest one and sees its functions continued
@@ -201,12 +202,11 @@ namespace moraine
                const bool                              through_cells = false);
 
     /** Whether means over pieces are held by multipliers in @p cell at time
-     * @p t, where the surface is by then; @p in_motion as of begin_step(). */
+     * @p t, where the surface is by then; or were before dynamics began. */
     bool
     holds_mean_in(const GridSpace<dim>                        &space,
                   const typename GridSpace<dim>::CellIterator &cell,
-                  const double                                 t,
-                  const bool                                   in_motion);
+                  const double                                 t);
 
     /**
      * Let the factor of Nitsche's method act over @p share of the depth of the
@@ -258,8 +258,8 @@ namespace moraine
     hold_in_cells(
       const std::function<bool(const unsigned int active_cell_index)> &holds);
 
-    /** Those that are held: of flat pieces at an angle to the faces of their
-     * cell that points move through, by multipliers. */
+    /** Those that are held: of pieces with means that multipliers hold where
+     * points move through cells. */
     const std::vector<BoundarySlope<dim>> &
     slopes() const
     {
@@ -472,12 +472,14 @@ namespace moraine
     void
     place_at(const double t);
 
-    /** The increment it prescribes at @p x from one pose to the other. */
+    /** The increment it prescribes at @p x from @p t_0 to @p t_1, when it has
+     * these poses. */
     dealii::Tensor<1, dim>
     increment_at(const dealii::Point<dim> &x,
-                 const Placement<dim>     &start,
-                 const Placement<dim>     &end,
-                 const double              t_end) const;
+                 const double              t_0,
+                 const Placement<dim>     &pose_0,
+                 const double              t_1,
+                 const Placement<dim>     &pose_1) const;
 
     void
     find_pieces(const GridSpace<dim> &space, const double search_tolerance);

@@ -14,7 +14,8 @@ namespace moraine
   /**
    * Let boundaries that begin in @p stage hold the material beside them as it
    * is stressed: their multiplier at first is @f$M \sigma n@f$, with the
-   * stress of the points of each cell continued linearly to the surface.
+   * stress of the points of each cell continued linearly to the surface; so
+   * are the tractions of its slopes.
    * Without that a boundary that finds stress, initial or left by what held
    * there before, would take it over by a flux that is one of new strain. One
    * for which this leaves more out of balance than no traction at all, as
