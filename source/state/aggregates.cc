@@ -212,12 +212,18 @@ namespace moraine
         filled[cell->active_cell_index()] /= cell->measure();
     const auto &cells_at_vertex =
       space.mesh().search_cache().get_vertex_to_cell_map();
-    std::map<unsigned int, bool> held; // of cells that were asked about
-    const auto                   is_held = [&](const auto &cell) {
-      const auto [it, is_new] = held.emplace(cell->active_cell_index(), false);
-      if (is_new)
-        it->second = holds_mean_in(cell);
-      return it->second;
+    enum class Held : unsigned char
+    {
+      unknown,
+      no,
+      yes
+    };
+    std::vector<Held> held(holds_mean_in ? filled.size() : 0, Held::unknown);
+    const auto        is_held = [&](const auto &cell) {
+      Held &answer = held[cell->active_cell_index()];
+      if (answer == Held::unknown)
+        answer = holds_mean_in(cell) ? Held::yes : Held::no;
+      return answer == Held::yes;
     };
     const auto is_held_near = [&](const auto &cell) {
       const auto vertices = cell->vertex_indices();

@@ -176,4 +176,4 @@ wall.write_text(WALL)
 found = run(wall, {"Output/Write": "end"}).output
 share = re.search(r"([\d.]+) % of the forces are out of balance", found)
 bound("ground beside an oblique wall: % out of balance",
-      float(share.group(1)) if share else 0, 0.1)
+      float(share.group(1)), 0.1)

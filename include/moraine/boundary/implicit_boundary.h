@@ -89,8 +89,8 @@ namespace moraine
   };
 
   /**
-   * How displacements and tractions vary along the piece of a flat surface that
-   * is held by its mean, as the function @f$\psi = s^{-1}\, e \cdot (x - \bar
+   * How displacements and tractions vary along the piece of a surface that is
+   * held by its mean, as the function @f$\psi = s^{-1}\, e \cdot (x - \bar
    * x)@f$ with @f$\int_{\Gamma_c} \psi^2 = |\Gamma_c|@f$; e is a principal
    * axis of the piece and s the root of the mean square of distances along it.
    * Of a field f it is @f$|\Gamma_c|^{-1} \int_{\Gamma_c} \psi f@f$.
@@ -438,7 +438,7 @@ namespace moraine
       bool projects          = false; ///< points onto a curved roller
       bool turns_multiplier  = false;
       bool holds_means       = false; ///< of the pieces in cells
-      bool holds_slopes      = false; ///< of flat pieces too
+      bool holds_slopes      = false; ///< of them too, but around bends
     };
 
     /** Whether there are pieces, and how often they were found. */

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+// What a surface carries from step to step, and through archives.
+
+#include <moraine/boundary/implicit_boundary.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_over(const std::vector<CarriedPlace<dim>> &from)
+  {
+    const Tensor<2, dim> R = at_start.pose().rotation();
+    const Tensor<2, dim> from_frame =
+      constraint.kind == Constraint<dim>::roller ?
+        R :
+        Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        BoundaryPoint<dim> &point   = boundary_points[q];
+        point.multiplier_at_start   = from_frame * from[q].multiplier;
+        point.accumulated_violation = from_frame * from[q].violation;
+      }
+    for (BoundarySlope<dim> &slope : held_slopes.all)
+      slope.traction_at_start =
+        from_frame * from[slope.point].slope * (transpose(R) * slope.offset);
+  }
+
+
+
+  template <int dim>
+  std::vector<CarriedPlace<dim>>
+  ImplicitBoundary<dim>::places_of_points() const
+  {
+    std::vector<CarriedPlace<dim>> places;
+    for (const auto &point : boundary_points)
+      places.push_back({Tensor<1, dim>(at_start.pose().inverse(point.x)),
+                        {},
+                        {},
+                        {},
+                        point.JxW,
+                        {{point.cell, point.number}}});
+    return places;
+  }
+
+
+
+  namespace
+  {
+    /** What all ranks have, in the same order on any number of them. */
+    template <int dim>
+    std::vector<CarriedPlace<dim>>
+    gather(const std::vector<CarriedPlace<dim>> &of_this_rank,
+           const MPI_Comm                       &communicator)
+    {
+      std::vector<CarriedPlace<dim>> all;
+      for (const auto &of_one_rank :
+           Utilities::MPI::all_gather(communicator, of_this_rank))
+        all.insert(all.end(), of_one_rank.begin(), of_one_rank.end());
+      std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+        return a.id < b.id;
+      });
+      return all;
+    }
+
+
+
+    /** For each of @p places the nearest of @p among. */
+    template <int dim>
+    std::vector<unsigned int>
+    nearest_of(const std::vector<CarriedPlace<dim>> &places,
+               const std::vector<CarriedPlace<dim>> &among)
+    {
+      std::vector<Point<dim>> points;
+      for (const auto &entry : among)
+        points.emplace_back(entry.place);
+      const auto                tree = pack_rtree_of_indices(points);
+      std::vector<unsigned int> nearest;
+      for (const auto &entry : places)
+        nearest.push_back(*tree.qbegin(
+          boost::geometry::index::nearest(Point<dim>(entry.place), 1)));
+      return nearest;
+    }
+
+
+
+    /** Of the @p places with these numbers, by area. */
+    template <int dim>
+    CarriedPlace<dim>
+    mean_of(const std::vector<unsigned int>      &numbers,
+            const std::vector<CarriedPlace<dim>> &places)
+    {
+      CarriedPlace<dim> mean = places[numbers[0]];
+      for (unsigned int k = 1; k < numbers.size(); ++k)
+        {
+          const CarriedPlace<dim> &place = places[numbers[k]];
+          mean.area += place.area;
+          const double share = place.area / mean.area;
+          mean.multiplier += share * (place.multiplier - mean.multiplier);
+          mean.violation += share * (place.violation - mean.violation);
+        }
+      return mean;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_over_nearest(const MPI_Comm &communicator)
+  {
+    // Of all ranks, because a moving surface takes its points from rank to
+    // rank.
+    const auto old_places = gather(carried, communicator);
+    if (old_places.empty() || n_points(communicator) == 0)
+      return;
+    const auto of_this_rank = places_of_points();
+    const auto nearest_old  = nearest_of(of_this_rank, old_places);
+    std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> nearest_to;
+    if (kind.holds_means)
+      {
+        const auto new_places  = gather(of_this_rank, communicator);
+        const auto nearest_new = nearest_of(old_places, new_places);
+        for (unsigned int k = 0; k < old_places.size(); ++k)
+          nearest_to[new_places[nearest_new[k]].id].push_back(k);
+      }
+    std::vector<CarriedPlace<dim>> of_points;
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const auto               found   = nearest_to.find(of_this_rank[q].id);
+        const CarriedPlace<dim> &nearest = old_places[nearest_old[q]];
+        of_points.push_back(found == nearest_to.end() ?
+                              nearest :
+                              mean_of(found->second, old_places));
+        of_points.back().slope = nearest.slope;
+      }
+    take_over(of_points);
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
+                                 const std::vector<Tensor<1, dim>> &violations,
+                                 const std::vector<Tensor<1, dim>> &of_slopes)
+  {
+    const Placement<dim> &pose = at_start.pose();
+    const Tensor<2, dim>  into_frame =
+      constraint.kind == Constraint<dim>::roller ?
+         transpose(pose.rotation()) :
+         Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    prepared.resize(boundary_points.size());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const auto    &point      = boundary_points[q];
+        Tensor<1, dim> multiplier = tractions[q];
+        // In the next step a roller pushes other material at the same place.
+        if (kind.projects)
+          multiplier =
+            std::copysign(multiplier.norm(), multiplier * point.normal) *
+            point.normal;
+        const Tensor<1, dim> violation =
+          how.carries_multiplier ? point.accumulated_violation + violations[q] :
+                                   Tensor<1, dim>();
+        prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
+                       into_frame * multiplier,
+                       into_frame * violation,
+                       {},
+                       point.JxW,
+                       {{point.cell, point.number}}};
+      }
+    for (unsigned int k = 0; k < of_slopes.size(); ++k)
+      {
+        const BoundarySlope<dim> &slope = held_slopes.all[k];
+        prepared[slope.point].slope +=
+          outer_product(into_frame * of_slopes[k],
+                        transpose(pose.rotation()) * slope.offset) /
+          slope.offset.norm_square();
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::keep() noexcept
+  {
+    std::swap(carried, prepared);
+    kept_at_points = true;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::write(Archive &archive) const
+  {
+    std::vector<double>       places, multipliers, violations, slopes, areas;
+    std::vector<unsigned int> ids;
+    for (const CarriedPlace<dim> &of : carried)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            places.push_back(of.place[d]);
+            multipliers.push_back(of.multiplier[d]);
+            violations.push_back(of.violation[d]);
+            for (unsigned int e = 0; e < dim; ++e)
+              slopes.push_back(of.slope[d][e]);
+          }
+        areas.push_back(of.area);
+        ids.insert(ids.end(), of.id.begin(), of.id.end());
+      }
+    const std::string group = "boundaries/" + boundary_name;
+    archive.write(group + "/is_placed", placed_at ? 1u : 0u);
+    archive.write(group + "/t_placed", placed_at.value_or(0.), "time");
+    archive.distribute(group + "/carried", ids, 2);
+    archive.write(group + "/carried/place", places, dim, "length");
+    archive.write(group + "/carried/multiplier", multipliers, dim, "stress");
+    archive.write(group + "/carried/violation", violations, dim, "length");
+    archive.write(group + "/carried/slope", slopes, dim * dim, "stress/length");
+    archive.write(group + "/carried/area",
+                  areas,
+                  1,
+                  dim == 2 ? "length" : "length^2");
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::read(const Archive &archive)
+  {
+    const std::string group = "boundaries/" + boundary_name;
+    placed_at.reset();
+    if (archive.integer(group + "/is_placed") != 0)
+      place_at(archive.number(group + "/t_placed"));
+    const auto &ids    = archive.integers(group + "/carried/id", 2);
+    const auto &places = archive.numbers(group + "/carried/place", dim);
+    const auto &multipliers =
+      archive.numbers(group + "/carried/multiplier", dim);
+    const auto &violations = archive.numbers(group + "/carried/violation", dim);
+    const auto &slopes = archive.numbers(group + "/carried/slope", dim * dim);
+    const auto &areas  = archive.numbers(group + "/carried/area", 1);
+    carried.resize(ids.size() / 2);
+    for (unsigned int k = 0; k < carried.size(); ++k)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            carried[k].place[d]      = places[dim * k + d];
+            carried[k].multiplier[d] = multipliers[dim * k + d];
+            carried[k].violation[d]  = violations[dim * k + d];
+            for (unsigned int e = 0; e < dim; ++e)
+              carried[k].slope[d][e] = slopes[dim * (dim * k + d) + e];
+          }
+        carried[k].area = areas[k];
+        carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};
+      }
+    // The points are derived from that by the next begin_step().
+    search.done = kept_at_points = false;
+    undo();
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::undo()
+  {
+    prepared.clear();
+  }
+
+
+
+#define INSTANTIATE(dim)                                                    \
+  template void ImplicitBoundary<dim>::take_over(                           \
+    const std::vector<CarriedPlace<dim>> &);                                \
+  template void ImplicitBoundary<dim>::take_over_nearest(const MPI_Comm &); \
+  template void ImplicitBoundary<dim>::prepare(                             \
+    const std::vector<Tensor<1, dim>> &,                                    \
+    const std::vector<Tensor<1, dim>> &,                                    \
+    const std::vector<Tensor<1, dim>> &);                                   \
+  template void ImplicitBoundary<dim>::keep() noexcept;                     \
+  template void ImplicitBoundary<dim>::write(Archive &) const;              \
+  template void ImplicitBoundary<dim>::read(const Archive &);               \
+  template void ImplicitBoundary<dim>::undo();
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
