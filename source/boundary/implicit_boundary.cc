@@ -7,12 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/numerics/rtree.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 namespace moraine
 {
