@@ -34,6 +34,23 @@ namespace moraine
       sums.compress(VectorOperation::add);
       force += sums;
     }
+
+
+
+    /** What distribute() of @p lines does; ranks need not be asked where no
+     * unknown is tied to others. */
+    void
+    fill(const AffineConstraints<double> &lines,
+         const bool                       has_ties,
+         LA::Vector                      &x)
+    {
+      if (has_ties)
+        return lines.distribute(x);
+      const auto range = x.local_range();
+      for (const auto &line : lines.get_lines())
+        if (x.in_local_range(line.index))
+          x.begin()[line.index - range.first] = line.inhomogeneity;
+    }
   } // namespace
 
 
@@ -88,6 +105,22 @@ namespace moraine
   {
     return lines.is_constrained(dof) &&
            lines.get_constraint_entries(dof)->empty();
+  }
+
+
+
+  void
+  ConstraintTable::distribute(LA::Vector &x) const
+  {
+    fill(lines_with_values, has_ties, x);
+  }
+
+
+
+  void
+  ConstraintTable::distribute_correction(LA::Vector &dx) const
+  {
+    fill(lines, has_ties, dx);
   }
 
 

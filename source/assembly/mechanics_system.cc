@@ -40,6 +40,9 @@ namespace moraine
     std::string
     first_of_ranks(const std::string &text, const MPI_Comm &communicator)
     {
+      // Nearly always there is none.
+      if (!Utilities::MPI::logical_or(!text.empty(), communicator))
+        return "";
       for (const std::string &other :
            Utilities::MPI::all_gather(communicator, text))
         if (!other.empty())

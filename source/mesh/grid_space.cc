@@ -144,13 +144,18 @@ namespace moraine
     relevant.add_indices(owned);
     relevant.compress();
 
-    ghosted.reinit(owned, relevant, communicator());
-    const auto &map = ghosted.trilinos_vector().Map();
-    ghosted_index.resize(dim * first_dof.size());
+    // One that served other unknowns cannot be used again (deal.II 9.4).
+    exchange =
+      std::make_unique<const Utilities::MPI::Partitioner>(owned,
+                                                          relevant,
+                                                          communicator());
+    of_unknowns.resize(exchange->locally_owned_size() +
+                       exchange->n_ghost_indices());
+    exchanged.resize(exchange->n_import_indices());
+    unknown_of_node.resize(first_dof.size());
     for (unsigned int node = 0; node < first_dof.size(); ++node)
-      for (unsigned int c = 0; c < dim; ++c)
-        ghosted_index[dim * node + c] = map.LID(
-          static_cast<TrilinosWrappers::types::int_type>(first_dof[node] + c));
+      unknown_of_node[node] = exchange->global_to_local(first_dof[node]);
+    zeros = std::make_unique<const LA::Vector>(owned, communicator());
   }
 
 
@@ -160,12 +165,24 @@ namespace moraine
   GridSpace<dim>::node_values(const LA::Vector            &vector,
                               std::vector<Tensor<1, dim>> &values) const
   {
-    ghosted = vector;
+    const unsigned int n_owned = exchange->locally_owned_size();
+    AssertDimension(vector.locally_owned_size(), n_owned);
+    std::copy_n(vector.begin(), n_owned, of_unknowns.begin());
+    const ArrayView<double>  ghost(of_unknowns.data() + n_owned,
+                                  exchange->n_ghost_indices());
+    std::vector<MPI_Request> requests;
+    exchange->export_to_ghosted_array_start<double, MemorySpace::Host>(
+      0,
+      ArrayView<const double>(of_unknowns.data(), n_owned),
+      make_array_view(exchanged),
+      ghost,
+      requests);
+    exchange->export_to_ghosted_array_finish<double, MemorySpace::Host>(
+      ghost, requests);
     values.resize(first_dof.size());
-    const double *data = ghosted.trilinos_vector()[0];
     for (unsigned int node = 0; node < first_dof.size(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
-        values[node][c] = data[ghosted_index[dim * node + c]];
+        values[node][c] = of_unknowns[unknown_of_node[node] + c];
   }
 
 
@@ -176,16 +193,25 @@ namespace moraine
                                   LA::Vector &vector) const
   {
     AssertDimension(values.size(), first_dof.size());
-    LA::Vector sums;
-    sums.reinit(owned, relevant, communicator(), true);
-    std::array<types::global_dof_index, dim> indices;
+    const unsigned int n_owned = exchange->locally_owned_size();
+    std::fill(of_unknowns.begin(), of_unknowns.end(), 0.);
     for (unsigned int node = 0; node < first_dof.size(); ++node)
-      {
-        std::iota(indices.begin(), indices.end(), first_dof[node]);
-        sums.add(dim, indices.data(), values[node].begin_raw());
-      }
-    sums.compress(VectorOperation::add);
-    vector = sums;
+      for (unsigned int c = 0; c < dim; ++c)
+        of_unknowns[unknown_of_node[node] + c] = values[node][c];
+    const ArrayView<double>  owned_part(of_unknowns.data(), n_owned);
+    const ArrayView<double>  ghost(of_unknowns.data() + n_owned,
+                                  exchange->n_ghost_indices());
+    std::vector<MPI_Request> requests;
+    exchange->import_from_ghosted_array_start<double, MemorySpace::Host>(
+      VectorOperation::add, 0, ghost, make_array_view(exchanged), requests);
+    exchange->import_from_ghosted_array_finish<double, MemorySpace::Host>(
+      VectorOperation::add,
+      ArrayView<const double>(exchanged.data(), exchanged.size()),
+      owned_part,
+      ghost,
+      requests);
+    vector = *zeros;
+    std::copy_n(of_unknowns.begin(), n_owned, vector.begin());
   }
 
 
@@ -227,7 +253,7 @@ namespace moraine
   LA::Vector
   GridSpace<dim>::vector() const
   {
-    return LA::Vector(owned, communicator());
+    return *zeros;
   }
 
 

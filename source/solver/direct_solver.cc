@@ -118,8 +118,7 @@ namespace moraine
   {
     Amesos                         factory;
     const std::vector<std::string> choices =
-      matrix.m() <= klu_limit && !transposed &&
-          Utilities::MPI::n_mpi_processes(matrix.get_mpi_communicator()) == 1 ?
+      matrix.m() <= klu_limit && !transposed ?
         std::vector<std::string>{"Klu", "Mumps", "Umfpack"} :
         std::vector<std::string>{"Mumps", "Umfpack", "Klu"};
     for (const std::string &choice : choices)

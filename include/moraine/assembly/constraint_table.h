@@ -60,17 +60,11 @@ namespace moraine
 
     /** Fill the constrained entries from the free ones. Collective. */
     void
-    distribute(LA::Vector &x) const
-    {
-      lines_with_values.distribute(x);
-    }
+    distribute(LA::Vector &x) const;
 
     /** The same for a correction, without @f$g@f$. Collective. */
     void
-    distribute_correction(LA::Vector &dx) const
-    {
-      lines.distribute(dx);
-    }
+    distribute_correction(LA::Vector &dx) const;
 
     /** @f$r \leftarrow W^T r@f$ on owned entries. Collective. */
     void

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
+#include <deal.II/base/partitioner.h>
 
 #include <deal.II/dofs/dof_handler.h>
 
@@ -17,6 +18,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace moraine
@@ -280,9 +282,12 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> moves;
     dealii::IndexSet                    owned;
     dealii::IndexSet                    relevant;
-    /** All relevant unknowns, and where those of the nodes stand in it. */
-    mutable LA::Vector        ghosted;
-    std::vector<unsigned int> ghosted_index;
+    /** Relevant unknowns: those of this rank, then of others. */
+    std::unique_ptr<const dealii::Utilities::MPI::Partitioner> exchange;
+    mutable std::vector<double> of_unknowns, exchanged;
+    std::vector<unsigned int>   unknown_of_node; ///< the first
+    /** Copying it is quicker than making a vector, which asks all ranks. */
+    std::unique_ptr<const LA::Vector> zeros;
   };
 } // namespace moraine
 
