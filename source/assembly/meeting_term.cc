@@ -284,7 +284,7 @@ namespace moraine
                              }),
                  pieces.end());
 
-    take_meetings(pieces, find_owners_given_way(pieces, increments()));
+    take_meetings(pieces, decide_meetings(pieces, increments()));
     check_that_all_hold(context);
     searches = std::move(now);
     return false;
@@ -315,13 +315,17 @@ namespace moraine
 
   template <int dim>
   void
-  MeetingTerm<dim>::take_meetings(const std::vector<Piece>        &pieces,
-                                  const std::vector<unsigned int> &given_way)
+  MeetingTerm<dim>::take_meetings(const std::vector<Piece> &pieces,
+                                  const MeetingDecisions   &decisions)
   {
     meetings.clear();
-    std::vector<std::set<unsigned int>> let_go(boundaries.size());
+    const std::vector<unsigned int>    &given_way = decisions.given_way;
+    std::vector<std::set<unsigned int>> let_go(boundaries.size()),
+      shared(let_go);
     for (unsigned int p = 0; p < pieces.size(); ++p)
       {
+        if (decisions.sees_another[p] && pieces[p].owner < boundaries.size())
+          shared[pieces[p].owner].insert(pieces[p].cell);
         if (given_way[p] == pieces[p].owner)
           continue;
         let_go[pieces[p].owner].insert(pieces[p].cell);
@@ -339,6 +343,11 @@ namespace moraine
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       boundaries[b]->hold_in_cells([&cells = let_go[b]](const unsigned int c) {
         return cells.count(c) == 0;
+      });
+    // Means of two motions nodes can follow, but not slopes, too.
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
+      boundaries[b]->drop_slopes_in([&cells = shared[b]](const unsigned int c) {
+        return cells.count(c) > 0;
       });
   }
 

@@ -315,6 +315,29 @@ namespace moraine
 
   template <int dim>
   void
+  ImplicitBoundary<dim>::drop_slopes_in(
+    const std::function<bool(const unsigned int)> &drops)
+  {
+    const unsigned int n      = shapes.n_nodes;
+    unsigned int       n_kept = 0;
+    for (unsigned int k = 0; k < held_slopes.all.size(); ++k)
+      {
+        if (drops(boundary_points[held_slopes.all[k].point].cell))
+          continue;
+        held_slopes.all[n_kept] = held_slopes.all[k];
+        std::copy_n(&held_slopes.values[k * n],
+                    n,
+                    &held_slopes.values[n_kept * n]);
+        ++n_kept;
+      }
+    held_slopes.all.resize(n_kept);
+    held_slopes.values.resize(n_kept * n);
+  }
+
+
+
+  template <int dim>
+  void
   ImplicitBoundary<dim>::set_multipliers(
     const std::vector<Tensor<1, dim>> &multipliers)
   {

@@ -332,42 +332,51 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<unsigned int>
-  find_owners_given_way(
-    const std::vector<MeetingPiece<dim>>         &pieces,
-    const std::vector<PrescribedIncrements<dim>> &increments)
+  MeetingDecisions
+  decide_meetings(const std::vector<MeetingPiece<dim>>         &pieces,
+                  const std::vector<PrescribedIncrements<dim>> &increments)
   {
-    std::vector<unsigned int> given_way;
+    MeetingDecisions decisions;
     for (const auto &piece : pieces)
-      given_way.push_back(piece.owner);
+      decisions.given_way.push_back(piece.owner);
+    decisions.sees_another.assign(pieces.size(), false);
     if (pieces.empty())
-      return given_way;
-    const Meeting<dim> meeting(pieces, increments);
-    std::vector<bool>  taken(pieces.size(), false);
+      return decisions;
+    const Meeting<dim>      meeting(pieces, increments);
+    const std::vector<bool> all(pieces.size(), true);
+    std::vector<bool>       taken(pieces.size(), false);
+    // Of some pieces the owner that moves most differently.
+    const auto most_different = [&](const unsigned int               owner,
+                                    const std::vector<unsigned int> &some) {
+      unsigned int other = owner;
+      for (const unsigned int q : some)
+        if (meeting.difference(owner, pieces[q].owner) >
+            meeting.difference(owner, other))
+          other = pieces[q].owner;
+      return other;
+    };
     for (const unsigned int p : meeting.order())
       {
         const unsigned int        owner = pieces[p].owner;
         std::vector<unsigned int> some  = meeting.around(p, taken);
-        unsigned int              other = owner;
-        for (const unsigned int q : some)
-          if (meeting.difference(owner, pieces[q].owner) >
-              meeting.difference(owner, other))
-            other = pieces[q].owner;
+        const unsigned int        other = most_different(owner, some);
+        decisions.sees_another[p] =
+          most_different(owner, meeting.around(p, all)) != owner;
         some.push_back(p);
         taken[p] = other == owner || pieces[p].must_hold ||
                    meeting.agree(some, owner, meeting.difference(owner, other));
         if (!taken[p])
-          given_way[p] = other;
+          decisions.given_way[p] = other;
       }
-    return given_way;
+    return decisions;
   }
 
 
 
-  template std::vector<unsigned int>
-  find_owners_given_way(const std::vector<MeetingPiece<2>> &,
-                        const std::vector<PrescribedIncrements<2>> &);
-  template std::vector<unsigned int>
-  find_owners_given_way(const std::vector<MeetingPiece<3>> &,
-                        const std::vector<PrescribedIncrements<3>> &);
+  template MeetingDecisions
+  decide_meetings(const std::vector<MeetingPiece<2>> &,
+                  const std::vector<PrescribedIncrements<2>> &);
+  template MeetingDecisions
+  decide_meetings(const std::vector<MeetingPiece<3>> &,
+                  const std::vector<PrescribedIncrements<3>> &);
 } // namespace moraine

@@ -70,26 +70,26 @@ namespace
 TEST(MeetingPieces, ACellInWhichTwoMoveDifferentlyFollowsNeither)
 {
   for (const double x : {2.02, 2.3, 2.98})
-    EXPECT_EQ(find_owners_given_way<2>(row(x), {sinks, rests}),
+    EXPECT_EQ(decide_meetings<2>(row(x), {sinks, rests}).given_way,
               (Owners{0, 0, 1, 0, 1}))
       << x;
 }
 
 TEST(MeetingPieces, AtANodeTheSecondLetsGo)
 {
-  EXPECT_EQ(find_owners_given_way<2>(row(2.), {sinks, rests}),
+  EXPECT_EQ(decide_meetings<2>(row(2.), {sinks, rests}).given_way,
             (Owners{0, 0, 0, 1}));
 }
 
 TEST(MeetingPieces, ThoseThatMoveTogetherHold)
 {
   const Owners all = {0, 0, 0, 1, 1};
-  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {rests, rests}), all);
-  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {sinks, sinks}), all);
+  EXPECT_EQ(decide_meetings<2>(row(2.3), {rests, rests}).given_way, all);
+  EXPECT_EQ(decide_meetings<2>(row(2.3), {sinks, sinks}).given_way, all);
   const auto turns = motion([](const Point<2> &x) {
     return 0.1 * Tensor<1, 2>({-x[1], x[0] - 1e5});
   });
-  EXPECT_EQ(find_owners_given_way<2>(row(2.3), {turns, turns}), all);
+  EXPECT_EQ(decide_meetings<2>(row(2.3), {turns, turns}).given_way, all);
 }
 
 TEST(MeetingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
@@ -100,9 +100,9 @@ TEST(MeetingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
       return 0.1 * Tensor<1, 2>({0., x[0] - at});
     });
   };
-  EXPECT_EQ(find_owners_given_way<2>(row(2.), {turns(2.), rests}),
+  EXPECT_EQ(decide_meetings<2>(row(2.), {turns(2.), rests}).given_way,
             (Owners{0, 0, 1, 1}));
-  EXPECT_NE(find_owners_given_way<2>(row(2.3), {turns(2.3), rests}),
+  EXPECT_NE(decide_meetings<2>(row(2.3), {turns(2.3), rests}).given_way,
             (Owners{0, 0, 0, 1, 1}));
 }
 
@@ -115,7 +115,7 @@ TEST(MeetingPieces, RollersOfOtherComponentsHold)
         place.M                             = SymmetricTensor<2, 2>();
         place.M[1 - of.owner][1 - of.owner] = 1;
       }
-  EXPECT_EQ(find_owners_given_way<2>(pieces, {sinks, rests}),
+  EXPECT_EQ(decide_meetings<2>(pieces, {sinks, rests}).given_way,
             (Owners{0, 0, 0, 1, 1}));
 }
 
@@ -129,6 +129,6 @@ TEST(MeetingPieces, NodesThatArePrescribedStay)
   node.nodes     = {0};
   node.places.push_back({{0., 0.}, dealii::unit_symmetric_tensor<2>(), {1.}});
   pieces.push_back(node);
-  EXPECT_EQ(find_owners_given_way<2>(pieces, {sinks, rests}),
+  EXPECT_EQ(decide_meetings<2>(pieces, {sinks, rests}).given_way,
             (Owners{1, 0, 1}));
 }

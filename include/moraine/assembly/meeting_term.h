@@ -16,7 +16,7 @@ namespace moraine
   /**
    * Lets pieces of implicit boundaries go where these meet each other, or grid
    * conditions, that move differently in the cells around; see
-   * find_owners_given_way(). Stands after the terms of what meets.
+   * decide_meetings(). Stands after the terms of what meets.
    */
   template <int dim>
   class MeetingTerm : public Term<dim>
@@ -58,8 +58,8 @@ namespace moraine
     increments() const;
 
     void
-    take_meetings(const std::vector<Piece>        &pieces,
-                  const std::vector<unsigned int> &given_way);
+    take_meetings(const std::vector<Piece> &pieces,
+                  const MeetingDecisions   &decisions);
 
     void
     check_that_all_hold(const StepContext<dim> &context) const;

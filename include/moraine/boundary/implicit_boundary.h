@@ -258,6 +258,11 @@ namespace moraine
     hold_in_cells(
       const std::function<bool(const unsigned int active_cell_index)> &holds);
 
+    /** Hold no slopes in some cells, until pieces are found again. */
+    void
+    drop_slopes_in(
+      const std::function<bool(const unsigned int active_cell_index)> &drops);
+
     /** Those that are held: of pieces with means that multipliers hold where
      * points move through cells. */
     const std::vector<BoundarySlope<dim>> &

@@ -59,6 +59,16 @@ namespace moraine
     std::function<std::vector<dealii::Tensor<1, dim>>(
       const dealii::Point<dim> &)>;
 
+  /** What becomes of each piece. */
+  struct MeetingDecisions
+  {
+    /** The owner it lets go for; its own if it holds. */
+    std::vector<unsigned int> given_way;
+    /** Whether an owner that moves differently has a piece with a node of it.
+     */
+    std::vector<bool> sees_another;
+  };
+
   /**
    * Where owners meet whose motions nodes cannot follow together, or only if
    * they move by several times what the motions differ by, some pieces have to
@@ -70,13 +80,11 @@ namespace moraine
    *
    * @param pieces all that share nodes with one of another owner, of all ranks
    * @param increments of owners
-   * @return for each piece the owner it lets go for; its own if it holds.
    */
   template <int dim>
-  std::vector<unsigned int>
-  find_owners_given_way(
-    const std::vector<MeetingPiece<dim>>         &pieces,
-    const std::vector<PrescribedIncrements<dim>> &increments);
+  MeetingDecisions
+  decide_meetings(const std::vector<MeetingPiece<dim>>         &pieces,
+                  const std::vector<PrescribedIncrements<dim>> &increments);
 } // namespace moraine
 
 #endif
