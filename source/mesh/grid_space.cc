@@ -144,18 +144,10 @@ namespace moraine
     relevant.add_indices(owned);
     relevant.compress();
 
-    // One that served other unknowns cannot be used again (deal.II 9.4).
-    exchange =
-      std::make_unique<const Utilities::MPI::Partitioner>(owned,
-                                                          relevant,
-                                                          communicator());
-    of_unknowns.resize(exchange->locally_owned_size() +
-                       exchange->n_ghost_indices());
-    exchanged.resize(exchange->n_import_indices());
+    unknowns.reinit(owned, relevant, communicator());
     unknown_of_node.resize(first_dof.size());
     for (unsigned int node = 0; node < first_dof.size(); ++node)
-      unknown_of_node[node] = exchange->global_to_local(first_dof[node]);
-    zeros = std::make_unique<const LA::Vector>(owned, communicator());
+      unknown_of_node[node] = unknowns.index(first_dof[node]);
   }
 
 
@@ -165,24 +157,11 @@ namespace moraine
   GridSpace<dim>::node_values(const LA::Vector            &vector,
                               std::vector<Tensor<1, dim>> &values) const
   {
-    const unsigned int n_owned = exchange->locally_owned_size();
-    AssertDimension(vector.locally_owned_size(), n_owned);
-    std::copy_n(vector.begin(), n_owned, of_unknowns.begin());
-    const ArrayView<double>  ghost(of_unknowns.data() + n_owned,
-                                  exchange->n_ghost_indices());
-    std::vector<MPI_Request> requests;
-    exchange->export_to_ghosted_array_start<double, MemorySpace::Host>(
-      0,
-      ArrayView<const double>(of_unknowns.data(), n_owned),
-      make_array_view(exchanged),
-      ghost,
-      requests);
-    exchange->export_to_ghosted_array_finish<double, MemorySpace::Host>(
-      ghost, requests);
+    const std::vector<double> &all = unknowns.array_of(vector);
     values.resize(first_dof.size());
     for (unsigned int node = 0; node < first_dof.size(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
-        values[node][c] = of_unknowns[unknown_of_node[node] + c];
+        values[node][c] = all[unknown_of_node[node] + c];
   }
 
 
@@ -193,25 +172,11 @@ namespace moraine
                                   LA::Vector &vector) const
   {
     AssertDimension(values.size(), first_dof.size());
-    const unsigned int n_owned = exchange->locally_owned_size();
-    std::fill(of_unknowns.begin(), of_unknowns.end(), 0.);
+    std::vector<double> &all = unknowns.zero_array();
     for (unsigned int node = 0; node < first_dof.size(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
-        of_unknowns[unknown_of_node[node] + c] = values[node][c];
-    const ArrayView<double>  owned_part(of_unknowns.data(), n_owned);
-    const ArrayView<double>  ghost(of_unknowns.data() + n_owned,
-                                  exchange->n_ghost_indices());
-    std::vector<MPI_Request> requests;
-    exchange->import_from_ghosted_array_start<double, MemorySpace::Host>(
-      VectorOperation::add, 0, ghost, make_array_view(exchanged), requests);
-    exchange->import_from_ghosted_array_finish<double, MemorySpace::Host>(
-      VectorOperation::add,
-      ArrayView<const double>(exchanged.data(), exchanged.size()),
-      owned_part,
-      ghost,
-      requests);
-    vector = *zeros;
-    std::copy_n(of_unknowns.begin(), n_owned, vector.begin());
+        all[unknown_of_node[node] + c] = values[node][c];
+    unknowns.add_to_owners(vector);
   }
 
 
@@ -253,7 +218,7 @@ namespace moraine
   LA::Vector
   GridSpace<dim>::vector() const
   {
-    return *zeros;
+    return unknowns.zero_vector();
   }
 
 

@@ -46,8 +46,9 @@ namespace moraine
     constexpr double singular_change = 0.01;
 
     /**
-     * Up to this many unknowns of one process KLU beats MUMPS: 8 times at 130,
-     * 1.0 to 1.4 times at 1600 to 6000 in 2D, which fill less than 3D.
+     * Up to this many unknowns KLU beats MUMPS: 8 times at 130, 1.0 to 1.4
+     * times at 1600 to 6000 in 2D, which fill less than 3D; on two ranks, where
+     * it works on one of them, 16 times at 324.
      */
     constexpr unsigned int klu_limit = 2000;
 

@@ -6,10 +6,10 @@
 
 #include <moraine/core/linear_algebra.h>
 #include <moraine/mesh/background_mesh.h>
+#include <moraine/mesh/ghosted_unknowns.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
-#include <deal.II/base/partitioner.h>
 
 #include <deal.II/dofs/dof_handler.h>
 
@@ -18,7 +18,6 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace moraine
@@ -282,12 +281,9 @@ namespace moraine
     std::vector<dealii::Tensor<1, dim>> moves;
     dealii::IndexSet                    owned;
     dealii::IndexSet                    relevant;
-    /** Relevant unknowns: those of this rank, then of others. */
-    std::unique_ptr<const dealii::Utilities::MPI::Partitioner> exchange;
-    mutable std::vector<double> of_unknowns, exchanged;
-    std::vector<unsigned int>   unknown_of_node; ///< the first
-    /** Copying it is quicker than making a vector, which asks all ranks. */
-    std::unique_ptr<const LA::Vector> zeros;
+    mutable GhostedUnknowns             unknowns;
+    /** Where the first of each node stands in their array. */
+    std::vector<unsigned int> unknown_of_node;
   };
 } // namespace moraine
 
