@@ -26,7 +26,7 @@ namespace moraine
         const double *N     = boundary.slope_of_N(k);
         const Tensor<1, dim>          t = slope_traction(context, k, share);
         const SymmetricTensor<2, dim> C =
-          share * slope_stiffness(context, point);
+          share * slope_stiffness(context, boundary.slopes()[k]);
         local.reinit(context.state, space.cell_nodes(point.cell), n, tangent);
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int i = 0; i < dim; ++i)
@@ -47,9 +47,10 @@ namespace moraine
   template <int dim>
   SymmetricTensor<2, dim>
   BoundaryTerm<dim>::slope_stiffness(const StepContext<dim>   &context,
-                                     const BoundaryPoint<dim> &point) const
+                                     const BoundarySlope<dim> &slope) const
   {
-    if (!point.holds)
+    const BoundaryPoint<dim> &point = boundary.points()[slope.point];
+    if (!point.holds || !slope.holds)
       return {};
     const double mu = context.cell_materials.elastic_stiffness(point.cell).mu;
     const SymmetricTensor<2, dim> M  = boundary.projection(point.normal);
@@ -67,9 +68,8 @@ namespace moraine
                                     const double            share) const
   {
     const BoundarySlope<dim> &slope = boundary.slopes()[k];
-    return slope.traction -
-           share * slope_stiffness(context, boundary.points()[slope.point]) *
-             slope_violation(context, k);
+    return slope.traction - share * slope_stiffness(context, slope) *
+                              slope_violation(context, k);
   }
 
 

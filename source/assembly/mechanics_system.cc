@@ -241,7 +241,7 @@ namespace moraine
                 body_names.size());
     for (LA::Vector *vector :
          {&residual_vector, &forces.dead, &unbalanced, &assembled_at})
-      vector->reinit(space.locally_owned(), space.communicator());
+      *vector = space.vector();
     rigid_modes = rigid_modes_of(space);
   }
 

@@ -346,9 +346,10 @@ namespace moraine
       });
     // Means of two motions nodes can follow, but not slopes, too.
     for (unsigned int b = 0; b < boundaries.size(); ++b)
-      boundaries[b]->drop_slopes_in([&cells = shared[b]](const unsigned int c) {
-        return cells.count(c) > 0;
-      });
+      boundaries[b]->hold_slopes_in_cells(
+        [&cells = shared[b]](const unsigned int c) {
+          return cells.count(c) == 0;
+        });
   }
 
 

@@ -285,7 +285,7 @@ namespace moraine
         for (unsigned int k = 0; k + 1 < dim && !is_bent[m]; ++k)
           if (axes[k].first > spread_of_a_place * means[m].h * means[m].h)
             held_slopes.all.push_back(
-              {m, std::sqrt(axes[k].first) * axes[k].second, {}, {}, {}});
+              {m, true, std::sqrt(axes[k].first) * axes[k].second, {}, {}, {}});
         first_of.push_back(held_slopes.all.size());
       }
     held_slopes.values.assign(held_slopes.all.size() * n, 0.);

@@ -315,23 +315,11 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::drop_slopes_in(
-    const std::function<bool(const unsigned int)> &drops)
+  ImplicitBoundary<dim>::hold_slopes_in_cells(
+    const std::function<bool(const unsigned int)> &holds)
   {
-    const unsigned int n      = shapes.n_nodes;
-    unsigned int       n_kept = 0;
-    for (unsigned int k = 0; k < held_slopes.all.size(); ++k)
-      {
-        if (drops(boundary_points[held_slopes.all[k].point].cell))
-          continue;
-        held_slopes.all[n_kept] = held_slopes.all[k];
-        std::copy_n(&held_slopes.values[k * n],
-                    n,
-                    &held_slopes.values[n_kept * n]);
-        ++n_kept;
-      }
-    held_slopes.all.resize(n_kept);
-    held_slopes.values.resize(n_kept * n);
+    for (auto &slope : held_slopes.all)
+      slope.holds = holds(boundary_points[slope.point].cell);
   }
 
 

@@ -48,6 +48,11 @@ namespace moraine
         return differences[a * n_owners + b];
       }
 
+      /** Whether what piece @p q holds is part of what @p p holds, and moves
+       * otherwise there. */
+      bool
+      is_in_the_way(const unsigned int q, const unsigned int p) const;
+
       /** Numbers of pieces in the order in which they are taken. */
       std::vector<unsigned int>
       order() const;
@@ -160,6 +165,26 @@ namespace moraine
                                    &differences[b * n_owners + a]})
                   *of = std::max(*of, by);
               }
+    }
+
+
+
+    template <int dim>
+    bool
+    Meeting<dim>::is_in_the_way(const unsigned int q,
+                                const unsigned int p) const
+    {
+      const unsigned int other = pieces[q].owner;
+      const double       little =
+        tolerance_of_pieces * difference(pieces[p].owner, other);
+      if (!(little > 0))
+        return false;
+      for (unsigned int k = 0; k < pieces[p].places.size(); ++k)
+        for (unsigned int s = 0; s < n_spans; ++s)
+          for (const auto &place : pieces[q].places)
+            if ((place.M * relative(p, k, other, s)).norm() > little)
+              return true;
+      return false;
     }
 
 
@@ -345,23 +370,18 @@ namespace moraine
     const Meeting<dim>      meeting(pieces, increments);
     const std::vector<bool> all(pieces.size(), true);
     std::vector<bool>       taken(pieces.size(), false);
-    // Of some pieces the owner that moves most differently.
-    const auto most_different = [&](const unsigned int               owner,
-                                    const std::vector<unsigned int> &some) {
-      unsigned int other = owner;
-      for (const unsigned int q : some)
-        if (meeting.difference(owner, pieces[q].owner) >
-            meeting.difference(owner, other))
-          other = pieces[q].owner;
-      return other;
-    };
     for (const unsigned int p : meeting.order())
       {
         const unsigned int        owner = pieces[p].owner;
         std::vector<unsigned int> some  = meeting.around(p, taken);
-        const unsigned int        other = most_different(owner, some);
-        decisions.sees_another[p] =
-          most_different(owner, meeting.around(p, all)) != owner;
+        unsigned int              other = owner;
+        for (const unsigned int q : some)
+          if (meeting.difference(owner, pieces[q].owner) >
+              meeting.difference(owner, other))
+            other = pieces[q].owner;
+        for (const unsigned int q : meeting.around(p, all))
+          decisions.sees_another[p] =
+            decisions.sees_another[p] || meeting.is_in_the_way(q, p);
         some.push_back(p);
         taken[p] = other == owner || pieces[p].must_hold ||
                    meeting.agree(some, owner, meeting.difference(owner, other));

@@ -4,6 +4,7 @@
 #include <moraine/mesh/ghosted_unknowns.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace moraine
 {
@@ -77,7 +78,8 @@ namespace moraine
       ArrayView<double>(values.data(), n_owned),
       ghosts,
       requests);
-    sums = *zeros;
-    std::copy_n(values.begin(), n_owned, sums.begin());
+    LA::Vector result(*zeros);
+    std::copy_n(values.begin(), n_owned, result.begin());
+    sums = std::move(result);
   }
 } // namespace moraine

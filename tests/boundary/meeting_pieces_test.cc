@@ -115,8 +115,19 @@ TEST(MeetingPieces, RollersOfOtherComponentsHold)
         place.M                             = SymmetricTensor<2, 2>();
         place.M[1 - of.owner][1 - of.owner] = 1;
       }
-  EXPECT_EQ(decide_meetings<2>(pieces, {sinks, rests}).given_way,
-            (Owners{0, 0, 0, 1, 1}));
+  const MeetingDecisions decisions = decide_meetings<2>(pieces, {sinks, rests});
+  EXPECT_EQ(decisions.given_way, (Owners{0, 0, 0, 1, 1}));
+  EXPECT_EQ(decisions.sees_another, std::vector<bool>(5, false));
+}
+
+TEST(MeetingPieces, ThoseThatShareNodesSeeEachOther)
+{
+  // All nodes of the last cell of one are of the first of the other, and one of
+  // the cells beside them.
+  EXPECT_EQ(decide_meetings<2>(row(2.3), {sinks, rests}).sees_another,
+            (std::vector<bool>{false, true, true, true, true}));
+  EXPECT_EQ(decide_meetings<2>(row(2.3), {rests, rests}).sees_another,
+            std::vector<bool>(5, false));
 }
 
 TEST(MeetingPieces, NodesThatArePrescribedStay)

@@ -150,7 +150,7 @@ namespace moraine
      */
     dealii::SymmetricTensor<2, dim>
     slope_stiffness(const StepContext<dim>   &context,
-                    const BoundaryPoint<dim> &point) const;
+                    const BoundarySlope<dim> &slope) const;
 
     /** What slope @p k of the trial increment misses of the prescribed one, all
      * components of it. */

@@ -98,7 +98,9 @@ namespace moraine
   template <int dim>
   struct BoundarySlope
   {
-    unsigned int           point;      ///< whose mean is held
+    unsigned int point; ///< whose mean is held
+    /** Or it keeps its traction, as where another boundary is in the way. */
+    bool                   holds = true;
     dealii::Tensor<1, dim> offset;     ///< @f$s\, e@f$ at the start of the step
     dealii::Tensor<1, dim> prescribed; ///< of @f$\Delta g@f$
     dealii::Tensor<1, dim> traction;   ///< carried, in the trial state
@@ -258,10 +260,10 @@ namespace moraine
     hold_in_cells(
       const std::function<bool(const unsigned int active_cell_index)> &holds);
 
-    /** Hold no slopes in some cells, until pieces are found again. */
+    /** The same for slopes, which do not hold where the points do not. */
     void
-    drop_slopes_in(
-      const std::function<bool(const unsigned int active_cell_index)> &drops);
+    hold_slopes_in_cells(
+      const std::function<bool(const unsigned int active_cell_index)> &holds);
 
     /** Those that are held: of pieces with means that multipliers hold where
      * points move through cells. */

@@ -64,8 +64,8 @@ namespace moraine
   {
     /** The owner it lets go for; its own if it holds. */
     std::vector<unsigned int> given_way;
-    /** Whether an owner that moves differently has a piece with a node of it.
-     */
+    /** Whether a piece with a node of it holds part of what it holds, and moves
+     * differently. */
     std::vector<bool> sees_another;
   };
 

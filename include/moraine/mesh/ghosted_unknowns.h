@@ -55,10 +55,13 @@ namespace moraine
     add_to_owners(LA::Vector &sums);
 
   private:
-    std::unique_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    std::unique_ptr<const LA::Vector>                          zeros;
-    std::vector<double>                                        values;
-    std::vector<double>                                        to_send;
+    /** Before the first reinit() there are no unknowns. */
+    std::unique_ptr<const dealii::Utilities::MPI::Partitioner> partitioner =
+      std::make_unique<const dealii::Utilities::MPI::Partitioner>();
+    std::unique_ptr<const LA::Vector> zeros =
+      std::make_unique<const LA::Vector>();
+    std::vector<double> values;
+    std::vector<double> to_send;
   };
 } // namespace moraine
 
