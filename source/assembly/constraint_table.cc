@@ -46,10 +46,11 @@ namespace moraine
     {
       if (has_ties)
         return lines.distribute(x);
-      const auto range = x.local_range();
+      const auto [begin, end] = x.local_range();
+      double *values          = x.begin();
       for (const auto &line : lines.get_lines())
-        if (x.in_local_range(line.index))
-          x.begin()[line.index - range.first] = line.inhomogeneity;
+        if (begin <= line.index && line.index < end)
+          values[line.index - begin] = line.inhomogeneity;
     }
   } // namespace
 

@@ -340,16 +340,15 @@ namespace moraine
                                     {first, second, pieces[p].places[0].x, {}});
         meeting->cells.insert(pieces[p].cell);
       }
+    const auto all_but = [](const std::set<unsigned int> &cells) {
+      return [&cells](const unsigned int c) { return cells.count(c) == 0; };
+    };
     for (unsigned int b = 0; b < boundaries.size(); ++b)
-      boundaries[b]->hold_in_cells([&cells = let_go[b]](const unsigned int c) {
-        return cells.count(c) == 0;
-      });
-    // Means of two motions nodes can follow, but not slopes, too.
-    for (unsigned int b = 0; b < boundaries.size(); ++b)
-      boundaries[b]->hold_slopes_in_cells(
-        [&cells = shared[b]](const unsigned int c) {
-          return cells.count(c) == 0;
-        });
+      {
+        boundaries[b]->hold_in_cells(all_but(let_go[b]));
+        // Nodes can follow means of two motions, but not slopes, too.
+        boundaries[b]->hold_slopes_in_cells(all_but(shared[b]));
+      }
   }
 
 

@@ -3,8 +3,6 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
-#include <moraine/mesh/active_search.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>

@@ -181,9 +181,12 @@ namespace moraine
         return false;
       for (unsigned int k = 0; k < pieces[p].places.size(); ++k)
         for (unsigned int s = 0; s < n_spans; ++s)
-          for (const auto &place : pieces[q].places)
-            if ((place.M * relative(p, k, other, s)).norm() > little)
-              return true;
+          {
+            const Tensor<1, dim> g = relative(p, k, other, s);
+            for (const auto &place : pieces[q].places)
+              if ((place.M * g).norm() > little)
+                return true;
+          }
       return false;
     }
 
@@ -367,9 +370,17 @@ namespace moraine
     decisions.sees_another.assign(pieces.size(), false);
     if (pieces.empty())
       return decisions;
-    const Meeting<dim>      meeting(pieces, increments);
-    const std::vector<bool> all(pieces.size(), true);
-    std::vector<bool>       taken(pieces.size(), false);
+    const Meeting<dim> meeting(pieces, increments);
+    std::vector<bool>  taken(pieces.size(), true);
+    for (unsigned int p = 0; p < pieces.size(); ++p)
+      {
+        const std::vector<unsigned int> some = meeting.around(p, taken);
+        decisions.sees_another[p] =
+          std::any_of(some.begin(), some.end(), [&](const unsigned int q) {
+            return meeting.is_in_the_way(q, p);
+          });
+      }
+    taken.assign(pieces.size(), false);
     for (const unsigned int p : meeting.order())
       {
         const unsigned int        owner = pieces[p].owner;
@@ -379,9 +390,6 @@ namespace moraine
           if (meeting.difference(owner, pieces[q].owner) >
               meeting.difference(owner, other))
             other = pieces[q].owner;
-        for (const unsigned int q : meeting.around(p, all))
-          decisions.sees_another[p] =
-            decisions.sees_another[p] || meeting.is_in_the_way(q, p);
         some.push_back(p);
         taken[p] = other == owner || pieces[p].must_hold ||
                    meeting.agree(some, owner, meeting.difference(owner, other));

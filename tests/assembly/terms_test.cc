@@ -442,6 +442,70 @@ namespace
 
 
 
+  /** A fixed line that moves up by @p rate. */
+  ImplicitBoundary<2>
+  rising_line(const std::string           &name,
+              const std::vector<Point<2>> &line,
+              const double                 rate)
+  {
+    RigidMotion<2> motion;
+    if (rate != 0)
+      motion =
+        RigidMotion<2>({{{}, [rate](const double t) { return rate * t; }}},
+                       {},
+                       Point<2>());
+    EnforcementParameters parameters;
+    parameters.enforcement = "augmented Lagrangian";
+    return ImplicitBoundary<2>(
+      name,
+      make_flat_face<2>(line),
+      motion,
+      [](const Point<2> &, const double) { return Tensor<1, 2>(); },
+      {Constraint<2>::fixed, {}},
+      parameters.enforcement_of(),
+      0.);
+  }
+
+  TEST(MeetingTerm, SlopesHoldAgainWhereTheOtherHasGone)
+  {
+    SmallScene<2> scene;
+    State<2>      state(scene.space,
+                   scene.points,
+                   *scene.basis,
+                   {std::make_shared<LinearElastic>(1000., 0.3, 1.)},
+                   MeshAfterStep::reset);
+    state.begin_step();
+    ImplicitBoundary<2> door =
+      rising_line("door", {{0.3, 0.9}, {2.3, 1.4}}, 1.);
+    ImplicitBoundary<2> base =
+      rising_line("base", {{2.3, 1.4}, {3.4, 1.7}}, 0.);
+    MeetingTerm<2> term({&door, &base}, {}, {0., 1.});
+    StepContext<2> context(state);
+    const auto     n_slopes_of_base = [&](const double t, const bool all) {
+      for (auto *boundary : {&door, &base})
+        boundary->begin_step(scene.space,
+                             t,
+                             0.5,
+                             true,
+                             StrainMeasure::finite,
+                             false,
+                             false,
+                             {},
+                             true);
+      term.begin_step(context);
+      unsigned int n = 0;
+      for (const auto &slope : base.slopes())
+        n += all || slope.holds ? 1 : 0;
+      return Utilities::MPI::sum(n, MPI_COMM_WORLD);
+    };
+    const unsigned int n_held = n_slopes_of_base(0., false);
+    const unsigned int n      = n_slopes_of_base(0., true);
+    EXPECT_LT(n_held, n);
+    // The base stands still, and is not found anew.
+    EXPECT_EQ(n_slopes_of_base(2., false), n);
+    EXPECT_EQ(base.n_searches(), 1u);
+  }
+
   TEST(MeetingTerm, PiecesThatAreFoundAnewLetGoAgain)
   {
     SmallScene<2> scene;
