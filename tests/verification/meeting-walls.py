@@ -142,70 +142,30 @@ text("a door narrower than a cell", plain(result.output.strip()))
 # A wall pushed over a rough base by 1.6 cells into clay that yields, on the
 # lines of its mesh and turned with all that acts. Slopes of pieces that wall and
 # base both cut would let the force creep up.
-PUSHED = """
-subsection Mesh
-  set Lower corner = -2, -1
-  set Upper corner = 6, 5
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection clay
-    set Model              = von Mises
-    set Young modulus      = 2000
-    set Poisson ratio      = 0.3
-    set Density            = 1.8
-    set Shear yield stress = 12
-  end
-end
-subsection Bodies
-  subsection soil
-    set Lower corner   = 0, 0
-    set Upper corner   = 4, 2.5
-    set Rotation angle = {angle}
-  end
-end
-subsection Boundaries
-  subsection base
-    set Body = soil
-    set Part = bottom
-  end
-  subsection wall
-    set Body        = soil
-    set Part        = left
-    set Translation = 0.4*t*{c}; 0.4*t*{s}
-  end
-end
-subsection Loads
-  subsection g
-    set Type  = gravity
-    set Value = {down}
-  end
-end
-subsection Time
-  set Steps = 40
-end
-subsection Output
-  set Write = end
-end
-"""
+path = folder / "pushed.prm"
+path.write_text(SCENE.format(
+    mesh_low="-2, -1", mesh_high="6, 5", h=0.25, method="GIMP", low="0, 0",
+    high="4, 2.5", conditions="",
+    boundaries=section("base", Body="soil", Part="bottom") +
+    section("wall", Body="soil", Part="left"), **YIELDS))
 
 
 def pushed(method, angle):
     """Forces along the way of the wall."""
     c, s = cos(radians(angle)), sin(radians(angle))
-    path = folder / f"pushed-{angle}.prm"
-    path.write_text(PUSHED.format(method=method, angle=angle, c=c, s=s,
-                                  down="0; -10" if angle else
-                                  f"{-10 * sin(TURNED)}; {-10 * cos(TURNED)}"))
+    down = radians(angle - 15)
+    rows = run(path, {"Method/Method": method, "Method/Strain": "finite",
+                      "Materials/clay/Young modulus": 2000,
+                      "Materials/clay/Poisson ratio": 0.3,
+                      "Bodies/soil/Initial stress": "", "Bodies/soil/K0": "",
+                      "Bodies/soil/Rotation angle": angle,
+                      "Boundaries/wall/Translation": f"{0.4 * c}*t; {0.4 * s}*t",
+                      "Loads/g/Value": f"{10 * sin(down)}; {-10 * cos(down)}",
+                      "Time/Steps": 40}).history()
     return [c * row["reaction_x of wall"] + s * row["reaction_y of wall"]
-            for row in run(path).history()]
+            for row in rows]
 
 
-TURNED = radians(15)
 for method in ("CPDI1", "GIMP"):
     turned, aligned = (pushed(method, angle) for angle in (15, 0))
     name = f"wall pushed over a base, turned, {method}: force over aligned - 1"
