@@ -9,7 +9,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 
-#include <numeric>
+#include <algorithm>
 
 namespace moraine
 {

@@ -46,9 +46,11 @@ namespace moraine
     constexpr double singular_change = 0.01;
 
     /**
-     * Up to this many unknowns KLU beats MUMPS: 8 times at 130, 1.0 to 1.4
-     * times at 1600 to 6000 in 2D, which fill less than 3D; on two ranks, where
-     * it works on one of them, 16 times at 324.
+     * Up to this many unknowns KLU: against MUMPS it is 8 times as quick at
+     * 130, on two ranks, where it works on one of them, 16 times at 324 and 2
+     * at 500, and 18 times for a narrow band of 2000. Where much fills in it
+     * loses near the limit: on two ranks 1.4 times at 1900 in 2D, on one or two
+     * 1.6 to 2 times at 1350 in 3D.
      */
     constexpr unsigned int klu_limit = 2000;
 

@@ -17,12 +17,12 @@ namespace moraine
   /**
    * An array of the unknowns that a rank owns, followed by those of others that
    * it needs, and what ranks send each other: found once, where vectors of the
-   * linear algebra would ask all ranks each time. Collective but for index().
+   * linear algebra would ask all ranks each time.
    */
   class GhostedUnknowns
   {
   public:
-    /** @p relevant: owned and needed ones. */
+    /** @p relevant: owned and needed ones. Collective. */
     void
     reinit(const dealii::IndexSet &owned,
            const dealii::IndexSet &relevant,
@@ -42,7 +42,7 @@ namespace moraine
       return *zeros;
     }
 
-    /** The array of a vector, until the next call. */
+    /** The array of a vector, until the next call. Collective. */
     const std::vector<double> &
     array_of(const LA::Vector &vector);
 
@@ -50,7 +50,7 @@ namespace moraine
     std::vector<double> &
     zero_array();
 
-    /** The sums over all ranks of what is in the array now. */
+    /** The sums over all ranks of what is in the array now. Collective. */
     void
     add_to_owners(LA::Vector &sums);
 
