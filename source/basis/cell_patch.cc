@@ -5,8 +5,6 @@
 
 #include <moraine/mesh/cell_shapes.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -239,11 +237,9 @@ namespace moraine
         if (xi && in_unit_cell(*xi))
           return cells[index];
       }
-    const auto found =
-      GridTools::find_active_cell_around_point(background.search_cache(), x);
-    return found.first.state() == IteratorState::valid ?
-             CellIterator(found.first) :
-             CellIterator(background.triangulation().end());
+    const auto found = background.cell_around(x);
+    return found ? CellIterator(found->first) :
+                   CellIterator(background.triangulation().end());
   }
 
 

@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/make_mesh.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -241,6 +242,35 @@ namespace moraine
     // Renews the search caches, ours and that of the points; unknowns and
     // points do not listen to it.
     tria.signals.mesh_movement();
+  }
+
+
+
+  template <int dim>
+  std::optional<
+    std::pair<typename BackgroundMesh<dim>::CellIterator, Point<dim>>>
+  BackgroundMesh<dim>::cell_around(const Point<dim> &x) const
+  {
+    namespace bgi              = boost::geometry::index;
+    constexpr double tolerance = 1e-10;
+    BoundingBox<dim> around(std::make_pair(x, x));
+    around.extend(tolerance * largest_edge);
+    std::optional<std::pair<CellIterator, Point<dim>>> found;
+    for (const auto &[box, cell] :
+         cache.get_cell_bounding_boxes_rtree() |
+           bgi::adaptors::queried(bgi::intersects(around)))
+      {
+        Point<dim> xi;
+        cell_mapping.transform_points_real_to_unit_cell(
+          cell,
+          ArrayView<const Point<dim>>(&x, 1),
+          ArrayView<Point<dim>>(&xi, 1));
+        if (GeometryInfo<dim>::distance_to_unit_cell(xi) < tolerance &&
+            (!found ||
+             cell->active_cell_index() < found->first->active_cell_index()))
+          found.emplace(cell, xi);
+      }
+    return found;
   }
 
 

@@ -7,8 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
 #include <deal.II/numerics/rtree.h>
 
@@ -319,23 +317,18 @@ namespace moraine
         {
           // Every rank knows every cell, so all ranks agree on what is outside.
           Point<dim> place = lost.position;
-          auto       found =
-            GridTools::find_active_cell_around_point(background.search_cache(),
-                                                     place);
-          if (found.first.state() != IteratorState::valid)
+          auto       found = background.cell_around(place);
+          if (!found)
             if (const auto inside = place_for(place))
               {
                 place = *inside;
-                found = GridTools::find_active_cell_around_point(
-                  background.search_cache(), place);
-                returned_points +=
-                  found.first.state() == IteratorState::valid &&
-                  found.first->is_locally_owned();
+                found = background.cell_around(place);
+                returned_points += found && found->first->is_locally_owned();
               }
-          const auto &[cell, reference] = found;
-          if (cell.state() != IteratorState::valid)
+          if (!found)
             outside = &lost;
-          else if (cell->is_locally_owned())
+          else if (const auto &[cell, reference] = *found;
+                   cell->is_locally_owned())
             {
               const auto inside =
                 found_place(cell, background.mapping(), place, reference);

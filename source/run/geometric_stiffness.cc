@@ -173,8 +173,7 @@ namespace moraine
       , own(parameters, dim)
       , solver(model.linear_solver.get())
     {
-      // Of an iterative solver the choice of method counts its iterations.
-      if (model.state->is_linear() && solver->solves_directly())
+      if (model.state->is_linear() && solver->is_set_up())
         return;
       solver->clear(); // two would take twice the memory
       solver = &own;
@@ -194,7 +193,7 @@ namespace moraine
       if (!(size > 0) || !std::isfinite(size))
         return 0.;
       u = f;
-      if (!solver->solve(u, f, power_residual * size).converged)
+      if (!solver->solve_aside(u, f, power_residual * size).converged)
         return 0.;
       const double work = u * f;
       system.apply_constraints(u);

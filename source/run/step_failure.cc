@@ -189,14 +189,9 @@ namespace moraine
           // Where that is in the mesh before it moves.
           const Point<dim> X =
             model.mesh_motion.map(x_new, time.trial_time(), time.time());
-          // A search beside the mesh takes longest: deal.II throws for each
-          // cell.
           if ((box.point_inside(X) &&
                (mesh.box_grid() || in_cell.cell->point_inside(X) ||
-                (in_cell.cell->at_boundary() && points.place_for(X)) ||
-                GridTools::find_active_cell_around_point(
-                  mesh.search_cache(), X, in_cell.cell)
-                    .first.state() == IteratorState::valid)) ||
+                mesh.cell_around(X))) ||
               points.place_for(X))
             continue;
           std::ostringstream text;

@@ -150,11 +150,13 @@ namespace moraine
     unsigned int
     allowed_iterations(const double reduction) const;
 
+    /** @p counts: for the choice of auto. */
     LinearReport
     solve_iteratively(LA::Vector       &x,
                       const LA::Vector &b,
                       const double      enough,
-                      const LA::Vector *weights);
+                      const LA::Vector *weights,
+                      const bool        counts = true);
 
     /** CG or GMRES. @throws SolverControl::NoConvergence */
     template <typename Matrix, typename Preconditioner>
@@ -289,7 +291,8 @@ namespace moraine
   LinearSolver::Implementation::solve_iteratively(LA::Vector       &x,
                                                   const LA::Vector &b,
                                                   const double      enough,
-                                                  const LA::Vector *weights)
+                                                  const LA::Vector *weights,
+                                                  const bool        counts)
   {
     LinearReport report;
     report.solver   = method_name();
@@ -331,7 +334,8 @@ namespace moraine
           control.last_step() >= control.max_steps();
       }
     report.iterations = control.last_step();
-    choice.spend(report.iterations);
+    if (counts)
+      choice.spend(report.iterations);
     LA::Vector residual(b);
     matrix->residual(residual, x, b);
     const double left        = norm(residual);
@@ -453,6 +457,19 @@ namespace moraine
 
 
 
+  LinearReport
+  LinearSolver::solve_aside(LA::Vector       &x,
+                            const LA::Vector &b,
+                            const double      enough)
+  {
+    auto &s = *implementation;
+    Assert(is_set_up(), ExcMessage("set_up() comes before solve_aside()."));
+    return s.direct ? s.direct->solve(x, b) :
+                      s.solve_iteratively(x, b, enough, nullptr, false);
+  }
+
+
+
   std::optional<double>
   LinearSolver::condition_number() const
   {
@@ -471,6 +488,15 @@ namespace moraine
   LinearSolver::solves_directly() const
   {
     return implementation->is_finite && implementation->direct.has_value();
+  }
+
+
+
+  bool
+  LinearSolver::is_set_up() const
+  {
+    const auto &s = *implementation;
+    return s.is_finite && (s.direct || s.multigrid);
   }
 
 

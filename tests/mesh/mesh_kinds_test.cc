@@ -226,6 +226,7 @@ TEST(MeshKinds, MovedMeshIsSearchedAnew)
       // fills the caches that must be renewed
       dealii::GridTools::find_active_cell_around_point(mesh.search_cache(),
                                                        Point<2>(7.1, 0.4));
+      EXPECT_TRUE(mesh.cell_around(Point<2>(7.1, 0.4)));
       const double size = mesh.cell_size();
 
       mesh.move_vertices([](const Point<2> &x) { return turned(x, 5.); });
@@ -250,8 +251,38 @@ TEST(MeshKinds, MovedMeshIsSearchedAnew)
                       Point<2>(7.5 * std::cos(dealii::numbers::PI / 18), 0.),
                       middle)),
                     1e-12);
+          const auto same = mesh.cell_around(x);
+          ASSERT_TRUE(same);
+          EXPECT_EQ(same->first, found.first);
+          EXPECT_LT(same->second.distance(found.second), 1e-12);
         }
     }
+}
+
+TEST(MeshKinds, CellAroundAPlace)
+{
+  const BackgroundMesh<2> mesh(annulus<2>(), MPI_COMM_WORLD);
+  const double            half = dealii::numbers::PI / 18;
+  // The middle of an outer edge, and places beside it and in the hole.
+  const auto at = [half](const double r) {
+    return Point<2>(r * std::cos(half) * std::cos(half),
+                    r * std::cos(half) * std::sin(half));
+  };
+  const auto cell = mesh.cell_around(at(10.));
+  ASSERT_TRUE(cell);
+  EXPECT_LT(cell->first->center().distance(at(9.5)), 1e-12);
+  EXPECT_TRUE(mesh.cell_around(at(10. + 1e-11)));
+  EXPECT_FALSE(mesh.cell_around(at(10. + 1e-8)));
+  EXPECT_FALSE(mesh.cell_around(at(4.9)));
+  EXPECT_FALSE(mesh.cell_around(Point<2>(20., 20.)));
+  // Of cells that share a face the first, whatever the search comes across.
+  const auto between = mesh.cell_around(at(9.));
+  ASSERT_TRUE(between);
+  const auto index = [&](const double r) {
+    return mesh.cell_around(at(r))->first->active_cell_index();
+  };
+  EXPECT_EQ(between->first->active_cell_index(),
+            std::min(index(8.9), index(9.1)));
 }
 
 

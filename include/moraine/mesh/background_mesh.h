@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -106,7 +107,15 @@ namespace moraine
       return cell_mapping;
     }
 
-    /** Finds cells around places and vertices. */
+    /**
+     * The cell that @p x is in, to 1e-10 of it, and its unit place there; the
+     * first of several. Nothing beside the mesh, which takes no longer:
+     * dealii::GridTools::find_active_cell_around_point() throws for each cell.
+     */
+    std::optional<std::pair<CellIterator, dealii::Point<dim>>>
+    cell_around(const dealii::Point<dim> &x) const;
+
+    /** Finds cells and vertices near places. */
     const dealii::GridTools::Cache<dim> &
     search_cache() const
     {
