@@ -3,24 +3,26 @@
 
 // Preloaded into the program (LD_PRELOAD): instead of running its main(), the
 // process stands before it with all libraries loaded, and copies itself for
-// each run that is asked for. Starting anew takes a quarter of a second, nearly
-// all of it to look up symbols in 200 libraries; tests start a thousand times.
+// each run that fork_client.cc asks for. Starting anew takes a quarter of a
+// second, nearly all of it to look up symbols in 200 libraries; tests start
+// thousands of processes.
 //
-// A request on standard input is its number of bytes, in four bytes, then words
-// that end with '\0': the folder to run in, files for standard output and for
-// standard error, and the command line. Answers on standard output are the
-// number of the process, in a line, and when it has ended, its exit code or
-// minus the signal that ended it. The server ends with its input. See
-// fork_server.py.
+// Says "ready" in a line of standard output, and ends with its input.
 
 #include <dlfcn.h>
-#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -31,11 +33,11 @@ namespace
 
   // False at the end of the input.
   bool
-  read_bytes(char *to, std::size_t n)
+  read_bytes(const int from, char *to, std::size_t n)
   {
     while (n > 0)
       {
-        const ssize_t n_read = read(STDIN_FILENO, to, n);
+        const ssize_t n_read = read(from, to, n);
         if (n_read <= 0)
           return false;
         to += n_read;
@@ -44,49 +46,121 @@ namespace
     return true;
   }
 
-  void
-  redirect(const int descriptor, const char *file, const int flags)
+  // The size of the request; its standard streams become those of this process.
+  std::uint32_t
+  receive_streams(const int client)
   {
-    const int opened = open(file, flags, 0666);
-    if (opened < 0 || dup2(opened, descriptor) < 0)
+    std::uint32_t         n = 0;
+    iovec                 bytes{&n, sizeof(n)};
+    alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
+    msghdr                message{};
+    message.msg_iov        = &bytes;
+    message.msg_iovlen     = 1;
+    message.msg_control    = control;
+    message.msg_controllen = sizeof(control);
+    if (recvmsg(client, &message, 0) != sizeof(n) || !CMSG_FIRSTHDR(&message))
       _exit(127);
-    close(opened);
+    int streams[3];
+    std::memcpy(streams, CMSG_DATA(CMSG_FIRSTHDR(&message)), sizeof(streams));
+    for (int i = 0; i < 3; ++i)
+      {
+        dup2(streams[i], i);
+        close(streams[i]);
+      }
+    return n;
+  }
+
+  // In the copy: become the program.
+  int
+  run(const std::vector<char *> &words)
+  {
+    const int n_arguments = std::atoi(words[1]);
+    if (chdir(words[0]) != 0)
+      _exit(127);
+    std::vector<char *> arguments(words.begin() + 2,
+                                  words.begin() + 2 + n_arguments);
+    arguments.push_back(nullptr);
+    clearenv();
+    for (auto word = words.begin() + 2 + n_arguments; word != words.end();
+         ++word)
+      putenv(*word);
+    return program_main(n_arguments, arguments.data(), environ);
+  }
+
+  // The copy runs until it ends or its client does.
+  void
+  keep(const int client, const pid_t copy)
+  {
+    const auto tell = [client](const std::int32_t number) {
+      return write(client, &number, sizeof(number)) == sizeof(number);
+    };
+    bool   is_asked = tell(copy);
+    pollfd either[] = {{static_cast<int>(syscall(SYS_pidfd_open, copy, 0)),
+                        POLLIN,
+                        0},
+                       {client, POLLIN, 0}};
+    while (is_asked && either[0].revents == 0)
+      {
+        poll(either, 2, -1);
+        is_asked = either[1].revents == 0;
+      }
+    if (either[0].revents == 0)
+      kill(copy, SIGKILL);
+    int status = 0;
+    waitpid(copy, &status, 0);
+    tell(status);
   }
 
   int
-  serve(int, char **, char **environment)
+  answer(const int client)
   {
-    std::uint32_t n = 0;
-    while (read_bytes(reinterpret_cast<char *>(&n), sizeof(n)))
+    std::string request(receive_streams(client), '\0');
+    if (!read_bytes(client, request.data(), request.size()))
+      _exit(127);
+    std::vector<char *> words;
+    for (std::size_t at = 0; at < request.size();
+         at             = request.find('\0', at) + 1)
+      words.push_back(request.data() + at);
+    std::signal(SIGCHLD, SIG_DFL);
+    const pid_t copy = fork();
+    if (copy == 0)
       {
-        std::string request(n, '\0');
-        if (!read_bytes(request.data(), n))
-          break;
-        std::vector<char *> words;
-        for (std::size_t at = 0; at < n; at = request.find('\0', at) + 1)
-          words.push_back(request.data() + at);
-        const int n_arguments = static_cast<int>(words.size()) - 3;
-        words.push_back(nullptr);
+        close(client);
+        return run(words);
+      }
+    if (copy > 0)
+      keep(client, copy);
+    _exit(0);
+  }
 
-        const pid_t child = fork();
-        if (child < 0)
-          return 1;
-        if (child == 0)
+  int
+  serve(int, char **, char **)
+  {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const int n        = std::snprintf(address.sun_path + 1,
+                                sizeof(address.sun_path) - 1,
+                                "moraine-fork-%d",
+                                static_cast<int>(getpid()));
+    const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (bind(listener,
+             reinterpret_cast<sockaddr *>(&address),
+             offsetof(sockaddr_un, sun_path) + 1 + n) != 0 ||
+        listen(listener, 64) != 0)
+      return 1;
+    std::signal(SIGCHLD, SIG_IGN); // keepers leave nothing behind
+    std::puts("ready");
+    std::fflush(stdout);
+    pollfd either[] = {{listener, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}};
+    while (poll(either, 2, -1) > 0 && either[1].revents == 0)
+      {
+        const int client = accept(listener, nullptr, nullptr);
+        if (client >= 0 && fork() == 0)
           {
-            if (chdir(words[0]) != 0)
-              _exit(127);
-            redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
-            redirect(STDOUT_FILENO, words[1], O_WRONLY | O_CREAT | O_TRUNC);
-            redirect(STDERR_FILENO, words[2], O_WRONLY | O_CREAT | O_TRUNC);
-            return program_main(n_arguments, words.data() + 3, environment);
+            close(listener);
+            return answer(client);
           }
-        dprintf(STDOUT_FILENO, "%d\n", static_cast<int>(child));
-        int status = 0;
-        if (waitpid(child, &status, 0) != child)
-          return 1;
-        dprintf(STDOUT_FILENO,
-                "%d\n",
-                WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status));
+        close(client);
       }
     return 0;
   }

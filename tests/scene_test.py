@@ -12,8 +12,8 @@ so the comparison is exact and nothing passes by a tolerance hidden elsewhere.
     number("torque", value, 4)      prints  torque 1.234e+00 (4 digits)
     text("status", "ok")
 
-Runs on one process are copies of one that stands ready if MORAINE_FORK_SERVER is
-set, as ctest does; see fork_server.py.
+They are copies of a process that stands ready if MORAINE_FORK_SERVER is set, as
+ctest does; see fork_server.py.
 The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
 Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """
@@ -116,8 +116,9 @@ def _ended(words, n, refused):
         # the first has ended, a second of time before it looks again.
         quick = ["--mca", "odls_base_sigkill_timeout", "0"] if refused else []
         process = subprocess.run(
-            ["mpirun", "-q", *quick, "-n", str(n), str(program), *words],
-            capture_output=True, text=True, cwd=_folder)
+            _starter.command(words, n, ["mpirun", "-q", *quick]),
+            capture_output=True, text=True, cwd=_folder,
+            env=_starter.environment())
         return process.returncode, process.stdout + process.stderr
     with tempfile.TemporaryDirectory(prefix="moraine-text-") as name:
         files = [pathlib.Path(name) / "out", pathlib.Path(name) / "err"]
