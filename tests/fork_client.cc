@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 // What mpirun starts for each rank in place of the program: asks the server of
-// fork_server.cc, whose number MORAINE_FORK_SERVER_PID tells, for a copy that
+// fork_server.cc, whose socket MORAINE_FORK_SOCKET names, for a copy that
 // has this process's environment, folder and standard streams, hands signals on
 // to it, and ends as it ends.
 //
@@ -17,7 +17,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -33,28 +32,45 @@ namespace
   volatile std::sig_atomic_t copy    = 0;
   volatile std::sig_atomic_t pending = 0;
 
+  [[noreturn]] void
+  fail(const char *what)
+  {
+    std::fprintf(stderr, "fork_client: %s\n", what);
+    std::exit(127);
+  }
+
   extern "C" void
   hand_on(const int signal)
   {
     if (copy == 0)
       pending = signal;
     else
-      kill(copy, signal);
+      kill(copy, signal == SIGUSR2 ? SIGKILL : signal);
+  }
+
+  void
+  catch_signals()
+  {
+    struct sigaction action = {};
+    action.sa_handler       = hand_on;
+    action.sa_flags         = SA_RESTART;
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2})
+      sigaction(signal, &action, nullptr);
   }
 
   int
-  connect_to(const char *server)
+  connect_to(const char *name)
   {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     const int  n       = std::snprintf(address.sun_path + 1,
                                 sizeof(address.sun_path) - 1,
-                                "moraine-fork-%s",
-                                server);
+                                "%s",
+                                name);
     const int  s       = socket(AF_UNIX, SOCK_STREAM, 0);
     const auto size    = offsetof(sockaddr_un, sun_path) + 1 + n;
     if (s < 0 || connect(s, reinterpret_cast<sockaddr *>(&address), size) != 0)
-      std::exit(127);
+      fail("no server");
     return s;
   }
 
@@ -74,8 +90,8 @@ namespace
     header->cmsg_type      = SCM_RIGHTS;
     header->cmsg_len       = CMSG_LEN(sizeof(streams));
     std::memcpy(CMSG_DATA(header), streams, sizeof(streams));
-    if (sendmsg(s, &message, 0) != sizeof(n))
-      std::exit(127);
+    if (sendmsg(s, &message, MSG_NOSIGNAL) != sizeof(n))
+      fail("the server takes no request");
   }
 
   int
@@ -87,10 +103,8 @@ namespace
       {
         const ssize_t n_read =
           read(s, reinterpret_cast<char *>(&number) + n, sizeof(number) - n);
-        if (n_read < 0 && errno == EINTR)
-          continue;
         if (n_read <= 0)
-          std::exit(127);
+          fail("the server has left");
         n += n_read;
       }
     return number;
@@ -100,14 +114,11 @@ namespace
 int
 main(int argc, char **argv)
 {
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2})
-    {
-      struct sigaction action
-      {};
-      action.sa_handler = hand_on;
-      sigaction(signal, &action, nullptr);
-    }
-  const int   s      = connect_to(std::getenv("MORAINE_FORK_SERVER_PID"));
+  catch_signals();
+  const char *name = std::getenv("MORAINE_FORK_SOCKET");
+  if (name == nullptr)
+    fail("MORAINE_FORK_SOCKET is not set");
+  const int   s      = connect_to(name);
   char       *folder = getcwd(nullptr, 0);
   std::string words  = folder + std::string(1, '\0');
   words += std::to_string(argc - 1) + '\0';
@@ -118,10 +129,11 @@ main(int argc, char **argv)
   send_streams(s, words.size());
   for (std::size_t sent = 0; sent < words.size();)
     {
-      const ssize_t n = write(s, words.data() + sent, words.size() - sent);
-      if (n < 0 && errno != EINTR)
-        return 127;
-      sent += n < 0 ? 0 : n;
+      const ssize_t n =
+        send(s, words.data() + sent, words.size() - sent, MSG_NOSIGNAL);
+      if (n < 0)
+        fail("the server takes no request");
+      sent += n;
     }
   copy = read_number(s);
   if (pending != 0)
@@ -131,4 +143,5 @@ main(int argc, char **argv)
     return WEXITSTATUS(status);
   std::signal(WTERMSIG(status), SIG_DFL);
   std::raise(WTERMSIG(status));
+  return 128 + WTERMSIG(status);
 }

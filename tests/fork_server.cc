@@ -7,7 +7,8 @@
 // second, nearly all of it to look up symbols in 200 libraries; tests start
 // thousands of processes.
 //
-// Says "ready" in a line of standard output, and ends with its input.
+// Its socket is named by MORAINE_FORK_SOCKET. Says "ready" in a line of
+// standard output, and ends with its input.
 
 #include <dlfcn.h>
 #include <poll.h>
@@ -71,7 +72,7 @@ namespace
   }
 
   // In the copy: become the program.
-  int
+  [[noreturn]] void
   run(const std::vector<char *> &words)
   {
     const int n_arguments = std::atoi(words[1]);
@@ -84,7 +85,8 @@ namespace
     for (auto word = words.begin() + 2 + n_arguments; word != words.end();
          ++word)
       putenv(*word);
-    return program_main(n_arguments, arguments.data(), environ);
+    // The environment lives on the stack.
+    std::exit(program_main(n_arguments, arguments.data(), environ));
   }
 
   // The copy runs until it ends or its client does.
@@ -92,13 +94,12 @@ namespace
   keep(const int client, const pid_t copy)
   {
     const auto tell = [client](const std::int32_t number) {
-      return write(client, &number, sizeof(number)) == sizeof(number);
+      return send(client, &number, sizeof(number), MSG_NOSIGNAL) ==
+             sizeof(number);
     };
-    bool   is_asked = tell(copy);
-    pollfd either[] = {{static_cast<int>(syscall(SYS_pidfd_open, copy, 0)),
-                        POLLIN,
-                        0},
-                       {client, POLLIN, 0}};
+    const int end      = static_cast<int>(syscall(SYS_pidfd_open, copy, 0));
+    pollfd    either[] = {{end, POLLIN, 0}, {client, POLLIN, 0}};
+    bool      is_asked = end >= 0 && tell(copy);
     while (is_asked && either[0].revents == 0)
       {
         poll(either, 2, -1);
@@ -111,7 +112,7 @@ namespace
     tell(status);
   }
 
-  int
+  [[noreturn]] void
   answer(const int client)
   {
     std::string request(receive_streams(client), '\0');
@@ -126,7 +127,7 @@ namespace
     if (copy == 0)
       {
         close(client);
-        return run(words);
+        run(words);
       }
     if (copy > 0)
       keep(client, copy);
@@ -137,12 +138,13 @@ namespace
   serve(int, char **, char **)
   {
     sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    const int n        = std::snprintf(address.sun_path + 1,
+    address.sun_family   = AF_UNIX;
+    const char *name     = std::getenv("MORAINE_FORK_SOCKET");
+    const int   n        = std::snprintf(address.sun_path + 1,
                                 sizeof(address.sun_path) - 1,
-                                "moraine-fork-%d",
-                                static_cast<int>(getpid()));
-    const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
+                                "%s",
+                                name ? name : "");
+    const int   listener = socket(AF_UNIX, SOCK_STREAM, 0);
     if (bind(listener,
              reinterpret_cast<sockaddr *>(&address),
              offsetof(sockaddr_un, sun_path) + 1 + n) != 0 ||
@@ -158,7 +160,7 @@ namespace
         if (client >= 0 && fork() == 0)
           {
             close(listener);
-            return answer(client);
+            answer(client);
           }
         close(client);
       }

@@ -6,7 +6,16 @@ fork_client.cc, as ctest says; else anew."""
 
 import atexit
 import os
+import signal
 import subprocess
+import uuid
+
+
+class _Copy(subprocess.Popen):
+    """What stands in for a run hands on all signals but this one."""
+
+    def kill(self):
+        self.send_signal(signal.SIGUSR2)
 
 
 class Starter:
@@ -25,21 +34,25 @@ class Starter:
         if not self.library:
             return None
         if not self.server:
+            self.socket = f"moraine-{uuid.uuid4()}"
             self.server = subprocess.Popen(
                 [self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                env={**os.environ, "LD_PRELOAD": self.library})
-            self.server.stdout.readline()
+                start_new_session=True,  # Ctrl-C is for the runs
+                env={**os.environ, "LD_PRELOAD": self.library,
+                     "MORAINE_FORK_SOCKET": self.socket})
             atexit.register(self._end)
-        return {**os.environ, "MORAINE_FORK_SERVER_PID": str(self.server.pid)}
+            if self.server.stdout.readline() != b"ready\n":
+                raise RuntimeError("the fork server does not start")
+        return {**os.environ, "MORAINE_FORK_SOCKET": self.socket}
 
     def start(self, arguments, folder, out, err):
         """Run with these arguments in a folder, on one process; standard output and
         standard error go to files."""
         with open(out, "w") as to_out, open(err, "w") as to_err:
-            return subprocess.Popen(self.command(arguments), cwd=folder,
-                                    stdout=to_out, stderr=to_err,
-                                    stdin=subprocess.DEVNULL,
-                                    env=self.environment())
+            begin = _Copy if self.library else subprocess.Popen
+            return begin(self.command(arguments), cwd=folder, stdout=to_out,
+                         stderr=to_err, stdin=subprocess.DEVNULL,
+                         env=self.environment())
 
     def _end(self):
         self.server.stdin.close()

@@ -12,8 +12,7 @@ so the comparison is exact and nothing passes by a tolerance hidden elsewhere.
     number("torque", value, 4)      prints  torque 1.234e+00 (4 digits)
     text("status", "ok")
 
-They are copies of a process that stands ready if MORAINE_FORK_SERVER is set, as
-ctest does; see fork_server.py.
+Runs are copies of a process that stands ready if ctest calls; see fork_server.py.
 The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
 Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """

@@ -158,9 +158,14 @@ namespace moraine
       solve(LA::Vector &f, LA::Vector &u);
 
     private:
+      /** That of the model, or if it is not set up with this K or does not do
+       * it, another. */
+      bool
+      solve_for(LA::Vector &u, const LA::Vector &f, const double enough);
+
+      const Model<dim>           &model;
       const MechanicsSystem<dim> &system;
       LinearSolver                own;
-      LinearSolver               *solver;
     };
 
 
@@ -169,17 +174,29 @@ namespace moraine
     StiffnessOfStep<dim>::StiffnessOfStep(
       const Model<dim>             &model,
       const LinearSolverParameters &parameters)
-      : system(*model.system)
+      : model(model)
+      , system(*model.system)
       , own(parameters, dim)
-      , solver(model.linear_solver.get())
+    {}
+
+
+
+    template <int dim>
+    bool
+    StiffnessOfStep<dim>::solve_for(LA::Vector       &u,
+                                    const LA::Vector &f,
+                                    const double      enough)
     {
-      if (model.state->is_linear() && solver->is_set_up())
-        return;
-      solver->clear(); // two would take twice the memory
-      solver = &own;
-      solver->set_up(system.tangent(),
-                     system.symmetric(),
-                     system.near_null_space());
+      LinearSolver &of_model = *model.linear_solver;
+      if (model.state->is_linear() && of_model.is_set_up() &&
+          of_model.solve_aside(u, f, enough).converged)
+        return true;
+      of_model.clear(); // two would take twice the memory
+      if (own.n_set_ups() == 0)
+        own.set_up(system.tangent(),
+                   system.symmetric(),
+                   system.near_null_space());
+      return own.solve(u, f, enough).converged;
     }
 
 
@@ -193,7 +210,7 @@ namespace moraine
       if (!(size > 0) || !std::isfinite(size))
         return 0.;
       u = f;
-      if (!solver->solve_aside(u, f, power_residual * size).converged)
+      if (!solve_for(u, f, power_residual * size))
         return 0.;
       const double work = u * f;
       system.apply_constraints(u);

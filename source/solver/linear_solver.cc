@@ -304,7 +304,8 @@ namespace moraine
     const double norm_b = norm(b);
     const double goal =
       std::max(parameters.relative_tolerance * norm_b, enough);
-    SolverControl control(allowed_iterations(goal / norm_b),
+    SolverControl control(counts ? allowed_iterations(goal / norm_b) :
+                                   parameters.maximum_iterations,
                           goal,
                           false,
                           false);
@@ -462,7 +463,8 @@ namespace moraine
                             const LA::Vector &b,
                             const double      enough)
   {
-    auto &s = *implementation;
+    auto         &s = *implementation;
+    const AddTime timing(s.solve_seconds);
     Assert(is_set_up(), ExcMessage("set_up() comes before solve_aside()."));
     return s.direct ? s.direct->solve(x, b) :
                       s.solve_iteratively(x, b, enough, nullptr, false);

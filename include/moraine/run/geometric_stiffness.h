@@ -30,7 +30,8 @@ namespace moraine
    *
    * @param model in a step that is solved
    * @param x its increment
-   * @param solver for K if the one of the model has not factorised it
+   * @param solver for K if the one of the model is not set up with it: the
+   * material is not linear, or nothing was solved
    * @return 0 too if strain is finite or nothing moves, if there is no stress
    * or if K cannot be solved with. Collective.
    */

@@ -99,8 +99,9 @@ namespace moraine
           const LA::Vector *weights = nullptr);
 
     /**
-     * The same for what is no step of the run: auto neither counts the
-     * iterations nor falls back.
+     * Solve for what is no step of the run, if is_set_up(): auto neither counts
+     * the iterations nor falls back, and what was set up stays as it is. Where
+     * the report says not converged, @p x is of no use.
      */
     LinearReport
     solve_aside(LA::Vector &x, const LA::Vector &b, const double enough);
