@@ -85,7 +85,7 @@ namespace
     for (auto word = words.begin() + 2 + n_arguments; word != words.end();
          ++word)
       putenv(*word);
-    // The environment lives on the stack.
+    // Not by return: arguments and environment are in the caller's request.
     std::exit(program_main(n_arguments, arguments.data(), environ));
   }
 

@@ -12,7 +12,8 @@ import uuid
 
 
 class _Copy(subprocess.Popen):
-    """What stands in for a run hands on all signals but this one."""
+    """What stands in for a run hands on every signal but SIGKILL, for which
+    SIGUSR2 stands."""
 
     def kill(self):
         self.send_signal(signal.SIGUSR2)

@@ -6,11 +6,14 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/make_mesh.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <functional>

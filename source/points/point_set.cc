@@ -7,9 +7,9 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <deal.II/numerics/rtree.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 

@@ -337,6 +337,11 @@ TEST(LinearSolver, AutoChoosesBySizeAndFallsBack)
   counted.clear();
   EXPECT_FALSE(counted.is_set_up());
 
+  large.set_up(problem.matrix, true, problem.modes);
+  for (unsigned int k = 0; k < 50; ++k)
+    EXPECT_TRUE(large.solve_aside(x, problem.rhs, 0.).converged);
+  EXPECT_EQ(large.solve(x, problem.rhs).solver, "amg-cg");
+
   parameters.solver = "amg-cg";
   LinearSolver stubborn(parameters, 2);
   stubborn.set_up(problem.matrix, true, problem.modes);
