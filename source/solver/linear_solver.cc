@@ -7,16 +7,12 @@
 
 #include <deal.II/base/timer.h>
 
-#include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_precondition.h>
-
 #include <moraine/solver/direct_solver.h>
-#include <moraine/solver/multigrid_options.h>
+#include <moraine/solver/iterative_solver.h>
 #include <moraine/solver/solver_choice.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -25,42 +21,6 @@ namespace moraine
 
   namespace
   {
-    /** A residual above this share of the right hand side is no solution,
-     * whatever round-off there may be. */
-    constexpr double lost = 1e-6;
-
-
-
-    /** W A W with a diagonal W, or with its inverse. */
-    template <typename Operator>
-    class Scaled
-    {
-    public:
-      Scaled(const Operator &A, const LA::Vector &weights, const bool inverse)
-        : A(A)
-        , w(weights)
-      {
-        if (inverse)
-          for (unsigned int k = 0; k < w.locally_owned_size(); ++k)
-            w.trilinos_vector()[0][k] = 1. / w.trilinos_vector()[0][k];
-      }
-
-      void
-      vmult(LA::Vector &y, const LA::Vector &x) const
-      {
-        LA::Vector scaled(x);
-        scaled.scale(w);
-        A.vmult(y, scaled);
-        y.scale(w);
-      }
-
-    private:
-      const Operator &A;
-      LA::Vector      w;
-    };
-
-
-
     /** Adds the wall time of its life to a sum. */
     class AddTime
     {
@@ -101,18 +61,12 @@ namespace moraine
     Method                                  method       = Method::direct;
     bool                                    is_symmetric = true;
     bool                                    is_finite    = true;
-    std::vector<LA::Vector>                 near_null_space;
     SolverChoice                            choice;
     std::vector<std::string>                choices;
     std::string                             fall_back_reason;
     std::string unsaid; ///< change of choice for the next report
-    std::optional<DirectSolver>                        direct;
-    std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
-    bool hierarchy_is_new = false; ///< made of the values of the matrix
-    /** Iterations for a digit with the values of its set-up; 0: not known. */
-    double iterations_per_digit = 0;
-    /** Iterations that later values took on top of that. */
-    double extra_iterations = 0;
+    std::optional<DirectSolver>    direct;
+    std::optional<IterativeSolver> iterative;
 
     Implementation(const LinearSolverParameters &parameters,
                    const unsigned int            dim)
@@ -139,67 +93,18 @@ namespace moraine
                                         "gmres";
     }
 
+    /** Build the preconditioner, or renew it. */
     void
-    make_multigrid();
+    set_up_iterative(const std::vector<LA::Vector> &near_null_space);
 
-    /** Compare with the iterations that a new hierarchy took. */
-    void
-    watch_multigrid(const LinearReport &report);
-
-    /** An old hierarchy has to do it at about what a new one would cost. */
-    unsigned int
-    allowed_iterations(const double reduction) const;
-
-    /** @p counts: for the choice of auto. */
+    /** Iterate, counting for the choice of auto; what an old hierarchy does not
+     * do, a new one may. */
     LinearReport
-    solve_iteratively(LA::Vector       &x,
-                      const LA::Vector &b,
-                      const double      enough,
-                      const LA::Vector *weights,
-                      const bool        counts = true);
-
-    /** CG or GMRES. @throws SolverControl::NoConvergence */
-    template <typename Matrix, typename Preconditioner>
-    void
-    iterate(SolverControl        &control,
-            const Matrix         &A,
-            const Preconditioner &P,
-            LA::Vector           &x,
-            const LA::Vector     &b) const;
-
-    /** What rounding in A x leaves of a residual. */
-    LA::Vector
-    round_off(const LA::Vector &x) const;
+    iterate(LA::Vector       &x,
+            const LA::Vector &b,
+            const double      enough,
+            const LA::Vector *weights);
   };
-
-
-
-  void
-  LinearSolver::Implementation::make_multigrid()
-  {
-    multigrid.reset();
-    const MultigridOptions options(*matrix, is_symmetric, near_null_space, dim);
-    multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    multigrid->initialize(*matrix, options.list);
-    hierarchy_is_new     = true;
-    iterations_per_digit = extra_iterations = 0;
-    choice.spend(SolverChoice::hierarchy_cost);
-  }
-
-
-
-  void
-  LinearSolver::Implementation::watch_multigrid(const LinearReport &report)
-  {
-    const double digits = -std::log10(report.relative_residual);
-    if (!(digits >= 1) || !std::isfinite(digits))
-      return;
-    if (hierarchy_is_new)
-      iterations_per_digit = report.iterations / digits;
-    else if (iterations_per_digit > 0)
-      extra_iterations +=
-        std::max(0., report.iterations - iterations_per_digit * digits);
-  }
 
 
 
@@ -214,54 +119,6 @@ namespace moraine
         (parameters.solver == "auto" && symmetric))
       return Method::amg_cg;
     return Method::gmres;
-  }
-
-
-
-  unsigned int
-  LinearSolver::Implementation::allowed_iterations(const double reduction) const
-  {
-    const unsigned int most =
-      parameters.solver == "auto" ?
-        std::min(parameters.maximum_iterations, choice.allowed_iterations()) :
-        parameters.maximum_iterations;
-    if (hierarchy_is_new)
-      return most;
-    const double as_new =
-      iterations_per_digit * std::max(1., -std::log10(reduction));
-    return std::min(most,
-                    static_cast<unsigned int>(as_new +
-                                              SolverChoice::hierarchy_cost));
-  }
-
-
-
-  template <typename Matrix, typename Preconditioner>
-  void
-  LinearSolver::Implementation::iterate(SolverControl        &control,
-                                        const Matrix         &A,
-                                        const Preconditioner &P,
-                                        LA::Vector           &x,
-                                        const LA::Vector     &b) const
-  {
-    using Gmres = SolverGMRES<LA::Vector>;
-    if (method == Method::amg_cg)
-      SolverCG<LA::Vector>(control).solve(A, x, b, P);
-    else
-      Gmres(control, Gmres::AdditionalData(102, true)).solve(A, x, b, P);
-  }
-
-
-
-  LA::Vector
-  LinearSolver::Implementation::round_off(const LA::Vector &x) const
-  {
-    LA::Vector products(x), diagonal(x);
-    matrix->trilinos_matrix().ExtractDiagonalCopy(
-      *diagonal.trilinos_vector()(0));
-    products.scale(diagonal);
-    products *= 4. * std::numeric_limits<double>::epsilon();
-    return products;
   }
 
 
@@ -287,67 +144,50 @@ namespace moraine
 
 
 
-  LinearReport
-  LinearSolver::Implementation::solve_iteratively(LA::Vector       &x,
-                                                  const LA::Vector &b,
-                                                  const double      enough,
-                                                  const LA::Vector *weights,
-                                                  const bool        counts)
+  void
+  LinearSolver::Implementation::set_up_iterative(
+    const std::vector<LA::Vector> &near_null_space)
   {
-    LinearReport report;
-    report.solver   = method_name();
-    const auto norm = [weights](LA::Vector r) {
-      if (weights)
-        r.scale(*weights);
-      return r.l2_norm();
-    };
-    const double norm_b = norm(b);
-    const double goal =
-      std::max(parameters.relative_tolerance * norm_b, enough);
-    SolverControl control(counts ? allowed_iterations(goal / norm_b) :
-                                   parameters.maximum_iterations,
-                          goal,
-                          false,
-                          false);
-    x = 0.;
-    try
-      {
-        if (weights)
-          {
-            // W A W y = W b, x = W y, has the residual W r.
-            const Scaled<LA::SparseMatrix> A(*matrix, *weights, false);
-            const Scaled<TrilinosWrappers::PreconditionAMG> P(*multigrid,
-                                                              *weights,
-                                                              true);
-            LA::Vector                                      scaled_b(b);
-            scaled_b.scale(*weights);
-            iterate(control, A, P, x, scaled_b);
-            x.scale(*weights);
-          }
-        else
-          iterate(control, *matrix, *multigrid, x, b);
-      }
-    catch (const SolverControl::NoConvergence &)
-      {
-        report.message = report.solver + " did not converge in " +
-                         std::to_string(control.last_step()) + " iterations";
-        report.ran_out_of_iterations =
-          control.last_step() >= control.max_steps();
-      }
-    report.iterations = control.last_step();
-    if (counts)
+    if (!iterative)
+      iterative.emplace(*matrix,
+                        IterativeSolver::Options{method == Method::amg_cg,
+                                                 is_symmetric,
+                                                 dim,
+                                                 parameters.relative_tolerance},
+                        near_null_space);
+    else if (!iterative->renew(near_null_space))
+      return;
+    choice.spend(SolverChoice::hierarchy_cost);
+  }
+
+
+
+  LinearReport
+  LinearSolver::Implementation::iterate(LA::Vector       &x,
+                                        const LA::Vector &b,
+                                        const double      enough,
+                                        const LA::Vector *weights)
+  {
+    const auto attempt = [&]() {
+      const unsigned int most =
+        parameters.solver == "auto" ?
+          std::min(parameters.maximum_iterations, choice.allowed_iterations()) :
+          parameters.maximum_iterations;
+      const LinearReport report = iterative->solve(x, b, enough, weights, most);
       choice.spend(report.iterations);
-    LA::Vector residual(b);
-    matrix->residual(residual, x, b);
-    const double left        = norm(residual);
-    report.relative_residual = relative_to(left, norm_b);
-    // The residual that the iteration carries along drifts from the true one.
-    report.converged =
-      report.message.empty() &&
-      (left <= 10. * goal ||
-       left <= std::min(10. * norm(round_off(x)), lost * norm_b));
-    if (!report.converged && report.message.empty())
-      report.message = report.solver + " lost its residual to round-off";
+      return report;
+    };
+    LinearReport report  = attempt();
+    unsigned int in_vain = 0;
+    if (!report.converged && !iterative->hierarchy_is_new())
+      {
+        in_vain = report.iterations;
+        iterative->make_hierarchy();
+        choice.spend(SolverChoice::hierarchy_cost);
+        report = attempt();
+      }
+    iterative->watch(report);
+    report.iterations += in_vain;
     return report;
   }
 
@@ -390,15 +230,7 @@ namespace moraine
         return;
       }
     s.direct.reset();
-    s.near_null_space = near_null_space;
-    if (!s.multigrid || s.iterations_per_digit == 0 ||
-        s.extra_iterations > SolverChoice::hierarchy_cost)
-      s.make_multigrid();
-    else
-      {
-        renew_smoother(*s.multigrid);
-        s.hierarchy_is_new = false;
-      }
+    s.set_up_iterative(near_null_space);
   }
 
 
@@ -424,15 +256,7 @@ namespace moraine
     unsigned int in_vain = 0;
     if (!s.direct)
       {
-        LinearReport report = s.solve_iteratively(x, b, enough, weights);
-        if (!report.converged && !s.hierarchy_is_new)
-          {
-            in_vain = report.iterations;
-            s.make_multigrid();
-            report = s.solve_iteratively(x, b, enough, weights);
-          }
-        s.watch_multigrid(report);
-        report.iterations += in_vain;
+        LinearReport report = s.iterate(x, b, enough, weights);
         if (!report.converged)
           x = 0.;
         if (report.converged)
@@ -444,7 +268,7 @@ namespace moraine
         s.choice.give_up();
         s.method = Implementation::Method::direct;
         s.note_choice();
-        s.multigrid.reset();
+        s.iterative.reset();
         s.direct.emplace(*s.matrix);
       }
     LinearReport report = s.direct->solve(x, b);
@@ -467,7 +291,8 @@ namespace moraine
     const AddTime timing(s.solve_seconds);
     Assert(is_set_up(), ExcMessage("set_up() comes before solve_aside()."));
     return s.direct ? s.direct->solve(x, b) :
-                      s.solve_iteratively(x, b, enough, nullptr, false);
+                      s.iterative->solve(
+                        x, b, enough, nullptr, s.parameters.maximum_iterations);
   }
 
 
@@ -498,7 +323,7 @@ namespace moraine
   LinearSolver::is_set_up() const
   {
     const auto &s = *implementation;
-    return s.is_finite && (s.direct || s.multigrid);
+    return s.is_finite && (s.direct || s.iterative);
   }
 
 
@@ -507,10 +332,8 @@ namespace moraine
   LinearSolver::clear()
   {
     implementation->direct.reset();
-    implementation->multigrid.reset();
+    implementation->iterative.reset();
     implementation->matrix.reset();
-    // Of another layout, a Trilinos vector cannot be assigned to.
-    implementation->near_null_space.clear();
   }
 
 
