@@ -4,11 +4,13 @@
 #include <moraine/core/arithmetic.h>
 
 #include <moraine/core/silent_errors.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <iomanip>
@@ -165,22 +167,26 @@ namespace moraine
 
 
   bool
-  is_random(const std::string &expression)
+  has_name(const std::string &expression, const std::vector<std::string> &names)
   {
-    const auto is_name = [](const char c) {
+    const auto in_name = [](const char c) {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
     };
-    for (auto at = expression.find("rand"); at != std::string::npos;
-         at      = expression.find("rand", at + 1))
+    for (auto begin = expression.begin(); begin != expression.end();)
       {
-             std::size_t end = at;
-             while (end < expression.size() && is_name(expression[end]))
-          ++end;
-        const std::string name = expression.substr(at, end - at);
-             if ((at == 0 || !is_name(expression[at - 1])) &&
-            (name == "rand" || name == "rand_seed"))
+        const auto end = std::find_if_not(begin, expression.end(), in_name);
+        if (contains(names, std::string(begin, end)))
           return true;
+        begin = std::find_if(end, expression.end(), in_name);
       }
     return false;
+  }
+
+
+
+  bool
+  is_random(const std::string &expression)
+  {
+    return has_name(expression, {"rand", "rand_seed"});
   }
 } // namespace moraine

@@ -11,6 +11,7 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -146,11 +147,20 @@ namespace moraine
     for (const std::string &component : components)
       if (const auto number = plain_number(component))
         numbers.push_back(*number);
-    if (numbers.size() != components.size())
+    if (numbers.size() == components.size())
+      return;
+    numbers.clear();
+    parser =
+      compile<dim>(components, variables, constants, with_time, place, allowed);
+    if (has_name(expression_text, {"x", "y", "z", "t"}))
+      return;
+    for (unsigned int c = 0; c < components.size(); ++c)
+      numbers.push_back(parser->value(Point<dim>(), c));
+    // value() tells of what is none.
+    if (!std::all_of(numbers.begin(), numbers.end(), [](const double number) {
+          return std::isfinite(number);
+        }))
       numbers.clear();
-    if (numbers.empty())
-      parser = compile<dim>(
-        components, variables, constants, with_time, place, allowed);
   }
 
 

@@ -113,7 +113,8 @@ namespace moraine
   ResultFiles<dim>::run_begins()
   {
     prepare_domains();
-    write_vtu(t_written, Increments(model.space->n_nodes()));
+    if (scene.output.times.at_start())
+      write_vtu(t_written, Increments(model.space->n_nodes()));
   }
 
 
@@ -316,7 +317,7 @@ namespace moraine
   void
   ResultFiles<dim>::run_ends(const Summary &summary, const RunCounts &)
   {
-    if (t_written < t_accepted)
+    if (n_vtu_written == 0 || t_written < t_accepted)
       write_points(t_accepted);
     summary.write(directory.file("summary.json"), communicator);
   }

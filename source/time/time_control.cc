@@ -509,8 +509,8 @@ namespace moraine
   {
     prm.add_parameter("Write",
                       when,
-                      "steps: at the ends of steps; all: after every accepted "
-                      "part of a step too; end: only at the end",
+                      "steps: at the start and the ends of steps; all: after "
+                      "every accepted part of a step too; end: only at the end",
                       Patterns::Selection("steps|all|end"));
     prm.add_parameter("Every",
                       every,

@@ -48,6 +48,14 @@ TEST(Expression, Values)
 
   const Expression<2> constant("0, -9.81e0", here, 2);
   EXPECT_EQ(constant.value(Point<2>(), 0., 1), -9.81);
+
+  // Names of functions and constants have letters of variables.
+  const Expression<2> turned("exp(a_x)*cos(pi); sqrt(2)^2",
+                             here,
+                             2,
+                             {{"a_x", 0.}});
+  EXPECT_DOUBLE_EQ(turned.value(Point<2>(3, 4), 5., 0), -1.);
+  EXPECT_DOUBLE_EQ(turned.value(Point<2>(3, 4), 5., 1), 2.);
 }
 
 TEST(Expression, Copies)

@@ -16,7 +16,7 @@ METHODS = ("GIMP", "material point", "CPDI1", "CPDI2", "finite element")
 # Scene, cell size (so small that multigrid has two levels), places.
 SCENES = {2: ("prm/hard-cases/cut-block.prm", 1 / 32, PLACES),
           3: ("prm/hard-cases/cut-block-3d.prm", 1 / 8, PLACES // 3)}
-QUIET = {"Output/Mesh": "false", "Solver/Solver": "gmres",
+QUIET = {"Output/Mesh": "false", "Output/Write": "end", "Solver/Solver": "gmres",
          "Solver/Maximum linear iterations": 500}
 
 

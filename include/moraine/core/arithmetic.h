@@ -46,6 +46,11 @@ namespace moraine
   bool
   is_compound(const std::string &text);
 
+  /** Whether one of @p names stands in an expression as a whole word. */
+  bool
+  has_name(const std::string              &expression,
+           const std::vector<std::string> &names);
+
   /** Whether an expression calls rand() or rand_seed(). */
   bool
   is_random(const std::string &expression);

@@ -65,7 +65,7 @@ namespace moraine
     bool                     with_time;
     std::vector<std::string> components;
 
-    /** Values of the components, if all are plain numbers; else empty. */
+    /** Values of the components if none names a variable; else empty. */
     std::vector<double> numbers;
 
     std::shared_ptr<dealii::FunctionParser<dim>> parser;

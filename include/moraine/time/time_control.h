@@ -381,6 +381,13 @@ namespace moraine
     void
     add_parameters(dealii::ParameterHandler &prm);
 
+    /** Whether the start is written too. */
+    bool
+    at_start() const
+    {
+      return when != "end";
+    }
+
     /** Whether results are due at @p time, just after TimeControl::accept(). */
     bool
     due(const TimeControl &time) const;
