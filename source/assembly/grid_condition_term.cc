@@ -65,18 +65,11 @@ namespace moraine
   bool
   GridConditionTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    // Nodes may move into or out of the boxes of conditions.
-    const bool searches =
-      context.couplings_changed ||
-      (context.mesh_moves &&
-       std::any_of(conditions.begin(), conditions.end(), [](const auto &c) {
-         return c.region.has_value();
-       }));
-    if (searches)
+    if (context.couplings_changed)
       prescribed = find_prescribed_nodes(conditions,
                                          context.state.grid(),
                                          context.t_start);
-    return searches;
+    return context.couplings_changed;
   }
 
 
@@ -93,12 +86,11 @@ namespace moraine
         const auto dof = space.node_dof(entry.node) + entry.component;
         if (constraints.is_constrained(dof))
           continue;
-        const Point<dim> x = space.node_position(entry.node);
         constraints.add_line(dof);
         constraints.set_inhomogeneity(dof,
                                       conditions[entry.condition].increment(
-                                        x,
-                                        x - space.node_move(entry.node),
+                                        space.node_position(entry.node),
+                                        space.built_position(entry.node),
                                         context.t_start,
                                         context.t_end)[entry.component]);
       }

@@ -284,7 +284,7 @@ namespace moraine
                              }),
                  pieces.end());
 
-    take_meetings(pieces, decide_meetings(pieces, increments()));
+    take_meetings(pieces, decide_meetings(pieces, increments(context.t_start)));
     check_that_all_hold(context);
     searches = std::move(now);
     return false;
@@ -294,16 +294,21 @@ namespace moraine
 
   template <int dim>
   std::vector<PrescribedIncrements<dim>>
-  MeetingTerm<dim>::increments() const
+  MeetingTerm<dim>::increments(const double now) const
   {
     std::vector<PrescribedIncrements<dim>> of_owners;
     for (const auto *boundary : boundaries)
       of_owners.push_back(boundary->increments_between(times));
     for (const auto &condition : conditions)
-      of_owners.push_back([this, &condition](const Point<dim> &x) {
+      of_owners.push_back([this, &condition, now](const Point<dim> &x) {
+        const Point<dim>            X = condition.motion.pose(now).inverse(x);
         std::vector<Tensor<1, dim>> all;
         for (unsigned int k = 1; k < times.size(); ++k)
-          all.push_back(condition.increment(x, x, times[k - 1], times[k]));
+          all.push_back(
+            condition.increment(condition.motion.pose(times[k - 1]).map(X),
+                                X,
+                                times[k - 1],
+                                times[k]));
         return all;
       });
     for (auto &of_owner : of_owners)

@@ -165,11 +165,10 @@ namespace moraine
             on_side = nodes_on_side(space, *condition.side);
           for (unsigned int node = 0; node < space.n_nodes(); ++node)
             {
-              const Point<dim> &x = space.node_position(node);
               if ((condition.side && !on_side[node]) ||
                   (condition.region &&
                    !inside(*condition.region,
-                           x,
+                           space.built_position(node),
                            1e-9 * space.mesh().cell_size())))
                 continue;
               for (unsigned int d = 0; d < dim; ++d)
@@ -191,29 +190,19 @@ namespace moraine
 
 
 
-    /** The changes that two conditions prescribe from @p start to @p end if
-     * they are not the same; rigid motions know them to the round-off of the
-     * place. */
+    /** Whether two changes of a component of what is at @p x are not the same;
+     * rigid motions know them to the round-off of the place. */
     template <int dim>
-    std::optional<std::pair<double, double>>
-    different_changes(const std::vector<GridCondition<dim>> &conditions,
-                      const Shared                          &shared,
-                      const GridSpace<dim>                  &space,
-                      const double                           start,
-                      const double                           end)
+    bool
+    differ(const Tensor<1, dim> &u,
+           const Tensor<1, dim> &v,
+           const unsigned int    component,
+           const Point<dim>     &x,
+           const GridSpace<dim> &space)
     {
-      const Point<dim>     x = space.node_position(shared.node);
-      const Point<dim>     X = x - space.node_move(shared.node);
-      const Tensor<1, dim> u =
-        conditions[shared.first].increment(x, X, start, end);
-      const Tensor<1, dim> v =
-        conditions[shared.second].increment(x, X, start, end);
-      const double u_i = u[shared.component], v_i = v[shared.component];
-      if (std::abs(u_i - v_i) <=
-          1e-9 * std::max(u.norm(), v.norm()) +
-            1e-14 * (x.norm() + space.mesh().cell_size()))
-        return {};
-      return std::make_pair(u_i, v_i);
+      return !(std::abs(u[component] - v[component]) <=
+               1e-9 * std::max(u.norm(), v.norm()) +
+                 1e-14 * (x.norm() + space.mesh().cell_size()));
     }
 
 
@@ -243,13 +232,21 @@ namespace moraine
     std::vector<Shared> shared;
     const auto          prescribed = find_nodes(conditions, space, shared);
     for (const Shared &entry : shared)
-      if (different_changes(
-            conditions, entry, space, conditions[entry.first].start, t_end))
-        throw ObjectError("grid conditions",
-                          "",
-                          complaint(conditions,
-                                    entry,
-                                    space.node_position(entry.node)));
+      {
+        const Point<dim> x      = space.node_position(entry.node);
+        const auto       change = [&](const unsigned int c) {
+          return conditions[c].increment_before(
+            x, space.built_position(entry.node), conditions[c].start, t_end);
+        };
+        if (differ(change(entry.first),
+                   change(entry.second),
+                   entry.component,
+                   x,
+                   space))
+          throw ObjectError("grid conditions",
+                            "",
+                            complaint(conditions, entry, x));
+      }
     return prescribed;
   }
 
@@ -261,27 +258,33 @@ namespace moraine
                   const GridSpace<dim>                  &space,
                   const double                           start,
                   const double                           end,
-                  const unsigned int                     n_steps)
+                  const unsigned int                     n_steps,
+                  const bool                             nodes_follow)
   {
     std::vector<Shared> shared;
     find_nodes(conditions, space, shared);
     const double size = (end - start) / n_steps;
     for (const Shared &entry : shared)
-      for (unsigned int step = 0; step < n_steps; ++step)
-        {
-          const double t_n = start + step * size, t = t_n + size;
-          const auto   differ =
-            different_changes(conditions, entry, space, t_n, t);
-          if (!differ)
-            continue;
-          std::ostringstream message;
-          message << complaint(conditions,
-                               entry,
-                               space.node_position(entry.node))
-                  << " from t = " << t_n << " to t = " << t << ": "
-                  << differ->first << " and " << differ->second;
-          throw ObjectError("grid conditions", "", message.str());
-        }
+      {
+        const Point<dim> X = space.built_position(entry.node);
+        Point<dim>       x = space.node_position(entry.node);
+        for (unsigned int step = 0; step < n_steps; ++step)
+          {
+            const double t_n = start + step * size, t = t_n + size;
+            const auto u = conditions[entry.first].increment(x, X, t_n, t),
+                       v = conditions[entry.second].increment(x, X, t_n, t);
+            if (differ(u, v, entry.component, x, space))
+              {
+                std::ostringstream message;
+                message << complaint(conditions, entry, x)
+                        << " from t = " << t_n << " to t = " << t << ": "
+                        << u[entry.component] << " and " << v[entry.component];
+                throw ObjectError("grid conditions", "", message.str());
+              }
+            if (nodes_follow)
+              x += u;
+          }
+      }
   }
 
 
@@ -297,7 +300,8 @@ namespace moraine
                                 const GridSpace<dim> &,                  \
                                 const double,                            \
                                 const double,                            \
-                                const unsigned int);
+                                const unsigned int,                      \
+                                const bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

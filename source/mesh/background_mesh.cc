@@ -236,6 +236,7 @@ namespace moraine
     const std::function<Point<dim>(const Point<dim> &)> &motion)
   {
     const std::vector<Point<dim>> vertices = moved_vertices(motion);
+    keep_built_vertices();
     if (box)
       box = moved_box<dim>(*box, tria.get_vertices(), vertices, motion);
     for (const auto &cell : tria.active_cell_iterators())
@@ -245,6 +246,16 @@ namespace moraine
     // Renews the search caches, ours and that of the points; unknowns and
     // points do not listen to it.
     tria.signals.mesh_movement();
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::keep_built_vertices()
+  {
+    if (built.empty())
+      built = tria.get_vertices();
   }
 
 

@@ -44,6 +44,7 @@ namespace moraine
     const auto &places = archive.numbers("mesh/vertex_position", dim);
     AssertThrow(places.size() == dim * tria.n_vertices(),
                 ExcMessage("The archive is of another mesh."));
+    keep_built_vertices();
     for (const auto &cell : tria.active_cell_iterators())
       for (const unsigned int v : cell->vertex_indices())
         std::copy_n(places.begin() + dim * cell->vertex_index(v),

@@ -82,8 +82,13 @@ namespace moraine
         model.system->check_values(time.start_time + step * size);
       const std::vector<GridCondition<dim>> active =
         acting_conditions(model.grid_conditions, stage);
-      check_agreement(
-        active, *model.space, time.start_time, time.end_time, time.n_steps);
+      check_agreement(active,
+                      *model.space,
+                      time.start_time,
+                      time.end_time,
+                      time.n_steps,
+                      model.state->mesh_after_step() ==
+                        MeshAfterStep::follow_material);
       note_idle_conditions(active, *model.space, time.start_time, notes);
       if (first)
         tell_of_held_off_bodies(active, model, time.start_time, notes);

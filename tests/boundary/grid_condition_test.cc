@@ -58,10 +58,12 @@ namespace
     }
 
     std::string
-    complaint()
+    complaint(const unsigned int n_steps = 1, const bool nodes_follow = false)
     {
-      return message_of<InputError>(
-        [&] { check_agreement(conditions, space, t_start, t_end, 1); });
+      return message_of<InputError>([&] {
+        check_agreement(
+          conditions, space, t_start, t_end, n_steps, nodes_follow);
+      });
     }
 
     BackgroundMesh<2>             mesh;
@@ -134,6 +136,65 @@ TEST(GridConditions, ARotationAndWhatItsFormulaSays)
   two.conditions[0].motion = RigidMotion<2>(
     {}, [](const double t) { return 10.01 * t; }, centre);
   EXPECT_NE(two.complaint(), "");
+}
+
+
+
+TEST(GridConditions, NodesThatFollow)
+{
+  TwoConditions two(1.);
+  two.conditions[0].motion = RigidMotion<2>(
+    {}, [](const double t) { return 60 * (t - t_start); }, Point<2>());
+  two.conditions[1].displacement = [&](const Point<2> &X, const double t) {
+    return two.conditions[0].motion.pose(t).map(X) - X;
+  };
+  EXPECT_EQ(two.complaint(3, true), "");
+  EXPECT_NE(two.complaint(3, false), "");
+
+  const auto pose = two.conditions[0].motion.pose(t_end);
+  std::vector<Tensor<1, 2>> turn;
+  for (unsigned int node = 0; node < two.space.n_nodes(); ++node)
+    turn.push_back(pose.map(two.space.node_position(node)) -
+                   two.space.node_position(node));
+  two.space.move_nodes(turn);
+  for (auto &condition : two.conditions)
+    condition.start = t_start;
+  EXPECT_EQ(message_of<InputError>([&] {
+              find_prescribed_nodes(two.conditions, two.space, t_end);
+            }),
+            "");
+}
+
+
+
+TEST(GridConditions, RegionsGoWithTheNodes)
+{
+  const Tensor<1, 2> move({0.3, 0.1});
+  const auto         nodes_of = [](const TwoConditions &two) {
+    std::vector<unsigned int> nodes;
+    for (const auto &entry :
+         find_prescribed_nodes<2>({two.conditions[0]}, two.space, t_start)
+           .entries)
+      nodes.push_back(entry.node);
+    return nodes;
+  };
+  for (const bool by_vertices : {false, true})
+    {
+      TwoConditions two(1.);
+      two.conditions[0].region =
+        dealii::BoundingBox<2>({Point<2>(0.7, 0), Point<2>(0.8, 1)});
+      const auto before = nodes_of(two);
+      EXPECT_GT(before.size(), 0u);
+      const Point<2> X = two.space.node_position(0);
+      if (by_vertices)
+        two.mesh.move_vertices([&](const Point<2> &x) { return x + move; });
+      else
+        two.space.move_nodes(
+          std::vector<Tensor<1, 2>>(two.space.n_nodes(), move));
+      EXPECT_LT((two.space.node_position(0) - X - move).norm(), 1e-14);
+      EXPECT_EQ((two.space.built_position(0) - X).norm(), 0.);
+      EXPECT_EQ(nodes_of(two), before);
+    }
 }
 
 

@@ -53,9 +53,10 @@ namespace moraine
     std::vector<Piece>
     find_pieces(const StepContext<dim> &context) const;
 
-    /** What each owner prescribes, by its number. */
+    /** What each owner prescribes to what is at a place @p now, by its number.
+     */
     std::vector<PrescribedIncrements<dim>>
-    increments() const;
+    increments(const double now) const;
 
     void
     take_meetings(const std::vector<Piece> &pieces,

@@ -12,10 +12,11 @@ namespace moraine
 {
   /**
    * Check that conditions that prescribe the same unknown of @p space agree on
-   * its change in each of @p n_steps equal steps from @p start to @p end, to
-   * 1e-9 of the displacements there (plus what a rigid motion loses in
+   * its change in each of @p n_steps equal steps from @p start, now, to @p end,
+   * to 1e-9 of the displacements there (plus what a rigid motion loses in
    * round-off).
    *
+   * @param nodes_follow whether nodes go where conditions take them
    * @throws InputError naming both conditions, place and time, on this rank.
    */
   template <int dim>
@@ -24,7 +25,8 @@ namespace moraine
                   const GridSpace<dim>                  &space,
                   const double                           start,
                   const double                           end,
-                  const unsigned int                     n_steps);
+                  const unsigned int                     n_steps,
+                  const bool                             nodes_follow);
 } // namespace moraine
 
 #endif

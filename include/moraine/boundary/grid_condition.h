@@ -53,6 +53,17 @@ namespace moraine
       return displacement(X, t_end) - displacement(X, t_start) +
              (motion.pose(t_end).map(motion.pose(t_start).inverse(x)) - x);
     }
+
+    /** The same of what is at @p x at @p t_end. */
+    dealii::Tensor<1, dim>
+    increment_before(const dealii::Point<dim> &x,
+                     const dealii::Point<dim> &X,
+                     const double              t_start,
+                     const double              t_end) const
+    {
+      return displacement(X, t_end) - displacement(X, t_start) +
+             (x - motion.pose(t_start).map(motion.pose(t_end).inverse(x)));
+    }
   };
 
   /** The unknowns of this rank that grid conditions prescribe. */
@@ -69,10 +80,12 @@ namespace moraine
   };
 
   /**
-   * Find the nodes the conditions prescribe.
+   * Find the nodes the conditions prescribe: those that are on a side or in a
+   * region of the mesh as it was built, wherever they have gone with it.
    *
    * @throws InputError naming both conditions if two prescribe the same
-   * unknown with different changes from the start of the stage to @p t_end.
+   * unknown with different changes from the start of the stage to @p t_end,
+   * now.
    */
   template <int dim>
   PrescribedNodes<dim>

@@ -115,6 +115,13 @@ namespace moraine
     std::optional<std::pair<CellIterator, dealii::Point<dim>>>
     cell_around(const dealii::Point<dim> &x) const;
 
+    /** Where the vertices were in the mesh as it was built. */
+    const std::vector<dealii::Point<dim>> &
+    built_vertices() const
+    {
+      return built.empty() ? tria.get_vertices() : built;
+    }
+
     /** Finds cells and vertices near places. */
     const dealii::GridTools::Cache<dim> &
     search_cache() const
@@ -157,6 +164,10 @@ namespace moraine
       const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
         &motion) const;
 
+    /** Before vertices move. */
+    void
+    keep_built_vertices();
+
     /** Put the cells in order along the curve. */
     void
     order_cells();
@@ -178,6 +189,8 @@ namespace moraine
     /** Cells in the order in which processes share them; empty on one. */
     std::vector<CellIterator> curve;
     double                    largest_edge = 0;
+    /** Empty if no vertex has moved. */
+    std::vector<dealii::Point<dim>> built;
   };
 
   /** The vertices of a cell in deal.II's lexicographic order. */

@@ -125,17 +125,19 @@ namespace moraine
     dealii::Point<dim>
     node_position(const unsigned int node) const
     {
-      const auto        &vertices = background.triangulation().get_vertices();
-      const unsigned int begin    = first_vertex[node],
-                         end      = first_vertex[node + 1];
-      dealii::Point<dim> x;
-      for (unsigned int k = begin; k < end; ++k)
-        x += vertices[vertices_of_nodes[k]];
-      x /= end - begin;
+      const dealii::Point<dim> x =
+        middle_of_vertices(node, background.triangulation().get_vertices());
       return moves.empty() ? x : x + moves[node];
     }
 
-    /** How far the node is from where it was in the mesh as it was built. */
+    /** Where the node was in the mesh as it was built. */
+    dealii::Point<dim>
+    built_position(const unsigned int node) const
+    {
+      return middle_of_vertices(node, background.built_vertices());
+    }
+
+    /** How far move_nodes() has taken the node. */
     dealii::Tensor<1, dim>
     node_move(const unsigned int node) const
     {
@@ -257,6 +259,19 @@ namespace moraine
   private:
     void
     number_nodes();
+
+    dealii::Point<dim>
+    middle_of_vertices(const unsigned int                     node,
+                       const std::vector<dealii::Point<dim>> &vertices) const
+    {
+      const unsigned int begin = first_vertex[node],
+                         end   = first_vertex[node + 1];
+      dealii::Point<dim> x;
+      for (unsigned int k = begin; k < end; ++k)
+        x += vertices[vertices_of_nodes[k]];
+      x /= end - begin;
+      return x;
+    }
 
     const BackgroundMesh<dim>    &background;
     const unsigned int            fe_degree;

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Nodes in the box of a grid condition are those of the mesh as it was built, and so
+are the places of 'Displacement': where nodes have gone out of the box, also with
+checkpoints and stages between, by 'Mesh motion' and with finite elements."""
+
+
+TIME = """
+subsection Time
+  set End time = 4
+  set Steps    = 4
+end
+"""
+STAGES = "subsection Stages" + "".join(f"""
+  subsection {name}
+    subsection Time
+      set End time = {end}
+      set Steps    = 2
+    end
+  end""" for name, end in (("one", 2), ("two", 4))) + "\nend\n"
+
+
+def scene_of(name, method, cells, more, time=TIME):
+    scene = folder / f"{name}.prm"
+    scene.write_text(f"""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = {cells[0] / 2}, {cells[1] / 2}
+  set Cells        = {cells[0]}, {cells[1]}
+end
+subsection Method
+  set Method = {method}
+  set Strain = finite
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 1000
+    set Poisson ratio = {0.3 if cells[0] == 8 else 0}
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape = mesh
+  end
+end
+{more}{time}""")
+    return scene
+
+
+QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
+PULLED = """
+subsection Grid conditions
+  subsection base
+    set Side = left
+  end
+  subsection pull
+    set Lower corner = 3.9, -0.1
+    set Upper corner = 4.1, 2.1
+    set Displacement = 0.3*t; 0
+  end
+end
+"""
+pulled = scene_of("pulled", "finite element", (8, 4), PULLED)
+staged = scene_of("staged", "finite element", (8, 4), PULLED, STAGES)
+force = run(pulled, QUIET).history()[-1]["reaction_x of pull"]
+number("pulled out of the box: force", force, 8)
+for name, scene, settings in (
+        ("a checkpoint in each step", pulled, {"Output/Checkpoint every": "1 steps"}),
+        ("one after the third", pulled, {"Output/Checkpoint every": "3 steps"}),
+        ("two stages", staged, {})):
+    bound(f"  {name}: over that",
+          run(scene, {**QUIET, **settings}).history()[-1]["reaction_x of pull"]
+          / force - 1, 1e-12)
+
+lifted = scene_of("lifted", "GIMP", (4, 4), """
+subsection Grid conditions
+  subsection bottom
+    set Side = bottom
+  end
+  subsection top
+    set Lower corner = -0.1, 1.9
+    set Upper corner = 2.1, 2.1
+    set Translation = 0; 0.08*t
+  end
+end
+subsection Mesh motion
+  set Stretch between = bottom, top
+end
+""")
+BY_SIDE = {"Grid conditions/top/Lower corner": "", "Grid conditions/top/Upper corner": "",
+           "Grid conditions/top/Side": "top"}
+bound("box that the mesh leaves: force over that of the side",
+      run(lifted, QUIET).history()[-1]["reaction_y of top"]
+      / run(lifted, {**QUIET, **BY_SIDE}).history()[-1]["reaction_y of top"] - 1,
+      1e-12)
+
+stretched = scene_of("stretched", "GIMP", (4, 4), """
+subsection Grid conditions
+  subsection left
+    set Side = left
+    set Displacement = 0; 0.1*t*y
+  end
+  subsection right
+    set Side = right
+    set Displacement = 0; 0.1*t*y
+    set Components = y
+  end
+  subsection bottom
+    set Side = bottom
+    set Components = y
+  end
+  subsection top
+    set Side = top
+    set Components = y
+    set Displacement = 0; 0.2*t
+  end
+end
+subsection Mesh motion
+  set Stretch between = bottom, top
+end
+""")
+last = run(stretched, QUIET).history()[-1]
+at_least("stretched with its mesh: force of the top", last["reaction_y of top"], 100)
+for side in ("left", "right"):
+    bound(f"  of the {side}, over that of the top",
+          last[f"reaction_y of {side}"] / last["reaction_y of top"], 1e-10)
