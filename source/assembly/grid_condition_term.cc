@@ -6,7 +6,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 
 namespace moraine
 {
@@ -65,11 +64,12 @@ namespace moraine
   bool
   GridConditionTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    if (context.couplings_changed)
-      prescribed = find_prescribed_nodes(conditions,
-                                         context.state.grid(),
-                                         context.t_start);
-    return context.couplings_changed;
+    if (!context.couplings_changed)
+      return false;
+    const GridSpace<dim> &space = context.state.grid();
+    prescribed = find_prescribed_nodes(conditions, space, context.t_start);
+    shared     = SharedNodes<dim>(prescribed, conditions.size(), space);
+    return true;
   }
 
 
@@ -176,6 +176,7 @@ namespace moraine
       }
     for (auto &report : prepared)
       sum_over_ranks(report, space.communicator());
+    shared.keep(context, unbalanced, share);
   }
 
 
@@ -183,10 +184,12 @@ namespace moraine
   template <int dim>
   void
   GridConditionTerm<dim>::report(
-    const StepContext<dim> &,
+    const StepContext<dim>           &context,
     std::vector<BoundaryReport<dim>> &reports) const
   {
-    reports.insert(reports.end(), prepared.begin(), prepared.end());
+    std::vector<BoundaryReport<dim>> all = prepared;
+    shared.share_out(context, conditions, all);
+    reports.insert(reports.end(), all.begin(), all.end());
   }
 
 

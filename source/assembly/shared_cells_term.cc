@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/assembly/cell_stress.h>
 #include <moraine/assembly/shared_cells_term.h>
-
 
 #include <deal.II/base/mpi.h>
 
@@ -147,20 +147,9 @@ namespace moraine
     traction_of_stress(const PointSet<dim>                         &points,
                        const typename BoundaryTerm<dim>::HeldPlace &place)
     {
-      const auto [first, last] = points.points_in(place.cell);
-      SymmetricTensor<2, dim> sum;
-      double                  volume = 0;
-      for (unsigned int p = first; p < last; ++p)
-        {
-          const SymmetricTensor<2, 3> sigma =
-            points.stress_field()(points.values(p));
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = d; e < dim; ++e)
-              sum[d][e] += points.volume(p) * sigma[d][e];
-          volume += points.volume(p);
-        }
-      return volume > 0 ? place.M * (sum * place.normal) / volume :
-                          place.force / place.area;
+      const auto sigma = stress_in_cell(points, place.cell);
+      return sigma ? place.M * (*sigma * place.normal) :
+                     place.force / place.area;
     }
 
 

@@ -136,23 +136,10 @@ namespace moraine
 
 
 
-    /** An unknown that two conditions prescribe. */
-    struct Shared
-    {
-      unsigned int node;
-      unsigned int component;
-      unsigned int first;
-      unsigned int second;
-    };
-
-
-
-    /** @param shared gets what further conditions prescribe as well. */
     template <int dim>
     PrescribedNodes<dim>
     find_nodes(const std::vector<GridCondition<dim>> &conditions,
-               const GridSpace<dim>                  &space,
-               std::vector<Shared>                   &shared)
+               const GridSpace<dim>                  &space)
     {
       PrescribedNodes<dim>      prescribed;
       constexpr unsigned int    none = numbers::invalid_unsigned_int;
@@ -181,7 +168,7 @@ namespace moraine
                         prescribed.entries.push_back({node, d, c});
                       }
                     else
-                      shared.push_back({node, d, first, c});
+                      prescribed.shared.push_back({node, d, first, c});
                   }
             }
         }
@@ -209,9 +196,9 @@ namespace moraine
 
     template <int dim>
     std::string
-    complaint(const std::vector<GridCondition<dim>> &conditions,
-              const Shared                          &shared,
-              const Point<dim>                      &x)
+    complaint(const std::vector<GridCondition<dim>>       &conditions,
+              const typename PrescribedNodes<dim>::Shared &shared,
+              const Point<dim>                            &x)
     {
       std::ostringstream message;
       message << "'" << conditions[shared.first].name << "' and '"
@@ -229,9 +216,8 @@ namespace moraine
                         const GridSpace<dim>                  &space,
                         const double                           t_end)
   {
-    std::vector<Shared> shared;
-    const auto          prescribed = find_nodes(conditions, space, shared);
-    for (const Shared &entry : shared)
+    const PrescribedNodes<dim> prescribed = find_nodes(conditions, space);
+    for (const auto &entry : prescribed.shared)
       {
         const Point<dim> x      = space.node_position(entry.node);
         const auto       change = [&](const unsigned int c) {
@@ -261,18 +247,16 @@ namespace moraine
                   const unsigned int                     n_steps,
                   const bool                             nodes_follow)
   {
-    std::vector<Shared> shared;
-    find_nodes(conditions, space, shared);
     const double size = (end - start) / n_steps;
-    for (const Shared &entry : shared)
+    for (const auto &entry : find_nodes(conditions, space).shared)
       {
         const Point<dim> X = space.built_position(entry.node);
         Point<dim>       x = space.node_position(entry.node);
         for (unsigned int step = 0; step < n_steps; ++step)
           {
             const double t_n = start + step * size, t = t_n + size;
-            const auto u = conditions[entry.first].increment(x, X, t_n, t),
-                       v = conditions[entry.second].increment(x, X, t_n, t);
+            const auto   u = conditions[entry.first].increment(x, X, t_n, t),
+                       v   = conditions[entry.second].increment(x, X, t_n, t);
             if (differ(u, v, entry.component, x, space))
               {
                 std::ostringstream message;

@@ -435,7 +435,10 @@ namespace moraine
   Probes<dim>::write(Archive &archive) const
   {
     std::vector<unsigned int> ids, bodies, left;
-    std::vector<double>       displacements;
+    std::vector<double>       displacements, velocities, accelerations;
+    const auto add = [](const Tensor<1, dim> &u, std::vector<double> &values) {
+      values.insert(values.end(), u.begin_raw(), u.end_raw());
+    };
     for (const Probe &probe : probes)
       {
         ids.push_back(probe.point_id);
@@ -443,7 +446,9 @@ namespace moraine
         left.push_back(probe.has_left ? 1 : 0);
         for (const Tensor<1, dim> &u :
              {probe.displacement, probe.ahead, probe.before_reset})
-          displacements.insert(displacements.end(), u.begin_raw(), u.end_raw());
+          add(u, displacements);
+        add(probe.v, velocities);
+        add(probe.a, accelerations);
       }
     archive.write("probes/point", std::move(ids));
     archive.write("probes/body", std::move(bodies));
@@ -452,6 +457,11 @@ namespace moraine
                   std::move(displacements),
                   3 * dim,
                   "length");
+    archive.write("probes/velocity", std::move(velocities), dim, "length/time");
+    archive.write("probes/acceleration",
+                  std::move(accelerations),
+                  dim,
+                  "length/time^2");
   }
 
 
@@ -464,6 +474,8 @@ namespace moraine
     const auto &bodies        = archive.integers("probes/body");
     const auto &left          = archive.integers("probes/has_left");
     const auto &displacements = archive.numbers("probes/displacement", 3 * dim);
+    const auto &velocities    = archive.numbers("probes/velocity", dim);
+    const auto &accelerations = archive.numbers("probes/acceleration", dim);
     AssertThrow(ids.size() == probes.size(),
                 ExcMessage("The archive is of other probes."));
     for (unsigned int i = 0; i < probes.size(); ++i)
@@ -479,6 +491,8 @@ namespace moraine
             std::copy_n(from, dim, u->begin_raw());
             from += dim;
           }
+        std::copy_n(velocities.begin() + dim * i, dim, probe.v.begin_raw());
+        std::copy_n(accelerations.begin() + dim * i, dim, probe.a.begin_raw());
       }
   }
 

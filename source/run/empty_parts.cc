@@ -24,17 +24,17 @@ namespace moraine
 
 
   template <int dim>
-  void
-  StepDriver<dim>::add_support(const double fraction)
+  bool
+  StepDriver<dim>::add_support(const double fraction, const bool if_needed)
   {
     MechanicsSystem<dim> &system = *model.system;
     auto term = std::make_unique<FictitiousStiffness<dim>>(fraction);
     term->begin_step(system.step_context());
-    support = nullptr;
-    if (!term->any_empty_part(system.step_context()))
-      return;
+    if (if_needed && !term->any_empty_part(system.step_context()))
+      return false;
     support = term.get();
     system.add(std::move(term));
+    return true;
   }
 
 
@@ -68,8 +68,7 @@ namespace moraine
         system.initial_guess(x);
         system.assemble(x, true);
         system.check_that_it_is_held(false);
-        add_support(fraction);
-        if (!support)
+        if (!add_support(fraction, true))
           return false;
       }
     ++sums.n_fictitious_stiffness;
@@ -101,16 +100,16 @@ namespace moraine
 
 
 
-  template void
-  StepDriver<2>::add_support(const double);
+  template bool
+  StepDriver<2>::add_support(const double, const bool);
   template bool
   StepDriver<2>::may_support_more() const;
   template bool
   StepDriver<2>::hold_empty_parts(const std::string &);
   template bool
   StepDriver<2>::take_back_support();
-  template void
-  StepDriver<3>::add_support(const double);
+  template bool
+  StepDriver<3>::add_support(const double, const bool);
   template bool
   StepDriver<3>::may_support_more() const;
   template bool

@@ -9,6 +9,7 @@
 
 #include <moraine/core/exceptions.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace moraine
@@ -62,6 +63,19 @@ namespace moraine
 
   namespace
   {
+    /** Counted twice they would be more than there are. */
+    void
+    refuse_repeated(const std::string              &section,
+                    const std::string              &key,
+                    const std::vector<std::string> &names)
+    {
+      for (auto name = names.begin(); name != names.end(); ++name)
+        if (std::find(names.begin(), name, *name) != name)
+          reject(section, key, list_of(names), "each name once");
+    }
+
+
+
     /** The names that are active, by what key @p key of a stage says. */
     void
     complete_names(const std::string              &section,
@@ -74,6 +88,7 @@ namespace moraine
         names = before;
       else if (names == std::vector<std::string>{"none"})
         names.clear();
+      refuse_repeated(section, key, names);
       for (const std::string &name : names)
         if (!contains(all, name))
           reject(section,
@@ -93,6 +108,7 @@ namespace moraine
     {
       if (names.empty())
         names = before;
+      refuse_repeated(section, "Bodies", names);
       for (const std::string &name : names)
         if (!contains(all, name))
           reject(section,
@@ -185,6 +201,7 @@ namespace moraine
         active.insert(active.end(),
                       stage.grid_conditions.begin(),
                       stage.grid_conditions.end());
+        refuse_repeated(section, "Absorbing", stage.absorbing);
         for (const std::string &boundary : stage.absorbing)
           if (!contains(active, boundary))
             reject(section,

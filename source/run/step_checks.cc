@@ -224,6 +224,7 @@ namespace moraine
   template <int dim>
   std::vector<std::string>
   StepChecks<dim>::of_step(const TimeControl                      &time,
+                           const IntegratorParameters             &integrator,
                            const std::vector<BoundaryReport<dim>> &reports,
                            const double largest_motion)
   {
@@ -245,8 +246,7 @@ namespace moraine
     if (model.system->step_context().motion)
       {
         if (!time.between_parts())
-          found.push_back(
-            energy_made(t, scene.stages[time.stage()].second.time.integrator));
+          found.push_back(energy_made(t, integrator));
         double work_of_motions = 0;
         for (const BoundaryReport<dim> &report : reports)
           work_of_motions += report.work_of_motion;

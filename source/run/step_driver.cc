@@ -219,7 +219,7 @@ namespace moraine
                           !before.time.integrator.dynamic());
     const auto notes = begin_stage(scene, stage, model);
     if (support)
-      add_support(accepted_fraction);
+      add_support(accepted_fraction, false);
     for (const std::string &note : notes)
       tell(note);
     stage_is_begun = true;
@@ -387,7 +387,10 @@ namespace moraine
       largest = std::max(largest, u.norm());
     largest = Utilities::MPI::max(largest, communicator);
     for (const std::string &warning :
-         checks.of_step(time_control, last_reports, largest))
+         checks.of_step(time_control,
+                        scene.stages[stage].second.time.integrator,
+                        last_reports,
+                        largest))
       warn(warning);
     if (!held.empty())
       warn(held);

@@ -191,11 +191,24 @@ namespace moraine
 
 
 
+    /** For gnuplot, which has no way to put an apostrophe into it. */
     std::string
     single_quoted(std::string text)
     {
       std::replace(text.begin(), text.end(), '\'', ' ');
       return "'" + text + "'";
+    }
+
+
+
+    /** For the shell. */
+    std::string
+    one_word(const std::string &text)
+    {
+      std::string word = "'";
+      for (const char c : text)
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+      return word + "'";
     }
   } // namespace
 
@@ -456,7 +469,7 @@ namespace moraine
       }
     write_script(all);
     const std::string command =
-      "cd " + single_quoted(folder) + " && gnuplot study.gp";
+      "cd " + one_word(folder) + " && gnuplot study.gp";
     if (std::system(("command -v gnuplot >/dev/null 2>&1")) != 0)
       console << "  no picture: gnuplot is not installed; later: " << command
               << std::endl;

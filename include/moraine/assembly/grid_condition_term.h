@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_grid_condition_term_h
 #define moraine_assembly_grid_condition_term_h
 
+#include <moraine/assembly/shared_nodes.h>
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/grid_condition.h>
 
@@ -61,6 +62,7 @@ namespace moraine
   private:
     const std::vector<GridCondition<dim>> conditions;
     PrescribedNodes<dim>                  prescribed;
+    SharedNodes<dim>                      shared;
     std::vector<BoundaryReport<dim>>      prepared;
   };
 } // namespace moraine

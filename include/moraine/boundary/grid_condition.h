@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -77,6 +78,16 @@ namespace moraine
       unsigned int condition;
     };
     std::vector<Entry> entries;
+
+    /** An unknown that two conditions prescribe. */
+    struct Shared
+    {
+      unsigned int node;
+      unsigned int component;
+      unsigned int first; ///< the condition that has it among the entries
+      unsigned int second;
+    };
+    std::vector<Shared> shared;
   };
 
   /**

@@ -53,6 +53,7 @@ namespace moraine
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
+            const IntegratorParameters             &integrator,
             const std::vector<BoundaryReport<dim>> &reports,
             const double                            largest_motion);
 

@@ -117,9 +117,10 @@ namespace moraine
     Newton::Watcher
     tell_of_iteration() const;
 
-    /** Give empty parts of cells @p fraction of the material's stiffness. */
-    void
-    add_support(const double fraction);
+    /** Give empty parts of cells @p fraction of the material's stiffness.
+     * @return false if @p if_needed and there are none. */
+    bool
+    add_support(const double fraction, const bool if_needed);
 
     /** One step that must be accepted, with as many cuts as it takes. */
     void
