@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/cell_stress.h>
 #include <moraine/assembly/shared_nodes.h>
+
+#include <moraine/assembly/cell_stress.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -146,8 +146,8 @@ namespace moraine
     prm.add_parameter(
       "Lower corner",
       lower_corner,
-      "With 'Upper corner': the nodes in this box, instead of or "
-      "within a side.",
+      "With 'Upper corner': the nodes in this box of the mesh as it was built, "
+      "instead of or within a side.",
       patterns::numbers(0, dim));
     prm.add_parameter("Upper corner",
                       upper_corner,

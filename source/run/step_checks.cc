@@ -154,6 +154,7 @@ namespace moraine
     , turns(scene, model)
     , slides(scene.any_yields(), model.mesh->cell_size(), scene.start_time())
     , passes(model)
+    , ends(model)
   {}
 
 
@@ -186,6 +187,8 @@ namespace moraine
          {apart, crossings.look(stage, t), passes.look(stage, t)})
       if (!text.empty())
         found.push_back(text);
+    for (const std::string &text : ends.look(stage, t))
+      found.push_back(text);
     return found;
   }
 
@@ -444,6 +447,7 @@ namespace moraine
     turns.write(archive);
     slides.write(archive);
     passes.write(archive);
+    ends.write(archive);
   }
 
 
@@ -469,6 +473,7 @@ namespace moraine
     turns.read(archive);
     slides.read(archive);
     passes.read(archive);
+    ends.read(archive);
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "scene.h"
@@ -107,7 +108,10 @@ namespace moraine
     fill(points);
     const std::vector<ProbeParameters<2>> two = {
       probe("A", {0.5, 0.5}, "nearest point", {"position"}),
-      probe("B", {1.5, 0.5}, "interpolated", {"displacement"})};
+      probe("B",
+            {1.5, 0.5},
+            "interpolated",
+            {"displacement", "velocity", "acceleration"})};
     Probes<2> probes(two, points, true);
     Archive   written, before;
     probes.write(before);
@@ -120,6 +124,10 @@ namespace moraine
       "probes/displacement",
       std::vector<double>{0., 0., 0., 0., 0., 0., 0.25, -0.5, 0., 0., 0., 0.},
       6);
+    written.write("probes/velocity", std::vector<double>{0., 0., 3., 4.}, 2);
+    written.write("probes/acceleration",
+                  std::vector<double>{0., 0., -5., 6.},
+                  2);
     probes.read(written);
     Archive again;
     probes.write(again);
@@ -128,6 +136,9 @@ namespace moraine
     EXPECT_DOUBLE_EQ(columns[0].value, 0.25);
     EXPECT_DOUBLE_EQ(columns[2].value, 0.25);
     EXPECT_DOUBLE_EQ(columns[3].value, -0.5);
+    for (unsigned int k = 0; k < 4; ++k)
+      EXPECT_DOUBLE_EQ(columns[4 + k].value,
+                       (std::array<double, 4>{{3, 4, -5, 6}})[k]);
   }
 
 

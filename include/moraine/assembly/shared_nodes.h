@@ -36,7 +36,8 @@ namespace moraine
                 const unsigned int          n_conditions,
                 const GridSpace<dim>       &space);
 
-    /** Keep the sums. @param factor force over what is unbalanced. */
+    /** Keep the sums: @p factor times what is @p unbalanced in the step of @p
+     * context. */
     void
     keep(const StepContext<dim> &context,
          const LA::Vector       &unbalanced,

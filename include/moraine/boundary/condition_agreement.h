@@ -14,9 +14,8 @@ namespace moraine
    * Check that conditions that prescribe the same unknown of @p space agree on
    * its change in each of @p n_steps equal steps from @p start, now, to @p end,
    * to 1e-9 of the displacements there (plus what a rigid motion loses in
-   * round-off).
+   * round-off). With @p nodes_follow nodes go where conditions take them.
    *
-   * @param nodes_follow whether nodes go where conditions take them
    * @throws InputError naming both conditions, place and time, on this rank.
    */
   template <int dim>

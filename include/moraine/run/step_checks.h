@@ -5,6 +5,7 @@
 #define moraine_run_step_checks_h
 
 #include <moraine/run/crossing_watch.h>
+#include <moraine/run/end_watch.h>
 #include <moraine/run/energy_watch.h>
 #include <moraine/run/hold_watch.h>
 #include <moraine/run/model.h>
@@ -37,8 +38,8 @@ namespace moraine
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
-     * body came apart before, and what HoldWatch, CrossingWatch and PassWatch
-     * find.
+     * body came apart before, and what HoldWatch, CrossingWatch, PassWatch and
+     * EndWatch find.
      * @throws ComputationError if the run cannot go on or should not.
      */
     std::vector<std::string>
@@ -107,6 +108,7 @@ namespace moraine
     TurnWatch<dim>            turns;
     SlideWatch                slides;
     PassWatch<dim>            passes;
+    EndWatch<dim>             ends;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Material that grows past the end of what holds it is told of: a block that spreads
+on its own 'Part'; not on a longer line, nor beside a footing."""
+
+SCENE = """
+subsection Mesh
+  set Lower corner = -1.03, -1.02
+  set Upper corner = 6.97, 4.98
+  set Cell size    = 0.5
+end
+subsection Method
+  set Method = {method}
+  set Strain = finite
+end
+subsection Materials
+  subsection soil
+    set Young modulus = {modulus}
+    set Poisson ratio = 0.3
+    set Density       = 2
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 3, 3
+  end
+end
+subsection Boundaries
+  subsection low
+{low}
+    set Constraint = roller
+  end
+  subsection left
+    set Body = block
+    set Part = left
+    set Constraint = roller
+  end
+{more}end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = 0; -10*t
+  end
+end
+subsection Time
+  set Steps = 20
+end
+"""
+PART = "    set Body = block\n    set Part = bottom"
+LINE = "    set Points = -1 0; 6 0"
+FOOTING = """  subsection footing
+    set Points = 1 3; 0 3
+    set Constraint = roller
+    set Translation = 0; -0.4*t
+  end
+"""
+for name, low, more, modulus, methods in (
+        ("on its own part", PART, "", 100, ("GIMP", "CPDI2")),
+        ("on a longer line", LINE, "", 100, ("GIMP", "CPDI2")),
+        ("below a footing", LINE, FOOTING, 1000, ("GIMP",))):
+    for method in methods:
+        scene = folder / "block.prm"
+        scene.write_text(SCENE.format(method=method, low=low, more=more,
+                                      modulus=modulus))
+        result = run(scene, {"Output/Points": "false", "Output/Mesh": "false"},
+                     expect=None)
+        text(f"{name}, {method}",
+             [note.split(":")[0] for note in result.summary.get("warnings", [])
+              if "past its end" in note] or "nothing")
