@@ -151,7 +151,7 @@ TEST(GridConditions, NodesThatFollow)
   EXPECT_EQ(two.complaint(3, true), "");
   EXPECT_NE(two.complaint(3, false), "");
 
-  const auto pose = two.conditions[0].motion.pose(t_end);
+  const auto                pose = two.conditions[0].motion.pose(t_end);
   std::vector<Tensor<1, 2>> turn;
   for (unsigned int node = 0; node < two.space.n_nodes(); ++node)
     turn.push_back(pose.map(two.space.node_position(node)) -
@@ -159,9 +159,8 @@ TEST(GridConditions, NodesThatFollow)
   two.space.move_nodes(turn);
   for (auto &condition : two.conditions)
     condition.start = t_start;
-  EXPECT_EQ(message_of<InputError>([&] {
-              find_prescribed_nodes(two.conditions, two.space, t_end);
-            }),
+  EXPECT_EQ(message_of<InputError>(
+              [&] { find_prescribed_nodes(two.conditions, two.space, t_end); }),
             "");
 }
 
