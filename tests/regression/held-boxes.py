@@ -1,3 +1,4 @@
+# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Nodes in the box of a grid condition are those of the mesh as it was built, and so
