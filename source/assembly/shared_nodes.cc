@@ -84,57 +84,86 @@ namespace moraine
 
 
   template <int dim>
+  typename SharedNodes<dim>::Face
+  SharedNodes<dim>::face_of(const Cell              &cell,
+                            const unsigned int       f,
+                            const unsigned int       component,
+                            const std::vector<bool> &is_shared,
+                            const GridSpace<dim>    &space)
+  {
+    const unsigned int     degree = space.degree();
+    const QGaussLobatto<1> rule(degree + 1);
+    const unsigned int    *nodes = space.cell_nodes(cell);
+    Face face{cell->active_cell_index(), 0, component, {}, {}, {}, {}};
+    for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+      {
+        const auto i = coordinates_of_node<dim>(a, degree);
+        const bool is_corner =
+          std::all_of(i.begin(), i.end(), [&](const auto n) {
+            return n == 0 || n == degree;
+          });
+        if (is_corner)
+          face.corners_of_cell.push_back(nodes[a]);
+        if (i[f / 2] != (f % 2) * degree)
+          continue;
+        face.nodes.push_back(nodes[a]);
+        if (is_corner)
+          face.corners.push_back(nodes[a]);
+        if (!is_shared[dim * nodes[a] + component])
+          continue;
+        double weight = 1;
+        for (unsigned int e = 0; e < dim; ++e)
+          if (e != f / 2)
+            weight *= rule.weight(i[e]);
+        face.shares.emplace_back(nodes[a], weight);
+      }
+    return face;
+  }
+
+
+
+  template <int dim>
   void
   SharedNodes<dim>::find_faces(const std::vector<std::vector<bool>> &prescribes,
                                const GridSpace<dim>                 &space)
   {
-    const unsigned int     degree = space.degree();
-    const QGaussLobatto<1> rule(degree + 1);
-    std::vector<bool>      is_shared(dim * space.n_nodes(), false);
+    std::vector<bool> is_shared(dim * space.n_nodes(), false),
+      has_shared(space.n_nodes(), false);
     for (const Unknown &unknown : unknowns)
-      is_shared[dim * unknown.node + unknown.component] = true;
+      {
+        is_shared[dim * unknown.node + unknown.component] = true;
+        has_shared[unknown.node]                          = true;
+      }
+    const auto touches = [&](const Cell &cell) {
+      const unsigned int *nodes = space.cell_nodes(cell);
+      return std::any_of(nodes,
+                         nodes + space.nodes_per_cell(),
+                         [&](const unsigned int node) {
+                           return has_shared[node];
+                         });
+    };
+    const auto take = [&](Face face) {
+      for (unsigned int c = 0; c < prescribes.size(); ++c)
+        if (std::all_of(face.nodes.begin(),
+                        face.nodes.end(),
+                        [&](const unsigned int node) {
+                          return prescribes[c][dim * node + face.component];
+                        }))
+          {
+            face.condition = c;
+            faces.push_back(face);
+          }
+    };
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary() &&
-          space.is_active(cell))
+          space.is_active(cell) && touches(cell))
         for (const unsigned int f : cell->face_indices())
           for (unsigned int d = 0; cell->face(f)->at_boundary() && d < dim; ++d)
             {
-              Face face{cell->active_cell_index(), 0, d, {}, {}, {}};
-              const unsigned int       *nodes = space.cell_nodes(cell);
-              std::vector<unsigned int> on_face;
-              for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
-                {
-                  const auto i         = coordinates_of_node<dim>(a, degree);
-                  bool       is_corner = true;
-                  double     weight    = 1;
-                  for (unsigned int e = 0; e < dim; ++e)
-                    {
-                      is_corner = is_corner && (i[e] == 0 || i[e] == degree);
-                      weight *= e == f / 2 ? 1. : rule.weight(i[e]);
-                    }
-                  if (is_corner)
-                    face.corners_of_cell.push_back(nodes[a]);
-                  if (i[f / 2] != (f % 2) * degree)
-                    continue;
-                  if (is_corner)
-                    face.corners.push_back(nodes[a]);
-                  on_face.push_back(nodes[a]);
-                  if (is_shared[dim * nodes[a] + d])
-                    face.shares.emplace_back(nodes[a], weight);
-                }
-              if (face.shares.empty())
-                continue;
-              for (unsigned int c = 0; c < prescribes.size(); ++c)
-                if (std::all_of(on_face.begin(),
-                                on_face.end(),
-                                [&](const unsigned int node) {
-                                  return prescribes[c][dim * node + d];
-                                }))
-                  {
-                    face.condition = c;
-                    faces.push_back(face);
-                  }
+              Face face = face_of(cell, f, d, is_shared, space);
+              if (!face.shares.empty())
+                take(std::move(face));
             }
   }
 
@@ -160,17 +189,13 @@ namespace moraine
 
 
   template <int dim>
-  void
-  SharedNodes<dim>::share_out(const StepContext<dim>                &context,
-                              const std::vector<GridCondition<dim>> &conditions,
-                              std::vector<BoundaryReport<dim>> &reports) const
+  std::map<std::pair<types::global_dof_index, unsigned int>, double>
+  SharedNodes<dim>::tractions(const StepContext<dim> &context) const
   {
-    if (!any)
-      return;
+    using Key = std::pair<types::global_dof_index, unsigned int>;
     const GridSpace<dim> &space  = context.state.grid();
     const PointSet<dim>  &points = context.state.material_points();
-    std::vector<std::vector<Tensor<1, dim>>> tractions(
-      conditions.size(), std::vector<Tensor<1, dim>>(space.n_nodes()));
+    std::map<Key, double> here, all;
     for (const Face &face : faces)
       if (const auto sigma = stress_in_cell(points, face.cell))
         {
@@ -183,12 +208,28 @@ namespace moraine
             corners.push_back(space.node_position(node));
           const Tensor<1, dim> force = *sigma * outward_area(corners, centre);
           for (const auto &[node, weight] : face.shares)
-            tractions[face.condition][node][face.component] +=
+            here[{space.node_dof(node) + face.component, face.condition}] +=
               weight * force[face.component];
         }
-    for (auto &of_condition : tractions)
-      space.sum_over_ranks(of_condition);
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(space.communicator(), here))
+      for (const auto &[key, traction] : of_rank)
+        all[key] += traction;
+    return all;
+  }
 
+
+
+  template <int dim>
+  void
+  SharedNodes<dim>::share_out(const StepContext<dim>                &context,
+                              const std::vector<GridCondition<dim>> &conditions,
+                              std::vector<BoundaryReport<dim>> &reports) const
+  {
+    if (!any)
+      return;
+    const GridSpace<dim>            &space       = context.state.grid();
+    const auto                       of_unknowns = tractions(context);
     std::vector<BoundaryReport<dim>> changes(conditions.size());
     for (const Unknown &unknown : unknowns)
       {
@@ -196,7 +237,9 @@ namespace moraine
         double              sum = 0, size = 0;
         for (const unsigned int c : unknown.conditions)
           {
-            t.push_back(tractions[c][unknown.node][unknown.component]);
+            const auto of = of_unknowns.find(
+              {space.node_dof(unknown.node) + unknown.component, c});
+            t.push_back(of == of_unknowns.end() ? 0. : of->second);
             sum += t.back();
             size += std::abs(t.back());
           }

@@ -8,6 +8,7 @@
 #include <moraine/assembly/step_context.h>
 #include <moraine/boundary/grid_condition.h>
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -66,14 +67,31 @@ namespace moraine
       unsigned int              cell;
       unsigned int              condition;
       unsigned int              component;
-      std::vector<unsigned int> corners; ///< its nodes, lexicographic
-      std::vector<unsigned int> corners_of_cell;
+      std::vector<unsigned int> nodes;
+      std::vector<unsigned int>
+        corners; ///< lexicographic, as those of the cell
+      std::vector<unsigned int>                    corners_of_cell;
       std::vector<std::pair<unsigned int, double>> shares; ///< nodes, w
     };
+
+    using Cell = typename GridSpace<dim>::CellIterator;
 
     void
     find_faces(const std::vector<std::vector<bool>> &prescribes,
                const GridSpace<dim>                 &space);
+
+    /** Face @p f of @p cell with the nodes whose @p component is_shared. */
+    static Face
+    face_of(const Cell              &cell,
+            const unsigned int       f,
+            const unsigned int       component,
+            const std::vector<bool> &is_shared,
+            const GridSpace<dim>    &space);
+
+    /** t_c of the unknowns, by node's first unknown plus component, and by
+     * condition; the same on all ranks. Collective. */
+    std::map<std::pair<dealii::types::global_dof_index, unsigned int>, double>
+    tractions(const StepContext<dim> &context) const;
 
     bool                 any = false; ///< on some rank
     std::vector<Unknown> unknowns;

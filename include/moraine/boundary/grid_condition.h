@@ -62,8 +62,10 @@ namespace moraine
                      const double              t_start,
                      const double              t_end) const
     {
-      return displacement(X, t_end) - displacement(X, t_start) +
-             (x - motion.pose(t_start).map(motion.pose(t_end).inverse(x)));
+      return increment(motion.pose(t_start).map(motion.pose(t_end).inverse(x)),
+                       X,
+                       t_start,
+                       t_end);
     }
   };
 
