@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 
@@ -56,6 +57,14 @@ TEST(Expression, Values)
                              {{"a_x", 0.}});
   EXPECT_DOUBLE_EQ(turned.value(Point<2>(3, 4), 5., 0), -1.);
   EXPECT_DOUBLE_EQ(turned.value(Point<2>(3, 4), 5., 1), 2.);
+}
+
+TEST(Expression, NamesAreWholeWords)
+{
+  for (const char *text : {"x", "2*x", "sin(x)", "a_x+x", "(y>0)?x:1"})
+    EXPECT_TRUE(moraine::has_name(text, {"x", "t"})) << text;
+  for (const char *text : {"", "exp(a_x)", "x1", "max(1,2)", "sqrt(2)"})
+    EXPECT_FALSE(moraine::has_name(text, {"x", "t"})) << text;
 }
 
 TEST(Expression, Copies)
