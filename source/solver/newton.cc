@@ -38,6 +38,9 @@ namespace moraine
      */
     constexpr double slow_pass = 0.1;
 
+    /** A correction that leaves less of the residual is no play of rounding. */
+    constexpr double still_falls = 0.5;
+
     /**
      * An iterative solver solves the linear equations to this part of the
      * square of what the last correction left of the residual, which keeps the
@@ -153,6 +156,9 @@ namespace moraine
 
       bool
       iterate();
+
+      void
+      go_on_below_rounding();
 
       bool
       iterate_with_kept_tangent();
@@ -337,7 +343,35 @@ namespace moraine
           const double ratio = measure.ratio_to(before);
           forcing = std::min(largest_forcing, forcing_factor * ratio * ratio);
         }
+      go_on_below_rounding();
       return true;
+    }
+
+
+
+    /**
+     * What rounding may leave is an estimate, and much too large where a point
+     * is crushed, or was by the start of a step: go on while the residual
+     * falls.
+     */
+    void
+    Iteration::go_on_below_rounding()
+    {
+      for (bool falls = true; falls && measure.much_is_forgiven();)
+        {
+          const LA::Vector    found(x);
+          const ResidualParts before  = measure.parts();
+          const std::string   message = report.message;
+          factorise();
+          const double ratio = correct(false) ? measure.ratio_to(before) : 2.;
+          falls              = ratio < still_falls;
+          if (ratio <= 1.)
+            continue;
+          report.status  = NewtonStatus::converged;
+          report.message = message;
+          x              = found;
+          evaluate(false);
+        }
     }
 
 

@@ -26,6 +26,9 @@ namespace moraine
     /** Rounding errors of a residual, over those of its largest products. */
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
+    /** Of the forces: less is not looked at, and with more there are none. */
+    constexpr double forgiven = 1e-7, without_forces = 1e-2;
+
     /** Stiffness over the geometric mean of a part, beyond which it is none of
      * a body or a boundary but of what is torn or turned inside out. */
     constexpr double largest_contrast = 1e10;
@@ -162,6 +165,19 @@ namespace moraine
   ResidualMeasure::distance() const
   {
     return distance_of(now.norms, now.goals);
+  }
+
+
+
+  bool
+  ResidualMeasure::much_is_forgiven() const
+  {
+    for (unsigned int p = 0; p < now.norms.size(); ++p)
+      if (now.norms[p] > absolute_tolerance &&
+          now.norms[p] > std::max(forgiven, tolerance) * scales[p] &&
+          now.norms[p] < without_forces * scales[p])
+        return true;
+    return false;
   }
 
 

@@ -63,6 +63,13 @@ namespace moraine
     double
     distance() const;
 
+    /** Whether the residual of a part that has forces, a hundred times as large
+     * at least, is more than 1e-7 and the tolerance of them: if it counts as
+     * balanced, then by what rounding may leave of stiff entries, or of forces
+     * at the start. */
+    bool
+    much_is_forgiven() const;
+
     /**
      * The residual over that @p before, both by the larger goal of each part:
      * the goals of a part that was without forces say nothing.
