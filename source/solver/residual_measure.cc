@@ -27,7 +27,7 @@ namespace moraine
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
     /** Of the forces: less is not looked at, and with more there are none. */
-    constexpr double forgiven = 1e-7, without_forces = 1e-2;
+    constexpr double forgiven = 1e-6, without_forces = 1e-2;
 
     /** Stiffness over the geometric mean of a part, beyond which it is none of
      * a body or a boundary but of what is torn or turned inside out. */

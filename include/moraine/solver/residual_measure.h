@@ -64,7 +64,7 @@ namespace moraine
     distance() const;
 
     /** Whether the residual of a part that has forces, a hundred times as large
-     * at least, is more than 1e-7 and the tolerance of them: if it counts as
+     * at least, is more than 1e-6 and the tolerance of them: if it counts as
      * balanced, then by what rounding may leave of stiff entries, or of forces
      * at the start. */
     bool
