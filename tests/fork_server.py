@@ -39,8 +39,9 @@ class Starter:
             self.server = subprocess.Popen(
                 [self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                 start_new_session=True,  # Ctrl-C is for the runs
+                # Symbols are looked up once, not by each copy.
                 env={**os.environ, "LD_PRELOAD": self.library,
-                     "MORAINE_FORK_SOCKET": self.socket})
+                     "LD_BIND_NOW": "1", "MORAINE_FORK_SOCKET": self.socket})
             atexit.register(self._end)
             if self.server.stdout.readline() != b"ready\n":
                 raise RuntimeError("the fork server does not start")

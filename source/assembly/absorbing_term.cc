@@ -128,11 +128,6 @@ namespace moraine
 
 
 
-  namespace
-  {} // namespace
-
-
-
   template <int dim>
   Tensor<1, dim>
   AbsorbingTerm<dim>::traction(const StepContext<dim>    &context,

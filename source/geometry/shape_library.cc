@@ -347,12 +347,19 @@ namespace moraine
     const Placement<dim>  placement = make_placement(p, section);
     const bool            turns     = p.given("Rotation angle"),
                moves                = p.given("Translation");
-    if (p.kind() == "mesh" && (turns || moves))
-      throw InputError(
-        place(section, turns ? "Rotation angle" : "Translation") +
-        ": set, but the shape 'mesh' is all of the mesh and cannot move in it");
+    const auto refuse_placement     = [&](const std::string &why) {
+      if (turns || moves)
+        throw InputError(
+          place(section, turns ? "Rotation angle" : "Translation") +
+          ": set, but the " + why);
+    };
+    if (p.kind() == "mesh")
+      refuse_placement("shape 'mesh' is all of the mesh and cannot move in it");
     if (p.is_point_file())
-      return nullptr;
+      {
+        refuse_placement("points are where 'Point file' says");
+        return nullptr;
+      }
     const auto shape = maker.shape();
     return turns || moves ? make_moved(shape, placement) : shape;
   }

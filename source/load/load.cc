@@ -195,7 +195,7 @@ namespace moraine
       choose(points, original_position);
     local_points.clear();
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (std::binary_search(ids.begin(), ids.end(), points.id(p)))
+      if (is_on(points.id(p)))
         local_points.push_back(p);
   }
 

@@ -167,12 +167,15 @@ namespace moraine
             continue;
           const double slope = (rows[i].second - rows[i - 1].second) /
                                (rows[i].first - rows[i - 1].first);
-          if (!(slope > steepest))
+          // Unknown before the cells are, if they stretch it.
+          const bool is_known =
+            parameters.softening_length == 0 || cell_size > 0;
+          if (is_known && !(slope > steepest))
             refuse("a slope above " + as_text(steepest) +
                    ", where sigma_y falls by 3G; between kappa = " +
                    as_text(rows[i - 1].first) + " and " +
                    as_text(rows[i].first) + " it is " + as_text(slope) +
-                   (parameters.softening_length > 0 && cell_size > 0 ?
+                   (parameters.softening_length > 0 ?
                       ", by 'Softening length' in cells of " +
                         as_text(cell_size) + "; smaller ones soften less" :
                       ""));

@@ -278,7 +278,7 @@ namespace moraine
   void
   request_columns(const std::vector<Body<dim>> &bodies, PointFields &fields)
   {
-    // Those that every set of points has, and that output and archives add.
+    // Those that some method has, and that output and archives add.
     std::set<std::string> taken{"body",
                                 "id",
                                 "order",
@@ -286,6 +286,9 @@ namespace moraine
                                 "reference_position",
                                 "volume",
                                 "displacement",
+                                "velocity",
+                                "acceleration",
+                                "initial_volume",
                                 "stress",
                                 "von_mises_stress",
                                 "mean_stress",
@@ -299,8 +302,8 @@ namespace moraine
           throw ObjectError("point file",
                             body.name,
                             "found the column '" + column +
-                              "', which every point has already, allowed: "
-                              "other names");
+                              "', which is a name of what points have, "
+                              "allowed: other names");
         else
           fields.request(FieldName<dim, double>{column, "-"});
   }

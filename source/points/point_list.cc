@@ -91,11 +91,11 @@ namespace moraine
                  " and, if wanted, names of more columns");
       std::set<std::string> earlier;
       for (const std::string &name : names)
-        if (name.find_first_of("\"<>&") != std::string::npos)
+        if (name.find_first_of("\"<>&/") != std::string::npos)
           refuse(file_name,
                  line,
                  "found the column name '" + shortened(name) +
-                   "', allowed: a name without '\"', '<', '>' and '&'");
+                   "', allowed: a name without '\"', '<', '>', '&' and '/'");
         else if (name.empty() || !earlier.insert(name).second)
           refuse(file_name,
                  line,

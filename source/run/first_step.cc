@@ -475,11 +475,10 @@ namespace moraine
           held.emplace_back(name, system.constraint_forces(name, x));
         }
 
+    if (stage.bodies != before.bodies || stage.loads != before.loads)
+      tell_of_removed_bodies(stage, before, model, notes);
     if (stage.bodies != before.bodies)
-      {
-        tell_of_removed_bodies(stage, before, model, notes);
-        remove_absorbing_places(stage, model, notes);
-      }
+      remove_absorbing_places(stage, model, notes);
     model.linear_solver->clear();
     model.set_stage(scene, k);
     try

@@ -139,6 +139,42 @@ namespace moraine
 
 
 
+    /** Whether a load that does not push in this stage pushes in a later one,
+     * on material that is there now. */
+    template <int dim>
+    bool
+    is_carried_to_later_stage(const CarriedLoad<dim> &load,
+                              const StageParameters  &stage,
+                              const Scene<dim>       &scene)
+    {
+      // Its surface may be that of a body still to come, unless it has pushed;
+      // then of one that went and comes back.
+      const auto may_be_its = [&](const std::string &body) {
+        return !contains(stage.bodies, body) &&
+               (!load.is_placed() ||
+                std::any_of(scene.stages.begin(),
+                            scene.stages.end(),
+                            [&](const auto &other) {
+                              return other.second.time.start_time <
+                                       stage.time.start_time &&
+                                     contains(other.second.bodies, body);
+                            }));
+      };
+      return std::any_of(scene.stages.begin(),
+                         scene.stages.end(),
+                         [&](const auto &other) {
+                           const auto &bodies_then = other.second.bodies;
+                           return other.second.time.start_time >
+                                    stage.time.start_time &&
+                                  contains(other.second.loads, load.name()) &&
+                                  std::none_of(bodies_then.begin(),
+                                               bodies_then.end(),
+                                               may_be_its);
+                         });
+    }
+
+
+
     /** Of all that holds in a stage. */
     template <int dim>
     std::unique_ptr<Term<dim>>
@@ -261,18 +297,7 @@ namespace moraine
     // What pushes in a later stage goes with the material from now on.
     for (auto &load : loads.carried)
       if (!contains(stage.loads, load.name()) &&
-          std::any_of(
-            scene.stages.begin(), scene.stages.end(), [&](const auto &other) {
-              const auto &bodies_then = other.second.bodies;
-              return other.second.time.start_time > stage.time.start_time &&
-                     contains(other.second.loads, load.name()) &&
-                     // Its surface may be that of a body still to come.
-                     std::all_of(bodies_then.begin(),
-                                 bodies_then.end(),
-                                 [&](const std::string &body) {
-                                   return contains(stage.bodies, body);
-                                 });
-            }))
+          is_carried_to_later_stage(load, stage, scene))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
     if (state->strict_aggregates())

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -32,16 +33,17 @@ namespace moraine
             model.present[b] && !contains(stage.bodies, model.body_names[b]);
       }
 
-      /** Whether a body goes that the points @p acts_on are of. */
-      template <typename Predicate>
-      bool
-      any_goes(const Predicate &acts_on) const
+      /** How many of the points that @p force is on stay, and how many go.
+       * Collective. */
+      std::pair<unsigned int, unsigned int>
+      n_points(const ForceOnPoints<dim> &force) const
       {
-        unsigned int found = 0;
+        std::vector<unsigned int> n{0, 0};
         for (unsigned int p = 0; p < model.points->n_local(); ++p)
-          if (acts_on(p) && goes[model.points->body(p)])
-            found = 1;
-        return Utilities::MPI::max(found, model.space->communicator()) > 0;
+          if (force.is_on(model.points->id(p)))
+            ++n[goes[model.points->body(p)] ? 1 : 0];
+        Utilities::MPI::sum(n, model.space->communicator(), n);
+        return {n[0], n[1]};
       }
 
       void
@@ -181,12 +183,19 @@ namespace moraine
           tell(boundary.name(), "Boundaries");
         }
     for (const auto &force : model.loads.on_points)
-      if (contains(stage.loads, force.name()) &&
-          contains(before.loads, force.name()) &&
-          grounds.any_goes(
-            [&force](const unsigned int p) { return force.acts_on(p); }))
-        notes.push_back(force.name() +
-                        ": the body of its points is gone, and it with them");
+      if (contains(stage.loads, force.name()))
+        {
+          const auto [stay, go]  = grounds.n_points(force);
+          const unsigned int all = force.n_points();
+          // Or they went while it did not act.
+          if (stay < all && (go > 0 || !contains(before.loads, force.name())))
+            notes.push_back(
+              force.name() + ": " +
+              (stay == 0 ?
+                 "the body of its points is gone, and it with them" :
+                 std::to_string(all - stay) + " of its " + std::to_string(all) +
+                   " points are gone, and their share of it with them"));
+        }
   }
 
 

@@ -225,15 +225,38 @@ namespace moraine
                      "only displacements since then tell");
           };
           for (const auto &load : scene.loads)
-            if (load.second.coordinates == "original" &&
-                std::any_of(stage, scene.stages.end(), [&](const auto &later) {
-                  return contains(later.second.loads, load.first);
-                }))
-              refuse("load '" + load.first +
-                     "' with 'Coordinates = original' is a function of");
+            {
+              const auto acts = [&](const auto &other) {
+                return contains(other.second.loads, load.first);
+              };
+              if (!std::any_of(stage, scene.stages.end(), acts))
+                continue;
+              if (load.second.coordinates == "original")
+                refuse("load '" + load.first +
+                       "' with 'Coordinates = original' is a function of");
+              if (load.second.type == "force on points" &&
+                  std::none_of(scene.stages.begin(), stage, acts))
+                refuse("load '" + load.first +
+                       "', which first acts then, looks for its points");
+            }
           if (!scene.exact.displacement.empty() || !scene.exact.stress.empty())
             refuse("section 'Exact solution' is a function of");
         }
+    }
+
+
+
+    /** Whether this way to impose a boundary looks at the key. */
+    bool
+    enforcement_uses(const std::string &enforcement, const std::string &key)
+    {
+      if (key == "Penalty factor")
+        return enforcement == "penalty";
+      if (key == "Band width")
+        return contains({"weighted", "augmented Lagrangian"}, enforcement);
+      if (key == "Nitsche factor")
+        return !contains({"weighted", "penalty"}, enforcement);
+      return true;
     }
 
 
@@ -332,6 +355,7 @@ namespace moraine
         "'finite element' or key 'Mesh after step' = '" +
         method.mesh_after_step + "'");
     check_bodies(input);
+    check_operands(given);
     method.check();
     for (const auto &[name, load] : loads)
       {
@@ -376,6 +400,15 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
+        for (const auto &entry : given)
+          if (entry.section == section &&
+              !enforcement_uses(boundary.enforcement.enforcement, entry.key))
+            reject(section,
+                   entry.key,
+                   entry.value,
+                   "nothing with 'Enforcement = " +
+                     boundary.enforcement.enforcement +
+                     "', the one of this boundary");
       }
     for (const auto &[name, condition] : grid_conditions)
       {
@@ -469,6 +502,26 @@ namespace moraine
                  "the name of a material" +
                    suggest(body.material, material_names));
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check_operands(const std::vector<InputFile::Entry> &given) const
+  {
+    const auto operands = operands_of(*this);
+    for (const auto &[name, body] : bodies)
+      for (const auto &entry : given)
+        if (operands.count(name) > 0 && entry.section == "Bodies/" + name &&
+            body.shape.texts.count(entry.key) == 0)
+          reject(
+            entry.section,
+            entry.key,
+            entry.value,
+            "nothing; '" + name +
+              "' is but a region of which another body is made ('Operands' "
+              "of that one), which needs the key itself");
   }
 
 

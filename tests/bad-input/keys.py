@@ -79,6 +79,26 @@ for name, settings in (
         ("too short", {**SOFTENING, LENGTH: 1e-3}),
         ("negative", {**SOFTENING, LENGTH: -1})):
     refused(f"softening length, {name}", settings=settings)
+STEEP = {**SOFTENING, "Materials/soil/Shear yield stress": "0: 1, 1e-5: 0.5"}
+refused("steep without softening length", settings=STEEP)
+good = folder / "good.prm"
+good.write_text(base)
+text("softening length, makes steep ones usable",
+     "accepted" if run(good, {**STEEP, LENGTH: 100}, command="check") else "NO")
+ENFORCEMENT = "Boundaries/left/Enforcement"
+for key, value, chosen in (
+        ("Penalty factor", "1e3", None), ("Penalty factor", "1e3", "weighted"),
+        ("Band width", "1e-3", "penalty"), ("Band width", "1e-3", None),
+        ("Nitsche factor", "20", "penalty"), ("Nitsche factor", "20", "weighted")):
+    refused(f"{key}, enforcement {chosen or 'left out'}", settings={
+        f"Boundaries/left/{key}": value,
+        **({ENFORCEMENT: chosen} if chosen else {})})
+MADE = {"Bodies/hole/Lower corner": "1, 1", "Bodies/hole/Upper corner": "2, 2",
+        "Bodies/rest/Shape": "difference", "Bodies/rest/Operands": "block, hole"}
+for key, value in (("Initial stress", "geostatic"), ("Material", "soil"),
+                   ("Point grid", "2, 2"), ("Aggregate below", "0.3")):
+    refused(f"{key} of a region that others are made of",
+            settings={**MADE, f"Bodies/block/{key}": value})
 refused("key set twice", with_line("set Cell size = 2"))
 refused("missing key", without("Young modulus"))
 refused("missing corner", without("Upper corner"))

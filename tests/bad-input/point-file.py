@@ -6,7 +6,7 @@
 good = "x,y,volume\n1.25,1.25,0.25\n1.75,1.25,0.25\n"
 
 
-def refused(name, content):
+def refused(name, content, settings=None):
     file = folder / "points.csv"
     if content is None:
         file.unlink(missing_ok=True)
@@ -15,7 +15,7 @@ def refused(name, content):
     result = run("tests/bad-input/base.prm", {
         "Bodies/block/Shape": "points-from-file",
         "Bodies/block/Lower corner": "", "Bodies/block/Upper corner": "",
-        "Bodies/block/Point file": file}, expect=2)
+        "Bodies/block/Point file": file, **(settings or {})}, expect=2)
     lines = [line for line in result.output.splitlines() if line.strip()]
     text(name, plain(" | ".join(lines)))
     if (result.folder / "history.csv").exists():
@@ -40,3 +40,8 @@ refused("a column that XML would not take", good.replace("volume", 'volume,"a"')
         .replace("0.25\n", "0.25,1\n"))
 refused("a column that archives have", good.replace("volume", "volume,order")
         .replace("0.25\n", "0.25,1\n"))
+for column in "velocity", "initial_volume", "phi/deg":
+    refused(f"a column {column}", good.replace("volume", f"volume,{column}")
+            .replace("0.25\n", "0.25,1\n"))
+for key, value in ("Rotation angle", "25"), ("Translation", "1, 0"):
+    refused(f"points that are to move, {key}", good, {f"Bodies/block/{key}": value})

@@ -177,3 +177,138 @@ bound("without springs: force", free["reaction_y of foot"], 0)
 at_least("force on points: displacement", last["u_x at head"], 5e-3)
 bound("force on points: turns the block by", last["u_x at head"] - last["u_x at heel"],
       1e-3)
+
+# A reset makes the places at the start unknown to what begins to act then.
+refused = run(flies, {"Stages/others/Reset displacements": "true"}, expect=2,
+              on_ranks=1)
+text("displacements reset before a force finds its points",
+     plain(refused.output.strip()).splitlines()[-1])
+
+# Two blocks share a nail at their interface; one goes.
+SHARED = SOLID + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 2
+  set Cell size = 1
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Bodies
+  subsection left
+    set Lower corner = 0, 0
+    set Upper corner = 2, 1
+  end
+  subsection right
+    set Lower corner = 2, 0
+    set Upper corner = 4, 1
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection nail
+    set Type = force on points
+    set Location = 2, 0.75
+    set Value = 0; 1
+  end
+end
+subsection Stages
+  subsection both
+  end
+  subsection rest
+    set Loads = none
+    set Bodies = left
+    subsection Time
+      set End time = 2
+    end
+  end
+  subsection again
+    set Bodies = left
+    set Loads = nail
+    subsection Time
+      set End time = 3
+    end
+  end
+end
+"""
+shared = folder / "shared.prm"
+shared.write_text(SHARED)
+for name, settings in (("while it rests", {}),
+                       ("while it acts", {"Stages/rest/Loads": "nail"}),
+                       ("with all of it", {"Loads/nail/Location": "2.75, 0.75"})):
+    result = run(shared, settings)
+    notes = [" ".join(line.split()) for line in result.output.splitlines()
+             if "nail" in line and "gone" in line]
+    text(f"body of a force gone, {name}", " | ".join(notes) or "NO note")
+    number("  reaction", result.reactions["base"][1], 4)
+
+# A load that pauses goes with the ground, also if a body comes as it returns.
+PAUSED = SOLID + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 12, 3
+  set Cell size = 0.5
+end
+subsection Method
+  set Method = GIMP
+end
+subsection Bodies
+  subsection ground
+    set Lower corner = 0, 0
+    set Upper corner = 4, 1
+  end
+  subsection later
+    set Lower corner = 9, 0
+    set Upper corner = 10, 1
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+    set Displacement = 1.5*min(max(t - 1, 0), 1); 0
+  end
+end
+subsection Loads
+  subsection plate
+    set Type = surface traction
+    set Points = 1.9 1; 1.1 1
+    set Value = 0; -1
+  end
+end
+subsection Probes
+  subsection under
+    set Location = 1.5, 0.9
+  end
+end
+subsection Stages
+  subsection first
+    set Bodies = ground
+  end
+  subsection moves
+    set Bodies = ground
+    set Loads = none
+    subsection Time
+      set End time = 2
+      set Steps = 4
+    end
+  end
+  subsection again
+    set Bodies = ground, later
+    set Loads = plate
+    subsection Time
+      set End time = 3
+    end
+  end
+end
+"""
+paused = folder / "paused.prm"
+paused.write_text(PAUSED)
+alone, with_it = (run(paused, settings).history()[-1]["u_y at under"]
+                  for settings in ({}, {"Stages/*/Bodies": "ground, later"}))
+at_least("a load that paused: settlement", -alone, 1e-5)
+bound("a load that paused: settlement over that with the other body there - 1",
+      alone / with_it - 1, 1e-10)

@@ -125,6 +125,14 @@ namespace moraine
       return load_name;
     }
 
+    /** Whether its places have been found on the material, which carries them
+     * from then on. */
+    bool
+    is_placed() const
+    {
+      return placed;
+    }
+
     /** The part of its surface that is outside the mesh. */
     double
     share_outside() const
@@ -192,6 +200,20 @@ namespace moraine
       return std::binary_search(local_points.begin(),
                                 local_points.end(),
                                 point);
+    }
+
+    /** Whether the point with this id, here or elsewhere, has a share. */
+    bool
+    is_on(const unsigned int id) const
+    {
+      return std::binary_search(ids.begin(), ids.end(), id);
+    }
+
+    /** That share it, be they there or not; 0 before it first acts. */
+    unsigned int
+    n_points() const
+    {
+      return ids.size();
     }
 
     /** The share of a point at @p x. */

@@ -276,6 +276,10 @@ namespace moraine
     void
     check_bodies(const InputFile &input) const;
 
+    /** Keys of bodies of which others are made. */
+    void
+    check_operands(const std::vector<InputFile::Entry> &given) const;
+
     /** Boundaries and grid conditions. */
     void
     check_conditions(const std::vector<InputFile::Entry> &given) const;

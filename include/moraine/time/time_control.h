@@ -94,8 +94,8 @@ namespace moraine
    * Where the run is in time, and how far the next step goes.
    *
    * A run is one interval or several, its stages, each with parameters of its
-   * own. An interval is divided by stops: the ends of the user's steps and the
-   * times asked for. Between two stops, what remains is split into equal parts
+   * own. An interval is divided by stops: the ends of the user's steps.
+   * Between two stops, what remains is split into equal parts
    * no larger than the current size, so that stops are hit exactly and no
    * sliver of a step is left over. An integrator may divide each of these
    * steps once more; then its first part is accepted before the second is
@@ -119,16 +119,10 @@ namespace moraine
   class TimeControl : public StatePart
   {
   public:
-    /**
-     * Times in @p stops that lie within the interval are hit exactly, in any
-     * order; others are ignored.
-     */
-    explicit TimeControl(const TimeParameters      &parameters,
-                         const std::vector<double> &stops = {});
+    explicit TimeControl(const TimeParameters &parameters);
 
     /** The same for stages, each of which starts where the one before ends. */
-    explicit TimeControl(const std::vector<TimeParameters> &stages,
-                         const std::vector<double>         &stops = {});
+    explicit TimeControl(const std::vector<TimeParameters> &stages);
 
     /** Whether the next step follows a path of equilibria. */
     bool
@@ -271,7 +265,6 @@ namespace moraine
     struct Stop
     {
       double       time; ///< or coordinate()
-      bool         ends_step;
       unsigned int stage;
     };
 
@@ -316,7 +309,7 @@ namespace moraine
     path_leaves_interval(const double t) const;
 
     void
-    add_stops(const unsigned int stage, const std::vector<double> &asked);
+    add_stops(const unsigned int stage);
 
     const std::vector<TimeParameters> stages;
     std::vector<Stop>                 stops;
@@ -332,7 +325,6 @@ namespace moraine
     bool         on_step_end     = false;
     bool         path_ended      = false;
     double       rate            = 0; ///< path_rate()
-    unsigned int completed_steps = 0;
     unsigned int accepted        = 0;
     unsigned int rejected        = 0;
     unsigned int rejected_before = 0; ///< the last accepted step
