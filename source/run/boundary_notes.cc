@@ -234,6 +234,11 @@ namespace moraine
     tell_of_material_behind(stage, {}, model, notes);
     tell_of_ends(stage, {}, model, notes);
     check_flux_of_boundaries(scene, model, notes);
+    for (const auto &[name, boundary] : scene.boundaries)
+      for (const std::string &key : boundary.enforcement.keys_in_vain())
+        notes.push_back(name + ": '" + key + "' says nothing with " +
+                        "'Enforcement = " + boundary.enforcement.enforcement +
+                        "', the one of this boundary");
   }
 
 

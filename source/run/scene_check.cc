@@ -246,21 +246,6 @@ namespace moraine
 
 
 
-    /** Whether this way to impose a boundary looks at the key. */
-    bool
-    enforcement_uses(const std::string &enforcement, const std::string &key)
-    {
-      if (key == "Penalty factor")
-        return enforcement == "penalty";
-      if (key == "Band width")
-        return contains({"weighted", "augmented Lagrangian"}, enforcement);
-      if (key == "Nitsche factor")
-        return !contains({"weighted", "penalty"}, enforcement);
-      return true;
-    }
-
-
-
     /** What prescribes or enforces a motion. */
     bool
     is_of_motion(const std::string &key)
@@ -400,15 +385,6 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
-        for (const auto &entry : given)
-          if (entry.section == section &&
-              !enforcement_uses(boundary.enforcement.enforcement, entry.key))
-            reject(section,
-                   entry.key,
-                   entry.value,
-                   "nothing with 'Enforcement = " +
-                     boundary.enforcement.enforcement +
-                     "', the one of this boundary");
       }
     for (const auto &[name, condition] : grid_conditions)
       {

@@ -42,7 +42,8 @@ namespace moraine
 
 
 
-  TimeControl::TimeControl(const std::vector<TimeParameters> &stages)
+  TimeControl::TimeControl(const std::vector<TimeParameters> &stages,
+                           const std::vector<double>         &asked)
     : stages(stages)
     , current(stages.front().start_time)
     , trial(current)
@@ -55,32 +56,55 @@ namespace moraine
         Assert(stage == 0 ||
                  stages[stage].start_time == stages[stage - 1].end_time,
                ExcMessage("A stage starts where the one before ends."));
-        add_stops(stage);
+        add_stops(stage, asked);
       }
     size = accepted_size = parameters().one_step() * parameters().largest_step;
   }
 
 
 
-  TimeControl::TimeControl(const TimeParameters &parameters)
-    : TimeControl(std::vector<TimeParameters>{parameters})
+  TimeControl::TimeControl(const TimeParameters      &parameters,
+                           const std::vector<double> &asked)
+    : TimeControl(std::vector<TimeParameters>{parameters}, asked)
   {}
 
 
 
   void
-  TimeControl::add_stops(const unsigned int stage)
+  TimeControl::add_stops(const unsigned int         stage,
+                         const std::vector<double> &asked)
   {
     const TimeParameters &times = stages[stage];
-    // Along a path the same for any number of steps: a run that goes on may
-    // have more.
-    const double length = times.end_time - times.start_time;
-    for (unsigned int k = 1; k <= times.n_steps; ++k)
+    if (times.follows_path())
+      {
+        // The same for any number of steps: a run that goes on may have more.
+        for (unsigned int k = 1; k <= times.n_steps; ++k)
+          stops.push_back(
+            {times.start_time + k * times.arc_length, true, stage});
+        return;
+      }
+    const double      length = times.end_time - times.start_time;
+    const std::size_t first  = stops.size();
+    for (unsigned int k = 1; k < times.n_steps; ++k)
       stops.push_back(
-        {times.follows_path() ? times.start_time + k * times.arc_length :
-         k < times.n_steps    ? times.start_time + length * k / times.n_steps :
-                                times.end_time,
-         stage});
+        {times.start_time + length * k / times.n_steps, true, stage});
+    stops.push_back({times.end_time, true, stage});
+
+    const double margin = same_time * length / times.n_steps;
+    for (const double time : asked)
+      {
+        const bool known =
+          std::any_of(stops.begin() + first,
+                      stops.end(),
+                      [&](const Stop &stop) {
+                        return std::abs(stop.time - time) <= margin;
+                      });
+        if (!known && time > times.start_time + margin && time < times.end_time)
+          stops.push_back({time, false, stage});
+      }
+    std::sort(stops.begin() + first,
+              stops.end(),
+              [](const Stop &a, const Stop &b) { return a.time < b.time; });
   }
 
 
@@ -163,9 +187,11 @@ namespace moraine
     rate                      = (found_time - current_time) / taken;
     current_time              = found_time;
     path_ended  = follows_path() && path_leaves_interval(current_time);
-    on_step_end = trial_is_stop;
+    on_step_end = trial_is_stop && stops[next_stop].ends_step;
     if (trial_is_stop)
       ++next_stop;
+    if (on_step_end)
+      ++completed_steps;
     if (first)
       {
         parts.first    = taken;
@@ -253,10 +279,10 @@ namespace moraine
     accepted_size = archive.number("time/step_size");
     on_step_end   = archive.integer("time/at_step_end") != 0;
     // There may be other stops from here on.
-    next_stop = 0;
+    next_stop = completed_steps = 0;
     while (!finished() && stops[next_stop].time - current <=
                             same_time * parameters().one_step())
-      ++next_stop;
+      completed_steps += stops[next_stop++].ends_step ? 1 : 0;
     path_ended = path_length() > 0 && path_leaves_interval(current_time);
     accepted_size =
       std::min(accepted_size,
@@ -374,7 +400,7 @@ namespace moraine
   unsigned int
   TimeControl::n_completed_steps() const
   {
-    return next_stop;
+    return completed_steps;
   }
 
 

@@ -85,14 +85,6 @@ good = folder / "good.prm"
 good.write_text(base)
 text("softening length, makes steep ones usable",
      "accepted" if run(good, {**STEEP, LENGTH: 100}, command="check") else "NO")
-ENFORCEMENT = "Boundaries/left/Enforcement"
-for key, value, chosen in (
-        ("Penalty factor", "1e3", None), ("Penalty factor", "1e3", "weighted"),
-        ("Band width", "1e-3", "penalty"), ("Band width", "1e-3", None),
-        ("Nitsche factor", "20", "penalty"), ("Nitsche factor", "20", "weighted")):
-    refused(f"{key}, enforcement {chosen or 'left out'}", settings={
-        f"Boundaries/left/{key}": value,
-        **({ENFORCEMENT: chosen} if chosen else {})})
 MADE = {"Bodies/hole/Lower corner": "1, 1", "Bodies/hole/Upper corner": "2, 2",
         "Bodies/rest/Shape": "difference", "Bodies/rest/Operands": "block, hole"}
 for key, value in (("Initial stress", "geostatic"), ("Material", "soil"),

@@ -141,6 +141,12 @@ for name, file, settings in (
         ("probe of a body for later", column, {"Probes/top/Location": "0.5, 15"}),
         ("surface that ends with the body", scene, {}),
         ("surface that runs on", scene, {"Boundaries/left/Points": "0.5 5.5; 0.5 0.5"}),
+        ("factor of another enforcement", "tests/bad-input/base.prm", {
+            "Boundaries/left/Penalty factor": 1e3}),
+        ("keys of another enforcement", "tests/bad-input/base.prm", {
+            "Boundaries/left/Enforcement": "penalty",
+            "Boundaries/left/Band width": 1e-3,
+            "Boundaries/left/Nitsche factor": 20}),
         ("surface for later", "prm/cortis-2017/footing.prm", {})):
     notes = [line.split(maxsplit=1)[1]
              for line in run(file, settings, command="check").output.splitlines()

@@ -114,16 +114,28 @@ TEST(TimeControl, GrowsBackAfterFiveHardSteps)
 
 TEST(TimeControl, CutsTheStepThatFailed)
 {
-  // Equal parts of a step may be shorter than the size; a cut must
+  // The last part before a stop may be shorter than the size; a cut must
   // shorten the part, not the size.
-  auto parameters         = steps(1);
-  parameters.largest_step = 0.4;
-  TimeControl time(parameters);
+  TimeControl time(steps(1), {0.9});
+  step(time);
   time.next();
-  EXPECT_NEAR(time.trial_time() - time.time(), 1. / 3, 1e-15);
+  EXPECT_NEAR(time.trial_time() - time.time(), 0.1, 1e-15);
   EXPECT_TRUE(time.reject("test"));
   time.next();
-  EXPECT_NEAR(time.trial_time() - time.time(), 1. / 6, 1e-15);
+  EXPECT_NEAR(time.trial_time() - time.time(), 0.05, 1e-15);
+}
+
+TEST(TimeControl, HitsTheTimesAskedFor)
+{
+  TimeControl  time(steps(2), {0.75, 0.1, 0.5 + 1e-13, 0., 1., 2., -1.});
+  const double expected[] = {0.1, 0.5, 0.75, 1.};
+  for (const double t : expected)
+    {
+      step(time);
+      EXPECT_EQ(time.time(), t);
+      EXPECT_EQ(time.at_step_end(), t == 0.5 || t == 1.);
+    }
+  EXPECT_TRUE(time.finished());
 }
 
 TEST(TimeControl, StopsBelowTheSmallestStep)
@@ -318,7 +330,7 @@ TEST(TimeControl, StagesFollowEachOther)
   std::vector<TimeParameters> stages{steps(2), steps(10, 2.)};
   stages[1].start_time   = 1.;
   stages[1].largest_step = 0.5;
-  TimeControl time(stages);
+  TimeControl time(stages, {0.25, 1., 1.55});
   EXPECT_EQ(time.stage(), 0u);
   std::vector<double> times;
   for (; time.time() < 1.; step(time))
@@ -326,14 +338,16 @@ TEST(TimeControl, StagesFollowEachOther)
       EXPECT_EQ(time.stage(), 0u);
       times.push_back(time.time());
     }
-  EXPECT_EQ(times, (std::vector<double>{0., 0.5}));
+  EXPECT_EQ(times, (std::vector<double>{0., 0.25, 0.5}));
   EXPECT_EQ(time.time(), 1.);
   EXPECT_TRUE(time.at_step_end());
   EXPECT_EQ(time.stage(), 1u);
   step(time);
   EXPECT_DOUBLE_EQ(time.time(), 1.05); // its own size, not that before
-  while (!time.finished())
-    step(time);
+  bool asked = false;
+  for (; !time.finished(); step(time))
+    asked = asked || time.time() == 1.55;
+  EXPECT_TRUE(asked);
   EXPECT_EQ(time.time(), 2.);
   EXPECT_EQ(time.stage(), 1u);
   EXPECT_EQ(time.n_completed_steps(), 12u);

@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -112,6 +113,11 @@ namespace moraine
 
     Enforcement
     enforcement_of() const;
+
+    /** The keys that are not as if left out, though the enforcement does not
+     * look at them. */
+    std::vector<std::string>
+    keys_in_vain() const;
   };
 } // namespace moraine
 

@@ -94,8 +94,8 @@ namespace moraine
    * Where the run is in time, and how far the next step goes.
    *
    * A run is one interval or several, its stages, each with parameters of its
-   * own. An interval is divided by stops: the ends of the user's steps.
-   * Between two stops, what remains is split into equal parts
+   * own. An interval is divided by stops: the ends of the user's steps and the
+   * times asked for. Between two stops, what remains is split into equal parts
    * no larger than the current size, so that stops are hit exactly and no
    * sliver of a step is left over. An integrator may divide each of these
    * steps once more; then its first part is accepted before the second is
@@ -119,10 +119,16 @@ namespace moraine
   class TimeControl : public StatePart
   {
   public:
-    explicit TimeControl(const TimeParameters &parameters);
+    /**
+     * Times in @p stops that lie within the interval are hit exactly, in any
+     * order; others are ignored.
+     */
+    explicit TimeControl(const TimeParameters      &parameters,
+                         const std::vector<double> &stops = {});
 
     /** The same for stages, each of which starts where the one before ends. */
-    explicit TimeControl(const std::vector<TimeParameters> &stages);
+    explicit TimeControl(const std::vector<TimeParameters> &stages,
+                         const std::vector<double>         &stops = {});
 
     /** Whether the next step follows a path of equilibria. */
     bool
@@ -265,6 +271,7 @@ namespace moraine
     struct Stop
     {
       double       time; ///< or coordinate()
+      bool         ends_step;
       unsigned int stage;
     };
 
@@ -309,7 +316,7 @@ namespace moraine
     path_leaves_interval(const double t) const;
 
     void
-    add_stops(const unsigned int stage);
+    add_stops(const unsigned int stage, const std::vector<double> &asked);
 
     const std::vector<TimeParameters> stages;
     std::vector<Stop>                 stops;
@@ -325,6 +332,7 @@ namespace moraine
     bool         on_step_end     = false;
     bool         path_ended      = false;
     double       rate            = 0; ///< path_rate()
+    unsigned int completed_steps = 0;
     unsigned int accepted        = 0;
     unsigned int rejected        = 0;
     unsigned int rejected_before = 0; ///< the last accepted step
