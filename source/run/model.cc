@@ -147,18 +147,25 @@ namespace moraine
                               const StageParameters  &stage,
                               const Scene<dim>       &scene)
     {
+      const auto any_before = [&](const auto &holds) {
+        return std::any_of(scene.stages.begin(),
+                           scene.stages.end(),
+                           [&](const auto &other) {
+                             return other.second.time.start_time <
+                                      stage.time.start_time &&
+                                    holds(other.second);
+                           });
+      };
+      const bool has_pushed = any_before([&](const StageParameters &other) {
+        return contains(other.loads, load.name());
+      });
       // Its surface may be that of a body still to come, unless it has pushed;
       // then of one that went and comes back.
       const auto may_be_its = [&](const std::string &body) {
         return !contains(stage.bodies, body) &&
-               (!load.is_placed() ||
-                std::any_of(scene.stages.begin(),
-                            scene.stages.end(),
-                            [&](const auto &other) {
-                              return other.second.time.start_time <
-                                       stage.time.start_time &&
-                                     contains(other.second.bodies, body);
-                            }));
+               (!has_pushed || any_before([&](const StageParameters &other) {
+                 return contains(other.bodies, body);
+               }));
       };
       return std::any_of(scene.stages.begin(),
                          scene.stages.end(),

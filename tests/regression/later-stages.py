@@ -312,3 +312,10 @@ alone, with_it = (run(paused, settings).history()[-1]["u_y at under"]
 at_least("a load that paused: settlement", -alone, 1e-5)
 bound("a load that paused: settlement over that with the other body there - 1",
       alone / with_it - 1, 1e-10)
+
+# The same after an interruption while it pauses.
+whole = run(paused, {"Output/Checkpoint every": "4 steps"})
+expected = (whole.folder / "history.csv").read_bytes()
+run(whole.folder, command="resume", extra=("--from", "4"))
+text("a load that paused, resumed", "the same history" if
+     (whole.folder / "history.csv").read_bytes() == expected else "NO")

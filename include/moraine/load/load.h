@@ -125,14 +125,6 @@ namespace moraine
       return load_name;
     }
 
-    /** Whether its places have been found on the material, which carries them
-     * from then on. */
-    bool
-    is_placed() const
-    {
-      return placed;
-    }
-
     /** The part of its surface that is outside the mesh. */
     double
     share_outside() const
