@@ -98,10 +98,10 @@ namespace moraine
   EnforcementParameters::keys_in_vain() const
   {
     const EnforcementParameters usual;
-    const bool                  has_band = enforcement == "weighted" ||
-                          enforcement == "augmented Lagrangian",
-               is_penalty         = enforcement == "penalty",
-               has_nitsche_factor = !is_penalty && enforcement != "weighted";
+    const bool                  is_weighted = enforcement == "weighted";
+    const bool                  is_penalty  = enforcement == "penalty";
+    const bool has_band = is_weighted || enforcement == "augmented Lagrangian";
+    const bool has_nitsche_factor = !is_weighted && !is_penalty;
     std::vector<std::string> keys;
     if (band_width != usual.band_width && !has_band)
       keys.emplace_back("Band width");

@@ -143,9 +143,9 @@ namespace moraine
      * on material that is there now. */
     template <int dim>
     bool
-    is_carried_to_later_stage(const CarriedLoad<dim> &load,
-                              const StageParameters  &stage,
-                              const Scene<dim>       &scene)
+    is_carried_to_later_stage(const std::string     &load,
+                              const StageParameters &stage,
+                              const Scene<dim>      &scene)
     {
       const auto any_before = [&](const auto &holds) {
         return std::any_of(scene.stages.begin(),
@@ -157,7 +157,7 @@ namespace moraine
                            });
       };
       const bool has_pushed = any_before([&](const StageParameters &other) {
-        return contains(other.loads, load.name());
+        return contains(other.loads, load);
       });
       // Its surface may be that of a body still to come, unless it has pushed;
       // then of one that went and comes back.
@@ -173,7 +173,7 @@ namespace moraine
                            const auto &bodies_then = other.second.bodies;
                            return other.second.time.start_time >
                                     stage.time.start_time &&
-                                  contains(other.second.loads, load.name()) &&
+                                  contains(other.second.loads, load) &&
                                   std::none_of(bodies_then.begin(),
                                                bodies_then.end(),
                                                may_be_its);
@@ -304,7 +304,7 @@ namespace moraine
     // What pushes in a later stage goes with the material from now on.
     for (auto &load : loads.carried)
       if (!contains(stage.loads, load.name()) &&
-          is_carried_to_later_stage(load, stage, scene))
+          is_carried_to_later_stage(load.name(), stage, scene))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
     if (state->strict_aggregates())

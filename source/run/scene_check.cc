@@ -339,8 +339,8 @@ namespace moraine
         "not reset after a step, allowed: nothing with method "
         "'finite element' or key 'Mesh after step' = '" +
         method.mesh_after_step + "'");
-    check_bodies(input);
     check_operands(given);
+    check_bodies(input);
     method.check();
     for (const auto &[name, load] : loads)
       {
@@ -456,7 +456,7 @@ namespace moraine
         const std::string section = "Bodies/" + name;
         body.damping.factors(section, !is_dynamic());
         body.initial_stress.check(section);
-        if (!body.initial_velocity.empty() && operands.count(name) == 0 &&
+        if (!body.initial_velocity.empty() &&
             !contains(first_dynamic_stage().bodies, name))
           reject(section,
                  "Initial velocity",
