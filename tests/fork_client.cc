@@ -8,8 +8,8 @@
 //
 // The request is the number of bytes that follow, in four bytes, which carry
 // the standard streams too (SCM_RIGHTS), and words that end with '\0': the
-// folder, the number of arguments, the arguments, the environment. The answer
-// is the number of the process and its status, in four bytes each. Where the
+// folder, the number of arguments, the arguments, the environment. The server
+// says 0 first, then the number of the process and its status, in four bytes each. Where the
 // connection ends, the server ends the copy.
 
 #include <sys/socket.h>
@@ -119,6 +119,7 @@ main(int argc, char **argv)
   if (name == nullptr)
     fail("MORAINE_FORK_SOCKET is not set");
   const int   s      = connect_to(name);
+  read_number(s);
   char       *folder = getcwd(nullptr, 0);
   std::string words  = folder + std::string(1, '\0');
   words += std::to_string(argc - 1) + '\0';

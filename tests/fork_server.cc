@@ -8,9 +8,10 @@
 // thousands of processes.
 //
 // Its socket is named by MORAINE_FORK_SOCKET. Says "ready" in a line of
-// standard output, and ends with its input.
+// standard output, and ends when nobody has been connected for half a minute.
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -18,12 +19,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -31,6 +34,9 @@ namespace
 {
   using Main        = int (*)(int, char **, char **);
   Main program_main = nullptr;
+
+  // Where the copy that looks for plugins writes their names.
+  std::FILE *plugin_names = nullptr;
 
   // False at the end of the input.
   bool
@@ -71,67 +77,151 @@ namespace
     return n;
   }
 
-  // In the copy: become the program.
+  // Run the program, but do not destroy its static objects, which takes a third
+  // of the time of a short run, page by page.
   [[noreturn]] void
-  run(const std::vector<char *> &words)
+  run(std::vector<char *> arguments)
   {
-    const int n_arguments = std::atoi(words[1]);
-    if (chdir(words[0]) != 0)
-      _exit(127);
-    std::vector<char *> arguments(words.begin() + 2,
-                                  words.begin() + 2 + n_arguments);
+    const int n = static_cast<int>(arguments.size());
     arguments.push_back(nullptr);
-    clearenv();
-    for (auto word = words.begin() + 2 + n_arguments; word != words.end();
-         ++word)
-      putenv(*word);
-    // Not by return: arguments and environment are in the caller's request.
-    std::exit(program_main(n_arguments, arguments.data(), environ));
+    const int status = program_main(n, arguments.data(), environ);
+    std::cout.flush();
+    std::clog.flush();
+    std::fflush(nullptr);
+    _exit(status);
   }
 
-  // The copy runs until it ends or its client does.
-  void
-  keep(const int client, const pid_t copy)
-  {
-    const auto tell = [client](const std::int32_t number) {
-      return send(client, &number, sizeof(number), MSG_NOSIGNAL) ==
-             sizeof(number);
-    };
-    const int end      = static_cast<int>(syscall(SYS_pidfd_open, copy, 0));
-    pollfd    either[] = {{end, POLLIN, 0}, {client, POLLIN, 0}};
-    bool      is_asked = end >= 0 && tell(copy);
-    while (is_asked && either[0].revents == 0)
-      {
-        poll(either, 2, -1);
-        is_asked = either[1].revents == 0;
-      }
-    if (either[0].revents == 0)
-      kill(copy, SIGKILL);
-    int status = 0;
-    waitpid(copy, &status, 0);
-    tell(status);
-  }
-
+  // In a copy that a client has asked for.
   [[noreturn]] void
   answer(const int client)
   {
     std::string request(receive_streams(client), '\0');
     if (!read_bytes(client, request.data(), request.size()))
       _exit(127);
+    close(client);
     std::vector<char *> words;
     for (std::size_t at = 0; at < request.size();
          at             = request.find('\0', at) + 1)
       words.push_back(request.data() + at);
-    std::signal(SIGCHLD, SIG_DFL);
+    if (chdir(words[0]) != 0)
+      _exit(127);
+    const auto variables = words.begin() + 2 + std::atoi(words[1]);
+    clearenv();
+    std::for_each(variables, words.end(), putenv);
+    run({words.begin() + 2, variables});
+  }
+
+  // Who is connected, and the copy that runs until it ends or its client does.
+  struct Client
+  {
+    int   socket;
+    pid_t copy = 0;
+    int   end  = -1; // readable when the copy has ended
+  };
+
+  bool
+  tell(const Client &client, const std::int32_t number)
+  {
+    return send(client.socket, &number, sizeof(number), MSG_NOSIGNAL) ==
+           sizeof(number);
+  }
+
+  // False if the client has left or no copy can be made.
+  bool
+  begin_copy(Client &client, const std::vector<Client> &all)
+  {
+    char byte;
+    if (client.copy > 0 || recv(client.socket, &byte, 1, MSG_PEEK) != 1)
+      return false;
+    client.copy = fork();
+    if (client.copy == 0)
+      {
+        for (const Client &other : all)
+          if (other.socket != client.socket)
+            close(other.socket);
+        answer(client.socket);
+      }
+    if (client.copy > 0)
+      client.end = static_cast<int>(syscall(SYS_pidfd_open, client.copy, 0));
+    return client.end >= 0 && tell(client, client.copy);
+  }
+
+  void
+  leave(const Client &client)
+  {
+    if (client.copy > 0)
+      {
+        kill(client.copy, SIGKILL); // nothing to a copy that has ended
+        int status = 0;
+        waitpid(client.copy, &status, 0);
+        tell(client, status);
+        close(client.end);
+      }
+    close(client.socket);
+  }
+
+  // Wait for something to do and do it. False if nobody has been there for
+  // long.
+  bool
+  attend(const int listener, std::vector<Client> &clients)
+  {
+    std::vector<pollfd> events{{listener, POLLIN, 0}};
+    for (const Client &client : clients)
+      {
+        // Of a client that has its copy, only that it leaves.
+        const short speaks = client.copy > 0 ? 0 : POLLIN;
+        events.push_back({client.socket, speaks, 0});
+        events.push_back({client.end, POLLIN, 0}); // a negative one is left out
+      }
+    if (poll(events.data(), events.size(), 30000) == 0)
+      return !clients.empty();
+    std::vector<Client> remaining;
+    for (std::size_t i = 0; i < clients.size(); ++i)
+      {
+        const bool has_spoken = events[1 + 2 * i].revents != 0,
+                   has_ended  = events[2 + 2 * i].revents != 0;
+        if (has_ended || (has_spoken && !begin_copy(clients[i], clients)))
+          leave(clients[i]);
+        else
+          remaining.push_back(clients[i]);
+      }
+    clients = remaining;
+    if (events[0].revents != 0)
+      {
+        const Client client{accept(listener, nullptr, nullptr)};
+        if (client.socket >= 0 && tell(client, 0))
+          clients.push_back(client);
+      }
+    return true;
+  }
+
+  // What a run loads by name, Open MPI's plugins, is loaded here: a copy runs
+  // the shortest command there is, and its dlopen() writes names down.
+  void
+  load_plugins()
+  {
+    int ends[2];
+    if (pipe(ends) != 0)
+      return;
     const pid_t copy = fork();
     if (copy == 0)
       {
-        close(client);
-        run(words);
+        close(ends[0]);
+        plugin_names = fdopen(ends[1], "w");
+        dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+        char program[] = "moraine", command[] = "--version";
+        run({program, command});
       }
-    if (copy > 0)
-      keep(client, copy);
-    _exit(0);
+    close(ends[1]);
+    std::FILE *const names = fdopen(ends[0], "r");
+    char             name[4096];
+    while (std::fgets(name, sizeof(name), names))
+      {
+        name[std::strcspn(name, "\n")] = '\0';
+        dlopen(name, RTLD_NOW);
+      }
+    std::fclose(names);
+    waitpid(copy, nullptr, 0);
   }
 
   int
@@ -150,23 +240,27 @@ namespace
              offsetof(sockaddr_un, sun_path) + 1 + n) != 0 ||
         listen(listener, 64) != 0)
       return 1;
-    std::signal(SIGCHLD, SIG_IGN); // keepers leave nothing behind
+    load_plugins();
     std::puts("ready");
     std::fflush(stdout);
-    pollfd either[] = {{listener, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}};
-    while (poll(either, 2, -1) > 0 && either[1].revents == 0)
-      {
-        const int client = accept(listener, nullptr, nullptr);
-        if (client >= 0 && fork() == 0)
-          {
-            close(listener);
-            answer(client);
-          }
-        close(client);
-      }
+    std::vector<Client> clients;
+    while (attend(listener, clients))
+      ;
     return 0;
   }
 } // namespace
+
+// Called by name where a plugin is loaded.
+extern "C" void *
+dlopen(const char *name, const int flags)
+{
+  static const auto open_library =
+    reinterpret_cast<decltype(&dlopen)>(dlsym(RTLD_NEXT, "dlopen"));
+  void *const library = open_library(name, flags);
+  if (library && name && plugin_names)
+    std::fprintf(plugin_names, "%s\n", name);
+  return library;
+}
 
 // Called in place of the function of the C library that calls main().
 extern "C" int

@@ -19,8 +19,9 @@ for row in rows:
     name = f"{row['Series']}, {row['Constants/angle']} degrees"
     error = float(row["error"])
     if name == "weighted, 30 degrees" and float(band) < 1e-7:
-        # 9e-9 and round-off, which is the solver's.
-        bound(f"{name}, band {band}", error, 3e-8)
+        # 8e-10 and round-off, which is the solver's: 2.6e-8 to 3.2e-8 with the
+        # kernels OpenBLAS has for seven processors.
+        bound(f"{name}, band {band}", error, 5e-8)
     elif row["Series"] == "weighted":
         number(f"{name}, band {band}", error, 1)
     elif row["Series"] == "augmented Lagrangian":
