@@ -27,6 +27,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,10 @@ namespace
   using Main        = int (*)(int, char **, char **);
   Main program_main = nullptr;
 
-  // Where the copy that looks for plugins writes their names.
-  std::FILE *plugin_names = nullptr;
+  // Copies write names of plugins of Open MPI into one end; what the server
+  // reads at the other it loads for those that come.
+  int  plugin_names[2];
+  bool is_copy = false;
 
   // False at the end of the input.
   bool
@@ -136,6 +139,8 @@ namespace
     client.copy = fork();
     if (client.copy == 0)
       {
+        is_copy = true;
+        close(plugin_names[0]);
         for (const Client &other : all)
           if (other.socket != client.socket)
             close(other.socket);
@@ -160,12 +165,27 @@ namespace
     close(client.socket);
   }
 
+  void
+  load_plugins()
+  {
+    static std::set<std::string> loaded;
+    static std::string           unread;
+    char                         bytes[4096];
+    const ssize_t n = read(plugin_names[0], bytes, sizeof(bytes));
+    unread.append(bytes, std::max<ssize_t>(n, 0));
+    for (std::size_t end; (end = unread.find('\n')) != std::string::npos;
+         unread.erase(0, end + 1))
+      if (loaded.insert(unread.substr(0, end)).second)
+        dlopen(unread.substr(0, end).c_str(), RTLD_NOW);
+  }
+
   // Wait for something to do and do it. False if nobody has been there for
   // long.
   bool
   attend(const int listener, std::vector<Client> &clients)
   {
-    std::vector<pollfd> events{{listener, POLLIN, 0}};
+    std::vector<pollfd> events{{listener, POLLIN, 0},
+                               {plugin_names[0], POLLIN, 0}};
     for (const Client &client : clients)
       {
         // Of a client that has its copy, only that it leaves.
@@ -178,14 +198,16 @@ namespace
     std::vector<Client> remaining;
     for (std::size_t i = 0; i < clients.size(); ++i)
       {
-        const bool has_spoken = events[1 + 2 * i].revents != 0,
-                   has_ended  = events[2 + 2 * i].revents != 0;
+        const bool has_spoken = events[2 + 2 * i].revents != 0,
+                   has_ended  = events[3 + 2 * i].revents != 0;
         if (has_ended || (has_spoken && !begin_copy(clients[i], clients)))
           leave(clients[i]);
         else
           remaining.push_back(clients[i]);
       }
     clients = remaining;
+    if (events[1].revents != 0)
+      load_plugins();
     if (events[0].revents != 0)
       {
         const Client client{accept(listener, nullptr, nullptr)};
@@ -193,35 +215,6 @@ namespace
           clients.push_back(client);
       }
     return true;
-  }
-
-  // What a run loads by name, Open MPI's plugins, is loaded here: a copy runs
-  // the shortest command there is, and its dlopen() writes names down.
-  void
-  load_plugins()
-  {
-    int ends[2];
-    if (pipe(ends) != 0)
-      return;
-    const pid_t copy = fork();
-    if (copy == 0)
-      {
-        close(ends[0]);
-        plugin_names = fdopen(ends[1], "w");
-        dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
-        char program[] = "moraine", command[] = "--version";
-        run({program, command});
-      }
-    close(ends[1]);
-    std::FILE *const names = fdopen(ends[0], "r");
-    char             name[4096];
-    while (std::fgets(name, sizeof(name), names))
-      {
-        name[std::strcspn(name, "\n")] = '\0';
-        dlopen(name, RTLD_NOW);
-      }
-    std::fclose(names);
-    waitpid(copy, nullptr, 0);
   }
 
   int
@@ -238,9 +231,8 @@ namespace
     if (bind(listener,
              reinterpret_cast<sockaddr *>(&address),
              offsetof(sockaddr_un, sun_path) + 1 + n) != 0 ||
-        listen(listener, 64) != 0)
+        listen(listener, 64) != 0 || pipe2(plugin_names, O_CLOEXEC) != 0)
       return 1;
-    load_plugins();
     std::puts("ready");
     std::fflush(stdout);
     std::vector<Client> clients;
@@ -250,15 +242,19 @@ namespace
   }
 } // namespace
 
-// Called by name where a plugin is loaded.
+// A plugin is loaded.
 extern "C" void *
 dlopen(const char *name, const int flags)
 {
   static const auto open_library =
     reinterpret_cast<decltype(&dlopen)>(dlsym(RTLD_NEXT, "dlopen"));
   void *const library = open_library(name, flags);
-  if (library && name && plugin_names)
-    std::fprintf(plugin_names, "%s\n", name);
+  if (library && name && is_copy)
+    {
+      const std::string line = std::string(name) + '\n';
+      if (write(plugin_names[1], line.data(), line.size()) < 0)
+        std::perror("fork_server");
+    }
   return library;
 }
 

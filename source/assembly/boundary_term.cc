@@ -224,7 +224,7 @@ namespace moraine
   void
   BoundaryTerm<dim>::check_values(const StepContext<dim> &context)
   {
-    boundary.set_target(context.t_end);
+    boundary.check_value(context.t_end);
   }
 
 
@@ -484,6 +484,7 @@ namespace moraine
         violations.push_back(states[q].violation);
         if (point.holds)
           held_places.push_back({point.cell,
+                                 q,
                                  states[q].place,
                                  force,
                                  states[q].normal,

@@ -107,8 +107,12 @@ namespace moraine
     for (const auto &entry : prescribed.entries)
       if (!checked[entry.condition])
         {
-          conditions[entry.condition].value(
-            context.state.grid().node_position(entry.node), context.t_end);
+          const GridSpace<dim> &space     = context.state.grid();
+          const auto           &condition = conditions[entry.condition];
+          condition.increment(space.node_position(entry.node),
+                              space.built_position(entry.node),
+                              condition.start,
+                              context.t_end);
           checked[entry.condition] = true;
           if (++n_checked == conditions.size())
             break;

@@ -50,14 +50,20 @@ namespace moraine
             without_flux.push_back(term.get());
           terms.push_back(std::move(term));
         }
-    if (without_flux.size() > 1)
-      terms.push_back(std::make_unique<SharedCellsTerm<dim>>(without_flux));
     std::vector<GridCondition<dim>> acting;
     for (const auto &condition : conditions)
       if (acts("Grid conditions", condition.name))
         acting.push_back(condition);
+    const GridConditionTerm<dim> *grid_conditions = nullptr;
     if (!acting.empty())
-      terms.push_back(std::make_unique<GridConditionTerm<dim>>(acting));
+      {
+        auto term       = std::make_unique<GridConditionTerm<dim>>(acting);
+        grid_conditions = term.get();
+        terms.push_back(std::move(term));
+      }
+    if (without_flux.size() + (grid_conditions ? 1 : 0) > 1)
+      terms.push_back(
+        std::make_unique<SharedCellsTerm<dim>>(without_flux, grid_conditions));
     for (const auto &force : loads.body_forces)
       if (acts("Loads", force.name))
         terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));

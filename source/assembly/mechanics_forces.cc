@@ -102,12 +102,12 @@ namespace moraine
       context.step_size(),
       !constraints.any_lines() ?
         typename Motion<dim>::Constrain() :
-        [&](const Prescribed prescribed, LA::Vector &x) {
-          if (prescribed == Prescribed::none)
+        [&](const std::optional<double> share, LA::Vector &x) {
+          if (!share)
             return constraints.distribute_correction(x);
-          if (prescribed == Prescribed::at_the_end)
+          if (*share == 1)
             return constraints.distribute(x);
-          set((context.t_start + t_end) / 2);
+          set(context.t_start + *share * (t_end - context.t_start));
           constraints.distribute(x);
           set(t_end);
         },

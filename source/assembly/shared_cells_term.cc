@@ -30,15 +30,17 @@ namespace moraine
      * Collective. */
     template <int dim>
     std::vector<unsigned int>
-    count_in_cells(const std::vector<const BoundaryTerm<dim> *> &boundaries,
-                   const GridSpace<dim>                         &space)
+    count_in_cells(
+      const std::vector<std::vector<typename BoundaryTerm<dim>::HeldPlace>>
+                           &held,
+      const GridSpace<dim> &space)
     {
       std::vector<unsigned int> n_in_cells(
         space.mesh().triangulation().n_active_cells(), 0);
-      for (const auto *boundary : boundaries)
+      for (const auto &places : held)
         {
           unsigned int last = numbers::invalid_unsigned_int;
-          for (const auto &place : boundary->held())
+          for (const auto &place : places)
             {
               if (place.cell != last)
                 ++n_in_cells[place.cell];
@@ -173,21 +175,67 @@ namespace moraine
 
   template <int dim>
   SharedCellsTerm<dim>::SharedCellsTerm(
-    std::vector<const BoundaryTerm<dim> *> boundaries)
+    std::vector<const BoundaryTerm<dim> *> boundaries,
+    const GridConditionTerm<dim>          *grid_conditions)
     : boundaries(std::move(boundaries))
+    , grid_conditions(grid_conditions)
   {}
 
 
 
   template <int dim>
+  std::vector<BoundaryReport<dim>>
+  SharedCellsTerm<dim>::leave_to_grid_conditions(
+    const StepContext<dim> &context,
+    std::vector<Held>      &held) const
+  {
+    std::vector<BoundaryReport<dim>> changes;
+    if (!grid_conditions)
+      return changes;
+    const GridSpace<dim> &space = context.state.grid();
+    const auto           &all   = grid_conditions->all();
+    for (const auto &condition : all)
+      changes.push_back({condition.name, {}, 0., 0., 0., 0.});
+    constexpr unsigned int    none = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> condition_of(dim * space.n_nodes(), none);
+    for (const auto &entry : grid_conditions->nodes().entries)
+      condition_of[dim * entry.node + entry.component] = entry.condition;
+    for (unsigned int b = 0; b < held.size(); ++b)
+      for (auto &place : held[b])
+        {
+          const unsigned int  *nodes = space.cell_nodes(place.cell);
+          const double        *N     = boundaries[b]->functions(place);
+          const Tensor<1, dim> missing =
+            place.area *
+              traction_of_stress(context.state.material_points(), place) -
+            place.force;
+          for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const unsigned int c = condition_of[dim * nodes[a] + d];
+                  c != none)
+                {
+                  Tensor<1, dim> part;
+                  part[d] = N[a] * missing[d];
+                  place.force += part;
+                  changes[c].reaction -= part;
+                  changes[c].moment -=
+                    all[c].motion.moment(place.x, part, context.t_end);
+                }
+        }
+    return changes;
+  }
+
+
+
+  template <int dim>
   void
-  SharedCellsTerm<dim>::report(const StepContext<dim>           &context,
-                               std::vector<BoundaryReport<dim>> &reports) const
+  SharedCellsTerm<dim>::share_out(const StepContext<dim> &context,
+                                  std::vector<Held>      &held) const
   {
     const GridSpace<dim>           &space  = context.state.grid();
     const PointSet<dim>            &points = context.state.material_points();
     const std::vector<unsigned int> n_in_cells =
-      count_in_cells(boundaries, space);
+      count_in_cells<dim>(held, space);
     if (std::none_of(n_in_cells.begin(), n_in_cells.end(), [](const auto n) {
           return n > 1;
         }))
@@ -198,8 +246,8 @@ namespace moraine
     constexpr unsigned int n_of_S =
       SymmetricTensor<2, dim>::n_independent_components;
     std::vector<double> sums((n_of_S + dim) * patches.n(), 0.);
-    for (const auto *boundary : boundaries)
-      for (const auto &place : boundary->held())
+    for (const Held &places : held)
+      for (const auto &place : places)
         if (patches[place.cell] != no_patch)
           {
             double *of = &sums[(n_of_S + dim) * patches[place.cell]];
@@ -222,27 +270,43 @@ namespace moraine
           b[d] = of[n_of_S + d];
         a.push_back(least_solution(S, b));
       }
+    for (Held &places : held)
+      for (auto &place : places)
+        if (patches[place.cell] != no_patch)
+          place.force = place.area * (traction_of_stress(points, place) +
+                                      place.M * a[patches[place.cell]]);
+  }
 
-    std::vector<BoundaryReport<dim>> changes;
+
+
+  template <int dim>
+  void
+  SharedCellsTerm<dim>::report(const StepContext<dim>           &context,
+                               std::vector<BoundaryReport<dim>> &reports) const
+  {
+    std::vector<Held> held;
     for (const auto *boundary : boundaries)
+      held.push_back(boundary->held());
+    std::vector<BoundaryReport<dim>> changes =
+      leave_to_grid_conditions(context, held);
+    share_out(context, held);
+    for (unsigned int b = 0; b < boundaries.size(); ++b)
       {
-        BoundaryReport<dim> of{boundary->name(), {}, 0., 0., 0., 0.};
-        for (const auto &place : boundary->held())
-          if (patches[place.cell] != no_patch)
-            {
-              const Tensor<1, dim> force =
-                place.area * (traction_of_stress(points, place) +
-                              place.M * a[patches[place.cell]]);
-              const Tensor<1, dim> change = force - place.force;
-              of.reaction += change;
-              of.force_magnitude += force.norm() - place.force.norm();
-              of.moment += boundary->moment(place.x, change, context.t_end);
-            }
+        const BoundaryTerm<dim> &boundary = *boundaries[b];
+        BoundaryReport<dim>      of{boundary.name(), {}, 0., 0., 0., 0.};
+        for (unsigned int q = 0; q < held[b].size(); ++q)
+          {
+            const auto          &before = boundary.held()[q];
+            const Tensor<1, dim> change = held[b][q].force - before.force;
+            of.reaction += change;
+            of.force_magnitude += held[b][q].force.norm() - before.force.norm();
+            of.moment += boundary.moment(before.x, change, context.t_end);
+          }
         changes.push_back(of);
       }
     for (BoundaryReport<dim> &change : changes)
       {
-        sum_over_ranks(change, space.communicator());
+        sum_over_ranks(change, context.state.grid().communicator());
         const auto of =
           std::find_if(reports.begin(), reports.end(), [&](const auto &report) {
             return report.name == change.name;

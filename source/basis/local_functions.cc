@@ -75,7 +75,8 @@ namespace moraine
                         method,
                         "found '" + method +
                           "' on a mesh or with shape functions it cannot use, "
-                          "allowed: a box of equal cells with degree 1");
+                          "allowed: a box of equal cells with degree 1, which "
+                          "'Mesh motion' may stretch along its axes, not turn");
   }
 
 

@@ -19,18 +19,6 @@ namespace moraine
 
   namespace
   {
-    template <int dim>
-    bool
-    inside(const BoundingBox<dim> &box, const Point<dim> &x, const double by)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (x[d] < box.lower_bound(d) - by || x[d] > box.upper_bound(d) + by)
-          return false;
-      return true;
-    }
-
-
-
     /** The vertices of a part of a cell, ascending; vertices, edges, faces. */
     using Part = std::array<unsigned int, 4>;
 
@@ -154,9 +142,9 @@ namespace moraine
             {
               if ((condition.side && !on_side[node]) ||
                   (condition.region &&
-                   !inside(*condition.region,
-                           space.built_position(node),
-                           1e-9 * space.mesh().cell_size())))
+                   !is_inside(*condition.region,
+                              space.built_position(node),
+                              1e-9 * space.mesh().cell_size())))
                 continue;
               for (unsigned int d = 0; d < dim; ++d)
                 if (condition.component[d])

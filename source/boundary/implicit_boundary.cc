@@ -197,6 +197,18 @@ namespace moraine
 
   template <int dim>
   void
+  ImplicitBoundary<dim>::check_value(const double t) const
+  {
+    const Placement<dim> pose = motion.pose(t);
+    if (!boundary_points.empty())
+      increment_at(
+        boundary_points.front().x, t_start, motion.pose(t_start), t, pose);
+  }
+
+
+
+  template <int dim>
+  void
   ImplicitBoundary<dim>::move_target(const double t_end)
   {
     const Placement<dim> start = motion.pose(t_start), end = motion.pose(t_end);

@@ -46,6 +46,21 @@ namespace moraine
 
   template <int dim>
   bool
+  is_inside(const BoundingBox<dim> &box,
+            const Point<dim>       &x,
+            const double            margin)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (x[d] < box.lower_bound(d) - margin ||
+          x[d] > box.upper_bound(d) + margin)
+        return false;
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
   is_finite(const BoundingBox<dim> &box)
   {
     for (unsigned int d = 0; d < dim; ++d)
@@ -180,6 +195,9 @@ namespace moraine
   template BoundingBox<dim> unlimited_box();                        \
   template BoundingBox<dim> intersection(const BoundingBox<dim> &,  \
                                          const BoundingBox<dim> &); \
+  template bool             is_inside(const BoundingBox<dim> &,     \
+                                      const Point<dim> &,           \
+                                      const double);                \
   template bool             is_finite(const BoundingBox<dim> &);    \
   template class Placement<dim>;                                    \
   template class RigidMotion<dim>;

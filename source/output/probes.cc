@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
 #include <moraine/output/component_names.h>
 
 #include <deal.II/base/mpi.h>
@@ -35,6 +36,12 @@ namespace moraine
       "mesh carries along (out of the cells with material: the point nearest to "
       "it there; the run says so).",
       patterns::selection({"nearest point", "interpolated"}));
+    prm.add_parameter("Body",
+                      body,
+                      "Of 'nearest point': the body whose points it chooses "
+                      "from, such as a lining that comes in a later stage. "
+                      "Empty: all.",
+                      Patterns::Anything());
     prm.add_parameter("Quantities",
                       quantities,
                       "What becomes columns of history.csv: displacement and "
@@ -73,6 +80,10 @@ namespace moraine
                        ": found 'stress', but stress is known at points only; "
                        "allowed with 'Kind = interpolated' are displacement, "
                        "position, velocity and acceleration");
+    if (kind == "interpolated" && !body.empty())
+      throw InputError(place(section, "Body") + ": found '" + body +
+                       "', allowed with 'Kind = interpolated': nothing; it "
+                       "follows its place in whatever body is there");
     for (const char *quantity : {"velocity", "acceleration"})
       if (!is_dynamic && wants(quantity))
         throw InputError(
@@ -93,9 +104,33 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Its number; invalid if the probe names none. */
+    template <int dim>
+    unsigned int
+    named_body(const ProbeParameters<dim>     &parameters,
+               const std::vector<std::string> &body_names)
+    {
+      if (parameters.body.empty())
+        return numbers::invalid_unsigned_int;
+      const auto found =
+        std::find(body_names.begin(), body_names.end(), parameters.body);
+      if (found == body_names.end())
+        throw InputError(place("Probes/" + parameters.name, "Body") +
+                         ": found '" + parameters.body +
+                         "', allowed: names of bodies" +
+                         suggest(parameters.body, body_names));
+      return found - body_names.begin();
+    }
+  } // namespace
+
+
+
   template <int dim>
   Probes<dim>::Probes(const std::vector<ProbeParameters<dim>> &parameters,
                       const PointSet<dim>                     &points,
+                      const std::vector<std::string>          &body_names,
                       const bool moves_through_mesh)
     : cell_size(points.mesh().cell_size())
     , moves_through_mesh(moves_through_mesh)
@@ -111,7 +146,10 @@ namespace moraine
                   probe.start.begin_raw());
         if (probe.follows_point())
           {
-            choose_point(probe.start, points, probe);
+            choose_point(probe.start,
+                         points,
+                         named_body(one, body_names),
+                         probe);
             probe.body = body_of(probe.point_id, points);
           }
         probes.push_back(std::move(probe));
@@ -124,14 +162,21 @@ namespace moraine
   void
   Probes<dim>::choose_point(const Point<dim>    &place,
                             const PointSet<dim> &points,
+                            const unsigned int   body,
                             Probe               &probe) const
   {
     const auto &tria         = points.mesh().triangulation();
     const auto  communicator = tria.get_communicator();
 
+    const auto distance = [&](const unsigned int p) {
+      return body == numbers::invalid_unsigned_int || points.body(p) == body ?
+               points.position(p).distance(place) :
+               std::numeric_limits<double>::max();
+    };
+
     double smallest = std::numeric_limits<double>::max();
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      smallest = std::min(smallest, points.position(p).distance(place));
+      smallest = std::min(smallest, distance(p));
     smallest = Utilities::MPI::min(smallest, communicator);
 
     probe.distance = smallest;
@@ -139,7 +184,7 @@ namespace moraine
     const double limit = smallest + 1e-10 * cell_size;
     unsigned int id    = numbers::invalid_unsigned_int;
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.position(p).distance(place) <= limit)
+      if (distance(p) <= limit)
         id = std::min(id, points.id(p));
     probe.point_id = Utilities::MPI::min(id, communicator);
   }
@@ -205,8 +250,13 @@ namespace moraine
         if (probe.follows_point() && probe.distance > 2. * cell_size)
           {
             found << "which is " << std::setprecision(4) << probe.distance
-                  << " from the nearest point, allowed: a place on or beside a "
-                     "body, less than two cells away";
+                  << " from the nearest point"
+                  << (probe.parameters.body.empty() ?
+                        "" :
+                        " of '" + probe.parameters.body + "'")
+                  << ", allowed: a place on or beside "
+                  << (probe.parameters.body.empty() ? "a body" : "it")
+                  << ", less than two cells away";
             throw InputError(found.str());
           }
         if (!probe.follows_point() && !on_material(probe.start, unused) &&
@@ -229,9 +279,11 @@ namespace moraine
       if (probe.follows_point() && !is_there(probe.body, points))
         notes.push_back(
           "probe '" + probe.parameters.name + "' follows a point of body '" +
-          body_names[probe.body] +
-          "', which is not there, and shows zeros; another 'Location' finds "
-          "another point, and 'Kind = interpolated' what is there");
+          body_names[probe.body] + "', which is not there, and shows zeros" +
+          (probe.parameters.body.empty() ?
+             "; key 'Body' names the body that is meant, and 'Kind = "
+             "interpolated' follows what is there" :
+             ""));
   }
 
 
@@ -265,7 +317,10 @@ namespace moraine
             {
               if (!with_body)
                 {
-                  choose_point(where, points, probe);
+                  choose_point(where,
+                               points,
+                               numbers::invalid_unsigned_int,
+                               probe);
                   probe.body = body_of(probe.point_id, points);
                 }
               probe.v = probe.a = Tensor<1, dim>();
@@ -281,7 +336,7 @@ namespace moraine
               probe.increment = probe.v = probe.a = Tensor<1, dim>();
               continue;
             }
-          choose_point(where, points, probe);
+          choose_point(where, points, numbers::invalid_unsigned_int, probe);
           probe.body = body_of(probe.point_id, points);
           probe.ahead =
             probe.displacement - displacement_of(probe.point_id, points);

@@ -227,7 +227,8 @@ namespace moraine
               << mesh_box.get_boundary_points().second
               << (mesh_is_box ?
                     "), allowed: a body in the mesh; only half-spaces and "
-                    "expressions are cut by it" :
+                    "expressions are cut by it, and 'Shape = intersection' "
+                    "with a box cuts others" :
                     ") with straight edges, allowed: a body in the mesh; only "
                     "half-spaces and expressions are cut by it, and 'Shape = "
                     "mesh' fills it");

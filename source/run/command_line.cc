@@ -117,7 +117,7 @@ namespace moraine
          "the checkpoint after step N, or at time T as in 0.5"},
         {"--output", "DIR", "folder for the results"},
         {"--overwrite", "", "replace the results of an earlier run in it"},
-        {"--quiet", "", "show only how the run ends, and errors"},
+        {"--quiet", "", "show only how the run ends, its warnings, and errors"},
         {"--verbose", "", "show every Newton iteration"},
         {"--dimension", "2|3", "of the scenes; 2 if left out"}};
       return all;

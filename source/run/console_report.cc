@@ -407,6 +407,9 @@ namespace moraine
               << 100 * summary.ghost_term->of_forces << " % of the forces and "
               << 100 * summary.ghost_term->of_work
               << " % of the work of a step\n";
+    if (options.verbosity == Verbosity::quiet) // these have not been seen
+      for (const std::string &warning : summary.warnings)
+        note(warning);
     if (summary.status != "ok")
       console << "  ended early: " << summary.message << '\n';
     console << "" << std::flush;

@@ -100,70 +100,131 @@ namespace moraine
 
 
     /** The change of a displacement acts: what it is at the start would be lost
-     * without a word. @param largest component where the part acts. */
+     * without a word.
+     * @param largest component where the part acts
+     * @param first whether it acts from the start of the scene, where it has no
+     * past */
     template <int dim>
     void
-    refuse_displacement_at_start(const std::string &section,
-                                 const std::string &found,
-                                 const double       largest,
-                                 const Model<dim>  &model)
+    check_displacement_at_start(const std::string        &section,
+                                const std::string        &found,
+                                const double              largest,
+                                const bool                first,
+                                const Model<dim>         &model,
+                                std::vector<std::string> &notes)
     {
       const double round_off =
         1e-9 * model.mesh->triangulation().begin_active()->diameter();
-      if (Utilities::MPI::max(largest, model.space->communicator()) > round_off)
+      const double all =
+        Utilities::MPI::max(largest, model.space->communicator());
+      if (all <= round_off)
+        return;
+      if (first)
         reject(section,
                "Displacement",
                found,
                "one that is 0 at the start, as only its change over time acts; "
                "-0.01*t reaches -0.01 at t = 1");
+      std::ostringstream text;
+      text << section.substr(section.find('/') + 1) << ": its 'Displacement' "
+           << "has " << std::setprecision(4) << all << " as it begins to act, "
+           << "and only its change from then on moves what it holds";
+      notes.push_back(text.str());
     }
 
 
 
+    template <typename Parameters>
+    const Parameters &
+    parameters_of(const std::string                                     &name,
+                  const std::vector<std::pair<std::string, Parameters>> &all)
+    {
+      return std::find_if(all.begin(),
+                          all.end(),
+                          [&](const auto &one) { return one.first == name; })
+        ->second;
+    }
+
+
+
+    /** Of what did not act in the stage @p before, null for the first. */
     template <int dim>
     void
-    check_displacements_at_start(const Scene<dim> &scene,
-                                 const Model<dim> &model)
+    check_displacements_at_start(const Scene<dim>         &scene,
+                                 const StageParameters    &stage,
+                                 const StageParameters    *before,
+                                 const Model<dim>         &model,
+                                 std::vector<std::string> &notes)
     {
-      const double           t     = scene.start_time();
-      const StageParameters &stage = scene.stages.front().second;
+      const double t = stage.time.start_time;
       for (const auto &condition :
            acting_conditions(model.grid_conditions, stage))
         {
+          if (before && contains(before->grid_conditions, condition.name))
+            continue;
           double largest = 0;
           for (const auto &entry :
                find_prescribed_nodes<dim>({condition}, *model.space, t).entries)
             {
-              const Point<dim> x = model.space->node_position(entry.node);
+              const Point<dim> X = model.space->built_position(entry.node);
               largest =
                 std::max(largest,
                          std::abs(
-                           condition.displacement(x, t)[entry.component]));
+                           condition.displacement(X, t)[entry.component]));
             }
-          for (const auto &[name, parameters] : scene.grid_conditions)
-            if (name == condition.name)
-              refuse_displacement_at_start("Grid conditions/" + name,
-                                           parameters.displacement,
-                                           largest,
-                                           model);
+          check_displacement_at_start(
+            "Grid conditions/" + condition.name,
+            parameters_of(condition.name, scene.grid_conditions).displacement,
+            largest,
+            !before,
+            model,
+            notes);
         }
       for (const auto &boundary : model.boundaries)
-        for (const auto &[name, parameters] : scene.boundaries)
-          if (name == boundary.name() && contains(stage.boundaries, name) &&
-              !parameters.displacement.empty())
-            {
-              const std::string     section = "Boundaries/" + name;
-              const Expression<dim> u(parameters.displacement,
-                                      place(section, "Displacement"),
-                                      dim);
-              double                largest = 0;
-              for (const auto &point : boundary.points())
-                largest = std::max(largest, u.vector_value(point.x, t).norm());
-              refuse_displacement_at_start(section,
-                                           parameters.displacement,
-                                           largest,
-                                           model);
-            }
+        {
+          const std::string &name = boundary.name();
+          if (!contains(stage.boundaries, name) ||
+              (before && contains(before->boundaries, name)))
+            continue;
+          const std::string &text =
+            parameters_of(name, scene.boundaries).displacement;
+          if (text.empty())
+            continue;
+          const std::string     section = "Boundaries/" + name;
+          const Expression<dim> u(text, place(section, "Displacement"), dim);
+          double                largest = 0;
+          for (const auto &point : boundary.points())
+            largest = std::max(largest, u.vector_value(point.x, t).norm());
+          check_displacement_at_start(
+            section, text, largest, !before, model, notes);
+        }
+    }
+
+
+
+    /** Places absorb on the bodies that were there when it began. */
+    template <int dim>
+    void
+    tell_of_not_absorbed(const Scene<dim>         &scene,
+                         const StageParameters    &stage,
+                         const StageParameters    &before,
+                         const Model<dim>         &model,
+                         std::vector<std::string> &notes)
+    {
+      std::vector<std::string> come;
+      for (const std::string &body : stage.bodies)
+        if (!contains(before.bodies, body))
+          come.push_back(body);
+      if (come.empty())
+        return;
+      for (const auto &boundary : model.absorbing_boundaries)
+        if (absorbs_in(before, scene, boundary) &&
+            absorbs_in(stage, scene, boundary))
+          notes.push_back(boundary.name() +
+                          " absorbs on bodies that were there as it began; " +
+                          list_of(come) +
+                          " is free where it touches it, and a second boundary "
+                          "that begins in a later stage absorbs there");
     }
 
 
@@ -423,7 +484,7 @@ namespace moraine
     check_places_of_boundaries(stage, model);
     std::vector<std::string> notes;
     check_prescribed_motion(stage, true, model, notes);
-    check_displacements_at_start(scene, model);
+    check_displacements_at_start(scene, stage, nullptr, model, notes);
     check_loads(stage, model, notes);
     tell_of_loads_outside(model, notes);
     tell_of_point_volumes(model, notes);
@@ -478,7 +539,10 @@ namespace moraine
     if (stage.bodies != before.bodies || stage.loads != before.loads)
       tell_of_removed_bodies(stage, before, model, notes);
     if (stage.bodies != before.bodies)
-      remove_absorbing_places(stage, model, notes);
+      {
+        remove_absorbing_places(stage, model, notes);
+        tell_of_not_absorbed(scene, stage, before, model, notes);
+      }
     model.linear_solver->clear();
     model.set_stage(scene, k);
     try
@@ -514,6 +578,7 @@ namespace moraine
       model.probes->tell_of_absent(*model.points, model.body_names, notes);
     check_places_of_boundaries(stage, model);
     check_prescribed_motion(stage, false, model, notes);
+    check_displacements_at_start(scene, stage, &before, model, notes);
     check_loads(stage, model, notes);
     tell_of_volume_twice(model, stage.bodies, before.bodies, notes);
     tell_of_thin_bodies(stage, model, before.bodies, notes);
@@ -521,6 +586,7 @@ namespace moraine
     tell_of_narrow_gaps(model, before.bodies, notes);
     tell_of_skipped_tables(scene, stage, notes);
     tell_of_absorbing_at_rest(scene, stage, model, notes);
+    hold_stress_of_newcomers(stage, before, model);
     hold_stress_at_start(stage, before.boundaries, model);
     tell_of_gaps(stage, before, model, notes);
     tell_of_material_behind(stage, before.boundaries, model, notes);

@@ -8,6 +8,7 @@
 #include <moraine/points/body_cover.h>
 #include <moraine/points/linear_fit.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace moraine
@@ -155,6 +156,61 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  hold_stress_of_newcomers(const StageParameters &stage,
+                           const StageParameters &before,
+                           Model<dim>            &model)
+  {
+    const PointSet<dim> &points = *model.points;
+    std::vector<bool>    is_new;
+    for (const std::string &body : model.body_names)
+      is_new.push_back(contains(stage.bodies, body) &&
+                       !contains(before.bodies, body));
+    if (std::none_of(is_new.begin(), is_new.end(), [](const bool b) {
+          return b;
+        }))
+      return;
+    std::vector<bool> has_old(points.mesh().triangulation().n_active_cells(),
+                              false);
+    for (const auto &in_cell : points.cells())
+      for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+        if (!is_new[points.body(p)])
+          has_old[in_cell.cell->active_cell_index()] = true;
+    const ShapesOfBodies<dim> shapes = shapes_of(model.bodies);
+    const BodyCover<dim>      covers(
+      points, shapes, model.state->mesh_after_step() != MeshAfterStep::keep);
+    for (ImplicitBoundary<dim> &boundary : model.boundaries)
+      {
+        if (!contains(stage.boundaries, boundary.name()) ||
+            !contains(before.boundaries, boundary.name()) ||
+            contains(stage.absorbing, boundary.name()) ||
+            !boundary.enforcement().carries_multiplier)
+          continue;
+        Tractions<dim> tractions = tractions_on(boundary, points, covers);
+        std::vector<Tensor<1, dim>> violations(boundary.points().size());
+        for (unsigned int q = 0; q < boundary.points().size(); ++q)
+          {
+            const BoundaryPoint<dim> &place = boundary.points()[q];
+            if (has_old[place.cell])
+              tractions.at_points[q] = place.multiplier_at_start;
+            else
+              violations[q] = -place.accumulated_violation;
+          }
+        for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+          {
+            const auto &slope = boundary.slopes()[k];
+            if (has_old[boundary.points()[slope.point].cell])
+              tractions.of_slopes[k] = slope.traction_at_start;
+          }
+        boundary.prepare(tractions.at_points, violations, tractions.of_slopes);
+        boundary.keep();
+      }
+    model.system->begin_step(stage.time.start_time);
+  }
+
+
+
   template void
   hold_stress_at_start(const StageParameters &,
                        const std::vector<std::string> &,
@@ -163,4 +219,12 @@ namespace moraine
   hold_stress_at_start(const StageParameters &,
                        const std::vector<std::string> &,
                        Model<3> &);
+  template void
+  hold_stress_of_newcomers(const StageParameters &,
+                           const StageParameters &,
+                           Model<2> &);
+  template void
+  hold_stress_of_newcomers(const StageParameters &,
+                           const StageParameters &,
+                           Model<3> &);
 } // namespace moraine

@@ -22,25 +22,25 @@ namespace moraine
 {
   using namespace dealii;
 
+  template <int dim>
+  bool
+  absorbs_in(const StageParameters        &stage,
+             const Scene<dim>             &scene,
+             const AbsorbingBoundary<dim> &boundary)
+  {
+    const std::string &name = boundary.name();
+    return contains(boundary.is_on_side() ? stage.grid_conditions :
+                                            stage.boundaries,
+                    name) &&
+           (contains(stage.absorbing, name) || !scene.absorbs_later(name));
+  }
+
+
+
   namespace
   {
     /** Of a cell without points over that of one with points. */
     constexpr double work_of_empty_cell = 0.05;
-
-
-
-    /** Whether @p x is in the box, which may be infinite, or @p size from it.
-     */
-    template <int dim>
-    bool
-    is_near(const BoundingBox<dim> &box, const Point<dim> &x, const double size)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (x[d] < box.lower_bound(d) - size ||
-            x[d] > box.upper_bound(d) + size)
-          return false;
-      return true;
-    }
 
 
 
@@ -84,7 +84,7 @@ namespace moraine
         for (unsigned int b = 0; b < bodies.size(); ++b)
           if (bodies[b].shape == nullptr)
             filled = 1.;
-          else if (is_near(boxes[b], centre, size))
+          else if (is_inside(boxes[b], centre, size))
             filled =
               std::max(filled, filled_part(*bodies[b].shape, centre, size));
         return std::clamp(filled, work_of_empty_cell, 1.);
@@ -104,23 +104,8 @@ namespace moraine
 
 
 
-    /** Whether a boundary absorbs in a stage. */
-    template <int dim>
-    bool
-    absorbs_in(const StageParameters        &stage,
-               const Scene<dim>             &scene,
-               const AbsorbingBoundary<dim> &boundary)
-    {
-      const std::string &name = boundary.name();
-      return contains(boundary.is_on_side() ? stage.grid_conditions :
-                                              stage.boundaries,
-                      name) &&
-             (contains(stage.absorbing, name) || !scene.absorbs_later(name));
-    }
-
-
-
-    /** Whether it does so before the stage that starts at @p t, and after. */
+    /** Whether a boundary absorbs before the stage that starts at @p t, and
+     * after. */
     template <int dim>
     bool
     absorbs_around(const double                  t,
@@ -257,8 +242,11 @@ namespace moraine
                                                     Terms<dim>(),
                                                     body_names,
                                                     &timer);
-    probes = std::make_unique<Probes<dim>>(
-      scene.probes, *points, scene.method.after_step() == MeshAfterStep::reset);
+    probes = std::make_unique<Probes<dim>>(scene.probes,
+                                           *points,
+                                           body_names,
+                                           scene.method.after_step() ==
+                                             MeshAfterStep::reset);
     keep_for_later(scene);
     set_stage(scene, 0);
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
@@ -488,6 +476,14 @@ namespace moraine
   template std::vector<GridCondition<3>>
   acting_conditions(const std::vector<GridCondition<3>> &,
                     const StageParameters &);
+  template bool
+  absorbs_in(const StageParameters &,
+             const Scene<2> &,
+             const AbsorbingBoundary<2> &);
+  template bool
+  absorbs_in(const StageParameters &,
+             const Scene<3> &,
+             const AbsorbingBoundary<3> &);
   template struct Model<2>;
   template struct Model<3>;
 } // namespace moraine

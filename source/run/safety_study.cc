@@ -298,6 +298,12 @@ namespace moraine
   void
   SafetyStudy::print(const Result &result, const StudyCase &study_case)
   {
+    const bool compares_meshes =
+      std::any_of(study_case.choices.begin(),
+                  study_case.choices.end(),
+                  [](const auto &choice) {
+                    return choice.first.rfind("Mesh/", 0) == 0;
+                  });
     if (result.status != "ok")
       console << "\n  no factor of safety: " << result.message << "\n\n";
     else
@@ -320,7 +326,13 @@ namespace moraine
           console << " --set \"" << path << " = " << value << '"';
         console << " --set \"" << factor_path << " = "
                 << exactly(*result.failed) << "\" --output "
-                << in_quotes(folder + "/failed") << "\n\n";
+                << in_quotes(folder + "/failed") << '\n'
+                << (compares_meshes ?
+                      "" :
+                      "  note: cells bear more than the ground, the coarser "
+                      "the more; repeat with\n        half the cell size to "
+                      "see how much\n")
+                << '\n';
       }
     console.stream() << std::flush;
   }

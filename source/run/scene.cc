@@ -87,6 +87,11 @@ namespace moraine
       centre =
         point_from<dim>(rotation_centre, place(section, "Rotation centre"));
     Tensor<1, dim> axis = Point<dim>::unit_vector(dim - 1);
+    if (dim == 2 && !rotation_axis.empty())
+      reject(section,
+             "Rotation axis",
+             Patterns::Tools::to_string(rotation_axis),
+             "nothing in 2D, where it turns in the plane");
     if (!rotation_axis.empty())
       axis = point_from<dim>(rotation_axis, place(section, "Rotation axis"));
     return RigidMotion<dim>(shift, angle, centre, axis);

@@ -257,6 +257,7 @@ namespace moraine
                        "Rotation centre",
                        "Rotation axis",
                        "Penetration limit",
+                       "Held in a cell",
                        "Enforcement",
                        "Band width",
                        "Nitsche factor",
@@ -282,7 +283,9 @@ namespace moraine
           reject(section,
                  entry.key,
                  entry.value,
-                 "nothing; key 'Constraint' is '" + constraint + "'");
+                 "nothing; key 'Constraint' is '" + constraint + "'" +
+                   (absorbs ? "" :
+                              ", and no stage names it in key 'Absorbing'"));
       if (!absorbs && !later)
         return;
       if (!dynamic)

@@ -138,11 +138,22 @@ namespace moraine
     {
       if (parameters.lower_corner.empty() && parameters.upper_corner.empty())
         return {};
-      return BoundingBox<dim>(
+      const auto corners =
         std::make_pair(point_from<dim>(parameters.lower_corner,
                                        place(section, "Lower corner")),
                        point_from<dim>(parameters.upper_corner,
-                                       place(section, "Upper corner"))));
+                                       place(section, "Upper corner")));
+      for (unsigned int d = 0; d < dim; ++d)
+        if (corners.second[d] < corners.first[d])
+          {
+            std::ostringstream found;
+            found << corners.second;
+            reject(section,
+                   "Upper corner",
+                   found.str(),
+                   "coordinates that are not below those of 'Lower corner'");
+          }
+      return BoundingBox<dim>(corners);
     }
 
 
@@ -256,7 +267,10 @@ namespace moraine
           places.erase(std::remove_if(places.begin(),
                                       places.end(),
                                       [&](const auto &place) {
-                                        return !region->point_inside(place.x);
+                                        return !is_inside(
+                                          *region,
+                                          place.x,
+                                          1e-9 * space.mesh().cell_size());
                                       }),
                        places.end());
         return places;

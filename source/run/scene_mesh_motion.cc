@@ -6,6 +6,8 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -63,11 +65,13 @@ namespace moraine
                       }};
             }
         }
+      const Point<dim> middle_of_mesh =
+        GridTools::compute_bounding_box(mesh.triangulation()).center();
       for (const auto &boundary : boundaries)
         {
           names.push_back(boundary.name());
           if (boundary.name() == name)
-            return {boundary.middle(), boundary.rigid_motion(), {}};
+            return {boundary.middle(middle_of_mesh), boundary.rigid_motion(), {}};
         }
       std::string known;
       for (const std::string &other : names)

@@ -141,6 +141,49 @@ namespace moraine
                    ", the end of the stage before; stages follow each other");
       time.start_time = before.end_time;
     }
+
+
+
+    /** What the stage names absorbs, and all that absorbs in the stage before;
+     * @p before is null in the first. */
+    void
+    complete_absorbing(const std::string     &name,
+                       const StageParameters *before,
+                       StageParameters       &stage)
+    {
+      const std::string        section = "Stages/" + name;
+      std::vector<std::string> active  = stage.boundaries;
+      active.insert(active.end(),
+                    stage.grid_conditions.begin(),
+                    stage.grid_conditions.end());
+      refuse_repeated(section, "Absorbing", stage.absorbing);
+      for (const std::string &boundary : stage.absorbing)
+        if (!contains(active, boundary))
+          reject(section,
+                 "Absorbing",
+                 boundary,
+                 "names of boundaries and grid conditions that are active" +
+                   suggest(boundary, active));
+        else if (!stage.time.integrator.dynamic())
+          reject(section,
+                 "Absorbing",
+                 boundary,
+                 "nothing; key 'Integrator' of section '" + time_section(name) +
+                   "' is 'quasi-static', and only waves are absorbed; it may "
+                   "stand in a stage with another 'Integrator', such as "
+                   "'Newmark'");
+        else if (before && stage.bodies != before->bodies)
+          reject(section,
+                 "Absorbing",
+                 boundary,
+                 "nothing where 'Bodies' change; what absorbs holds the forces "
+                 "that it had, so let it begin in a stage of its own before "
+                 "this one");
+      if (before)
+        stage.absorbing.insert(stage.absorbing.begin(),
+                               before->absorbing.begin(),
+                               before->absorbing.end());
+    }
   } // namespace
 
 
@@ -197,38 +240,7 @@ namespace moraine
                         all.bodies,
                         before ? before->bodies : all.bodies,
                         stage.bodies);
-        std::vector<std::string> active = stage.boundaries;
-        active.insert(active.end(),
-                      stage.grid_conditions.begin(),
-                      stage.grid_conditions.end());
-        refuse_repeated(section, "Absorbing", stage.absorbing);
-        for (const std::string &boundary : stage.absorbing)
-          if (!contains(active, boundary))
-            reject(section,
-                   "Absorbing",
-                   boundary,
-                   "names of boundaries and grid conditions that are active" +
-                     suggest(boundary, active));
-          else if (!stage.time.integrator.dynamic())
-            reject(section,
-                   "Absorbing",
-                   boundary,
-                   "nothing; key 'Integrator' of section '" +
-                     time_section(name) +
-                     "' is 'quasi-static', and only waves are absorbed; it "
-                     "may stand in a stage with another 'Integrator', such as "
-                     "'Newmark'");
-          else if (before && stage.bodies != before->bodies)
-            reject(section,
-                   "Absorbing",
-                   boundary,
-                   "nothing where 'Bodies' change; what absorbs holds the "
-                   "forces that it had, so let it begin in a stage of its own "
-                   "before this one");
-        if (before)
-          stage.absorbing.insert(stage.absorbing.begin(),
-                                 before->absorbing.begin(),
-                                 before->absorbing.end());
+        complete_absorbing(name, before, stage);
       }
   }
 } // namespace moraine

@@ -231,7 +231,9 @@ namespace moraine
   NewtonReport
   StepDriver<dim>::solve(LA::Vector &x)
   {
-    MechanicsSystem<dim> &system = *model.system;
+    MechanicsSystem<dim> &system     = *model.system;
+    const bool            is_dynamic = // and so held by inertia
+      scene.stages[stage].second.time.integrator.dynamic();
     for (;;)
       {
         // Along a path the time is found from where it is.
@@ -239,7 +241,7 @@ namespace moraine
                             time_control.time() :
                             time_control.trial_time());
         system.initial_guess(x);
-        if (!first_step && system.coupling_changed())
+        if (!first_step && !is_dynamic && system.coupling_changed())
           {
             system.assemble(x, true);
             try

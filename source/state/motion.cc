@@ -305,31 +305,50 @@ namespace moraine
     if (!constrain)
       return;
     const GridSpace<dim> &space       = state.grid();
-    const auto            constrained = [&](const NodeValues &values,
-                                 const Prescribed  prescribed) {
+    const auto            constrained = [&](const NodeValues           &values,
+                                 const std::optional<double> share) {
       LA::Vector x = space.vector_of(values);
-      constrain(prescribed, x);
+      constrain(share, x);
       NodeValues result;
       space.node_values(x, result);
       return result;
     };
-    v = constrained(v, Prescribed::none);
-    a = constrained(a, Prescribed::none);
+    v = constrained(v, std::nullopt);
+    a = constrained(a, std::nullopt);
     if (rule.looks_back())
-      a_before = constrained(a_before, Prescribed::none);
+      a_before = constrained(a_before, std::nullopt);
     if (!(size > 0) || !moves)
       return;
     const NodeValues none(space.n_nodes());
-    prescribed            = constrained(none, Prescribed::at_the_end);
-    const NodeValues half = constrained(none, Prescribed::in_the_middle);
+    prescribed = constrained(none, 1.);
+    if (rule.forces_in_the_middle())
+      {
+        const NodeValues half = constrained(none, 0.5);
+        for (unsigned int k = 0; k < v.size(); ++k)
+          {
+            v[k] += (4. * half[k] - prescribed[k]) / size;
+            a[k] += 4. * (prescribed[k] - 2. * half[k]) / (size * size);
+          }
+        return;
+      }
+    const NodeValues first  = constrained(none, 1. / 3),
+                     second = constrained(none, 2. / 3);
+    const double squared    = size * size / 9;
     for (unsigned int k = 0; k < v.size(); ++k)
       {
-        const Tensor<1, dim> acceleration =
-          4. * (prescribed[k] - 2. * half[k]) / (size * size);
-        v[k] += (4. * half[k] - prescribed[k]) / size;
-        a[k] += acceleration;
+        const Tensor<1, dim> &du = prescribed[k];
+        Tensor<1, dim>        at_start =
+                         (-5. * first[k] + 4. * second[k] - du) / squared,
+                       at_end =
+                         (4. * first[k] - 5. * second[k] + 2. * du) / squared;
+        const Tensor<1, dim> late =
+          rule.delay_of_acceleration() * (at_end - at_start);
+        at_start -= late;
+        at_end -= late;
+        v[k] += rule.start_velocity(size, du, at_start, at_start, at_end);
+        a[k] += at_start;
         if (rule.looks_back())
-          a_before[k] += acceleration;
+          a_before[k] += at_start;
       }
   }
 

@@ -327,89 +327,133 @@ namespace moraine
 
 
   template <int dim>
+  struct State<dim>::Acceptance
+  {
+    StencilBlock<dim>           block;
+    std::vector<Tensor<1, dim>> nodal; // increments of the block's nodes
+    TrialPoints<dim>            trial_points;
+
+    // Of all points: displacement increments, their gradients, and stress times
+    // volume by the points' own functions, where recovery needs it.
+    std::vector<Tensor<1, dim>>        moves;
+    std::vector<Tensor<2, dim>>        gradients;
+    std::vector<SymmetricTensor<2, 3>> own;
+  };
+
+
+
+  template <int dim>
+  void
+  State<dim>::gather(const Basis<dim>  &of,
+                     const unsigned int batch,
+                     Acceptance        &work) const
+  {
+    if (&of == &basis)
+      evaluate(batch, work.block);
+    else
+      of.evaluate(batch, work.block);
+    work.nodal.resize(work.block.n_nodes);
+    for (unsigned int a = 0; a < work.block.n_nodes; ++a)
+      work.nodal[a] = trial[work.block.nodes[a]];
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::find_own_stresses(Acceptance &work) const
+  {
+    const StencilBlock<dim> &block        = work.block;
+    TrialPoints<dim>        &trial_points = work.trial_points;
+    for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
+      {
+        end = end_of_body(block, begin);
+        trial_points.evaluate(*this, block, begin, end, work.nodal.data());
+        for (unsigned int p = begin; p < end; ++p)
+          work.own[block.points[p]] =
+            trial_points.weight(p - begin) * trial_points.stress(p - begin);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::commit_block(Acceptance &work, StepEnergies *energies)
+  {
+    const StencilBlock<dim> &block        = work.block;
+    TrialPoints<dim>        &trial_points = work.trial_points;
+    for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
+      {
+        end = end_of_body(block, begin);
+        trial_points.evaluate(*this, block, begin, end, work.nodal.data());
+        if (energies)
+          trial_points.add_energies(*this, block, begin, *energies);
+        for (unsigned int p = begin; p < end; ++p)
+          {
+            const unsigned int point = block.points[p];
+            if (recovery_field.exists())
+              commit_recovery(trial_points,
+                              p - begin,
+                              point,
+                              work.own.empty() ? nullptr : &work.own[point]);
+            commit(trial_points, p - begin, point);
+            work.gradients[point] = trial_points.increment_gradient(p - begin);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  State<dim>::displace(Acceptance &work)
+  {
+    const StencilBlock<dim> &block = work.block;
+    const auto              &u     = points.displacement_field();
+    for (unsigned int p = 0; p < block.n_points; ++p)
+      {
+        const unsigned int point = block.points[p];
+        Tensor<1, dim>    &du    = work.moves[point];
+        for (unsigned int a = 0; a < block.n_nodes; ++a)
+          du += block.N(p)[a] * work.nodal[a];
+        u.store(u(points.values(point)) + du, points.values(point));
+      }
+  }
+
+
+
+  template <int dim>
   void
   State<dim>::accept(const std::function<void()> &move_mesh,
                      StepEnergies                *energies)
   {
-    StencilBlock<dim>           block;
-    std::vector<Tensor<1, dim>> nodal;
-    TrialPoints<dim>            trial_points;
-    std::vector<Tensor<1, dim>> moves(points.n_local());
-    std::vector<Tensor<2, dim>> gradients(points.n_local());
-    const auto evaluate = [&](const Basis<dim> &of, const unsigned int g) {
-      if (&of == &basis)
-        this->evaluate(g, block);
-      else
-        of.evaluate(g, block);
-      nodal.resize(block.n_nodes);
-      for (unsigned int a = 0; a < block.n_nodes; ++a)
-        nodal[a] = trial[block.nodes[a]];
-    };
     const Basis<dim> &of_strains = basis.strain_basis();
-    // Stress times volume by the points' own functions; with inertia alone.
-    std::vector<SymmetricTensor<2, 3>> own(
-      recovery_field.exists() && energies ? points.n_local() : 0);
-    const auto evaluate_run = [&](const unsigned int begin) {
-      const unsigned int end = end_of_body(block, begin);
-      trial_points.evaluate(*this, block, begin, end, nodal.data());
-      return end;
-    };
-    const auto find_own_stresses = [&]() {
-      for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
-        {
-          end = evaluate_run(begin);
-          for (unsigned int p = begin; p < end; ++p)
-            own[block.points[p]] =
-              trial_points.weight(p - begin) * trial_points.stress(p - begin);
-        }
-    };
-    const auto commit_stresses = [&]() {
-      for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
-        {
-          end = evaluate_run(begin);
-          if (energies)
-            trial_points.add_energies(*this, block, begin, *energies);
-          for (unsigned int p = begin; p < end; ++p)
-            {
-              if (recovery_field.exists())
-                commit_recovery(trial_points,
-                                p - begin,
-                                block.points[p],
-                                own.empty() ? nullptr : &own[block.points[p]]);
-              commit(trial_points, p - begin, block.points[p]);
-              gradients[block.points[p]] =
-                trial_points.increment_gradient(p - begin);
-            }
-        }
-    };
+    Acceptance        work;
+    work.moves.resize(points.n_local());
+    work.gradients.resize(points.n_local());
+    if (recovery_field.exists() && energies) // with inertia alone
+      work.own.resize(points.n_local());
     for (unsigned int g = 0; g < basis.n_batches(); ++g)
       {
-        evaluate(basis, g);
+        gather(basis, g, work);
         if (&of_strains == &basis)
-          commit_stresses();
-        else if (!own.empty())
-          find_own_stresses();
-        for (unsigned int p = 0; p < block.n_points; ++p)
-          {
-            const unsigned int point = block.points[p];
-            Tensor<1, dim>    &du    = moves[point];
-            for (unsigned int a = 0; a < block.n_nodes; ++a)
-              du += block.N(p)[a] * nodal[a];
-            const auto &u = points.displacement_field();
-            u.store(u(points.values(point)) + du, points.values(point));
-          }
+          commit_block(work, energies);
+        else if (!work.own.empty())
+          find_own_stresses(work);
+        displace(work);
       }
     if (&of_strains != &basis)
       for (unsigned int g = 0; g < of_strains.n_batches(); ++g)
         {
-          evaluate(of_strains, g);
-          commit_stresses();
+          gather(of_strains, g, work);
+          commit_block(work, energies);
         }
     if (after_step == MeshAfterStep::keep)
       return;
-    basis.move_domains(points, trial, gradients);
+    basis.move_domains(points, trial, work.gradients);
     for (unsigned int p = 0; p < points.n_local(); ++p)
-      points.set_position(p, points.position(p) + moves[p]);
+      points.set_position(p, points.position(p) + work.moves[p]);
     if (after_step == MeshAfterStep::follow_material)
       space.move_nodes(trial);
     else

@@ -267,3 +267,13 @@ refused("arithmetic without a value", settings={"Materials/soil/Young modulus": 
 result = run(folder / "latin.prm", expect=2)
 text("a name in Latin-1", plain(result.output.strip()))
 refused("a long line", with_line("set Type = " + "x" * 100001))
+refused("corners of a region that are swapped",
+        settings={"Grid conditions/hold/Lower corner": "1, 1",
+                  "Grid conditions/hold/Upper corner": "0, 1"})
+refused("an axis of rotation in 2D",
+        settings={"Boundaries/left/Rotation axis": "0, 0, 1"})
+refused("means where it absorbs",
+        settings={**dynamic, "Boundaries/left/Constraint": "absorbing",
+                  "Boundaries/left/Held in a cell": "mean"})
+refused("an incident wave where nothing absorbs",
+        settings={**dynamic, "Boundaries/left/Incident velocity": "1; 0"})

@@ -22,13 +22,18 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from fork_server import Starter
+
 COLUMNS = ["case", "quantity", "value", "unit", "allowed", "holds", "revision",
            "host", "load_before"]
 
 
 class Bench:
     def __init__(self, arguments):
-        self.program = arguments.program
+        self.benchmark = Starter(arguments.program)
+        self.moraine = Starter(
+            pathlib.Path(arguments.program).parents[2] / "moraine")
         self.source = arguments.source
         self.repeats = arguments.repeats
         self.smoke = arguments.smoke
@@ -42,12 +47,12 @@ class Bench:
 
     def run(self, benchmark, ranks=1, **options):
         """The numbers that one run of the program prints."""
-        command = [self.program, benchmark]
-        if ranks > 1:
-            command = ["mpirun", "-n", str(ranks), *command]
+        words = [benchmark]
         for name, value in options.items():
-            command += ["--" + name.replace("_", "-"), str(value)]
-        result = subprocess.run(command, capture_output=True, text=True)
+            words += ["--" + name.replace("_", "-"), str(value)]
+        command = self.benchmark.command(words, ranks, ["mpirun"])
+        result = subprocess.run(command, capture_output=True, text=True,
+                                env=self.benchmark.environment())
         if result.returncode != 0:
             sys.exit(" ".join(command) + " failed: " + result.stderr)
         numbers = {}
@@ -58,17 +63,17 @@ class Bench:
 
     def run_scene(self, scene, settings, ranks=1):
         """Seconds of the whole program, and its summary."""
-        program = pathlib.Path(self.program).parents[2] / "moraine"
         with tempfile.TemporaryDirectory() as output:
-            command = [program, "run", pathlib.Path(self.source) / scene,
-                       "--output", output + "/o"]
-            if ranks > 1:
-                command = ["mpirun", "-n", str(ranks), *command]
+            words = ["run", pathlib.Path(self.source) / scene,
+                     "--output", output + "/o"]
             for key, value in {**settings, "Output/Points": "false",
                                "Output/Mesh": "false"}.items():
-                command += ["--set", f"{key} = {value}"]
+                words += ["--set", f"{key} = {value}"]
+            command = self.moraine.command(words, ranks, ["mpirun"])
+            environment = self.moraine.environment()
             start = time.monotonic()
-            subprocess.run(command, check=True, capture_output=True)
+            subprocess.run(command, check=True, capture_output=True,
+                           env=environment)
             seconds = time.monotonic() - start
             summary = pathlib.Path(output, "o/summary.json").read_text()
             return seconds, json.loads(summary)

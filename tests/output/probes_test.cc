@@ -62,6 +62,7 @@ namespace moraine
              {"position", "displacement", "stress"}),
        probe("B", {3.7, 1.9}, "nearest point", {"position"})},
       points,
+      {"ground"},
       true);
 
     const Tensor<1, 2> step({2.5, 0.75});
@@ -112,7 +113,7 @@ namespace moraine
             {1.5, 0.5},
             "interpolated",
             {"displacement", "velocity", "acceleration"})};
-    Probes<2> probes(two, points, true);
+    Probes<2> probes(two, points, {}, true);
     Archive   written, before;
     probes.write(before);
     EXPECT_EQ(before.integers("probes/point")[0], 99u);
@@ -167,8 +168,8 @@ namespace moraine
 
         const auto place =
           probe("P", {1., 0.5}, "interpolated", {"displacement", "position"});
-        Probes<2> carried({place}, points, true);
-        Probes<2> kept({place}, points, false);
+        Probes<2> carried({place}, points, {}, true);
+        Probes<2> kept({place}, points, {}, false);
         carried.try_step(field, points);
         carried.keep_step();
         kept.try_step(field, points);

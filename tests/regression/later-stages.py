@@ -320,3 +320,174 @@ expected = (whole.folder / "history.csv").read_bytes()
 run(whole.folder, command="resume", extra=("--from", "4"))
 text("a load that paused, resumed", "the same history" if
      (whole.folder / "history.csv").read_bytes() == expected else "NO")
+
+# A lining takes the place of what is dug out. A probe beside both follows the body
+# that it names: the stress of its one cell is that of half its weight.
+LINED = SOLID.replace("0.3", "0") + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 1, 2
+  set Cell size = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Bodies
+  subsection ground
+    set Lower corner = 0, 0
+    set Upper corner = 1, 1
+  end
+  subsection core
+    set Lower corner = 0, 1
+    set Upper corner = 1, 2
+  end
+  subsection lining
+    set Lower corner = 0, 1
+    set Upper corner = 1, 2
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type = gravity
+    set Value = 0; -10
+  end
+end
+subsection Stages
+  subsection core
+    set Bodies = ground, core
+  end
+  subsection dug
+    set Bodies = ground
+    subsection Time
+      set End time = 2
+    end
+  end
+  subsection lined
+    set Bodies = ground, lining
+    subsection Time
+      set End time = 3
+    end
+  end
+end
+subsection Probes
+  subsection crown
+    set Location = 0.5, 1.5
+    set Body = lining
+    set Quantities = stress
+  end
+end
+"""
+lined = folder / "lined.prm"
+lined.write_text(LINED)
+result = run(lined)
+text("probe of the lining", [round(row["sigma_yy at crown"], 1) + 0.
+                             for row in result.history()])
+text("probe of any body", [
+    round(row["sigma_yy at crown"], 1) + 0.
+    for row in run(lined, {"Probes/crown/Body": ""}).history()])
+for name, keys in (("of no body", {"Body": "linning"}),
+                   ("of a place", {"Kind": "interpolated",
+                                   "Quantities": "displacement"}),
+                   ("far from its body", {"Body": "ground",
+                                          "Location": "0.5, 3.5"})):
+    result = run(lined, {f"Probes/crown/{key}": value
+                         for key, value in keys.items()}, expect=2, on_ranks=1)
+    text(f"probe {name}", plain(result.output.strip()).splitlines()[-1])
+# Warnings are for those too who want to see only how it ends.
+result = run(lined, {"Materials/solid/Young modulus": 20, "Probes/crown/Body": ""},
+             on_ranks=1, extra=("--quiet",))
+notes = [line for line in result.output.splitlines() if "note: " in line]
+text("quiet: all warnings", notes == [f"  note: {warning}" for warning in
+                                      result.summary["warnings"]])
+at_least("quiet: warnings", len(notes), 2)
+
+# Walls that go on hold a body that comes by its own stress, not by that of the body
+# below, which is pressed until then: nu/(1 - nu) times its weight, over two walls.
+COMES = SOLID + """
+subsection Mesh
+  set Lower corner = -0.5, 0
+  set Upper corner = 1.5, 3
+  set Cell size = 0.25
+end
+subsection Method
+  set Method = finite element
+  set Mesh after step = keep
+end
+subsection Bodies
+  subsection low
+    set Lower corner = 0, 0
+    set Upper corner = 1, 1
+  end
+  subsection up
+    set Lower corner = 0, 1
+    set Upper corner = 1, 2
+  end
+end
+subsection Boundaries
+  subsection left
+    set Points = 0 3; 0 0
+    set Constraint = roller
+  end
+  subsection right
+    set Points = 1 0; 1 3
+    set Constraint = roller
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+    set Components = y
+  end
+end
+subsection Loads
+  subsection pressure
+    set Type = surface traction
+    set Body = low
+    set Part = top
+    set Value = 0; -100*t
+  end
+  subsection weight
+    set Bodies = up
+    set Value = 0; -10*(t-1)
+  end
+end
+subsection Stages
+  subsection pressed
+    set Bodies = low
+    set Loads = pressure
+  end
+  subsection filled
+    set Bodies = low, up
+    set Loads = weight
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+"""
+comes = folder / "comes.prm"
+comes.write_text(COMES)
+THRUST = 0.3 / 0.7 * (10 / 2 + 10)  # of the body itself, and of the one below
+for how in ("skew Nitsche", "symmetric Nitsche", "augmented Lagrangian"):
+    reaction = run(comes, {"Boundaries/*/Enforcement": how}).summary["reactions"]
+    bound(f"comes beside walls, {how}: thrust over the exact one - 1",
+          abs(reaction["left"][0] / THRUST - 1), 1e-6)
+
+# A displacement that begins to act with a value: only its change acts, which is
+# told. Where it acts is a place of the mesh as it was built, also in a later stage.
+for name, keys in (
+        ("a constant that begins later",
+         {"Grid conditions/wall/Displacement": "-0.01; 0"}),
+        ("places of the mesh as it was built",
+         {"Grid conditions/pull/Displacement": "0.001*t*sqrt(2-y); 0",
+          "Grid conditions/pull/Translation": "0; 0.1*t",
+          "Grid conditions/wall/Components": "",
+          "Stages/held/Grid conditions": "base, pull"})):
+    result = run(held, keys, on_ranks=1)
+    text(name, [line.strip() for line in result.output.splitlines()
+                if "Displacement" in line])

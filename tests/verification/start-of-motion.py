@@ -128,7 +128,10 @@ for name, parts, rest, exact in (
          lambda t: 0.01 * cos(OMEGA * (t - 2)) if t > 2 else 0.01 * min(t, 1)),
         ("the base accelerates",
          {"base": "set Displacement = 0.005 * t^2; 0"}, in_one,
-         lambda t: 0.005 * t * t - 0.005 * (1 - cos(OMEGA * t)))):
+         lambda t: 0.005 * t * t - 0.005 * (1 - cos(OMEGA * t))),
+        ("the base jerks",
+         {"base": "set Displacement = 0.005 * t^3; 0"}, in_one,
+         lambda t: (0.005 * t**3 - 0.01 * t * (1 + 0.5) + 0.015 / OMEGA * sin(OMEGA * t)))):
     for integrator in ("Newmark", "generalised-alpha", "Bathe",
                        "energy-momentum"):
         errors = []

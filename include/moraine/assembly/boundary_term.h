@@ -21,8 +21,9 @@ namespace moraine
     /** A force that held a place at the end of the last step. */
     struct HeldPlace
     {
-      unsigned int                    cell; ///< active_cell_index()
-      dealii::Point<dim>              x;    ///< where the force acts
+      unsigned int                    cell;   ///< active_cell_index()
+      unsigned int                    number; ///< of the boundary's points
+      dealii::Point<dim>              x;      ///< where the force acts
       dealii::Tensor<1, dim>          force;
       dealii::Tensor<1, dim>          normal;
       dealii::SymmetricTensor<2, dim> M;
@@ -136,6 +137,13 @@ namespace moraine
     held() const
     {
       return held_places;
+    }
+
+    /** Of the nodes of the cell, at such a place. */
+    const double *
+    functions(const HeldPlace &place) const
+    {
+      return boundary.N(place.number);
     }
 
   private:

@@ -59,6 +59,19 @@ namespace moraine
     report(const StepContext<dim>           &context,
            std::vector<BoundaryReport<dim>> &reports) const override;
 
+    const std::vector<GridCondition<dim>> &
+    all() const
+    {
+      return conditions;
+    }
+
+    /** By all(). */
+    const PrescribedNodes<dim> &
+    nodes() const
+    {
+      return prescribed;
+    }
+
   private:
     const std::vector<GridCondition<dim>> conditions;
     PrescribedNodes<dim>                  prescribed;

@@ -294,7 +294,6 @@ namespace moraine
     ConstraintTable::AddLines
     lines_of_terms() const;
 
-    using Prescribed = typename Motion<dim>::Prescribed;
 
     /** Add the terms that are asked for. */
     void

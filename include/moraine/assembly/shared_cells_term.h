@@ -5,6 +5,7 @@
 #define moraine_assembly_shared_cells_term_h
 
 #include <moraine/assembly/boundary_term.h>
+#include <moraine/assembly/grid_condition_term.h>
 
 #include <vector>
 
@@ -23,15 +24,24 @@ namespace moraine
    *
    * with its mean @f$\bar\sigma@f$ by volume, the projections @f$M_q@f$ and the
    * areas @f$w_q@f$ of the places; of all that have this sum these forces are
-   * nearest to the tractions of the stress. Nothing else follows from them: the
-   * bodies feel, and energies count, those that hold. Nitsche's flux is such a
-   * traction already. Stands after the terms of the boundaries.
+   * nearest to the tractions of the stress.
+   *
+   * A node that a grid condition prescribes is held without the boundary in its
+   * cell, whose force on it may be any. There the traction of the stress takes
+   * its place, @f$f_q + \sum_a N_a (w_q M_q \bar\sigma n_q - f_q)@f$ over the
+   * components that are prescribed, and the grid condition has that much less.
+   *
+   * Nothing else follows from these forces: the bodies feel, and energies
+   * count, those that hold. Nitsche's flux is such a traction already. Stands
+   * after the terms of the boundaries and of grid conditions.
    */
   template <int dim>
   class SharedCellsTerm : public Term<dim>
   {
   public:
-    explicit SharedCellsTerm(std::vector<const BoundaryTerm<dim> *> boundaries);
+    /** @p grid_conditions null if there are none. */
+    SharedCellsTerm(std::vector<const BoundaryTerm<dim> *> boundaries,
+                    const GridConditionTerm<dim>          *grid_conditions);
 
     /** None: nothing but reports. */
     std::vector<Effect>
@@ -46,7 +56,21 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
+    using Held = std::vector<typename BoundaryTerm<dim>::HeldPlace>;
+
+    /** Leave to the nodes that grid conditions prescribe what they hold in the
+     * cells of the places @p held, by boundary.
+     * @return what changes of the forces of grid conditions */
+    std::vector<BoundaryReport<dim>>
+    leave_to_grid_conditions(const StepContext<dim> &context,
+                             std::vector<Held>      &held) const;
+
+    /** Share out the sums of the forces of @p held in patches. */
+    void
+    share_out(const StepContext<dim> &context, std::vector<Held> &held) const;
+
     const std::vector<const BoundaryTerm<dim> *> boundaries;
+    const GridConditionTerm<dim> *const          grid_conditions;
   };
 } // namespace moraine
 

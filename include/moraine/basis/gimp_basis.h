@@ -96,7 +96,7 @@ namespace moraine
 
     /**
      * @throws ComputationError if a box is longer than the limit.
-     * @throws InputError if the mesh was moved.
+     * @throws InputError if the mesh is no box of equal cells any more.
      */
     void
     mark_cells(std::vector<unsigned char> &active) override;

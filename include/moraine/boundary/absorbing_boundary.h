@@ -132,8 +132,8 @@ namespace moraine
 
     /**
      * Find the cells of the places, and the places themselves the first time.
-     * Those of a surface that are on no material at first are left out; those
-     * of a side count when material comes.
+     * Those that are on no material at first are left out, and so are those of
+     * a side beside the bodies of the stage in which it begins.
      * @param space the grid
      * @param search_tolerance how far from its cell material reaches
      * @param t time at which the step starts

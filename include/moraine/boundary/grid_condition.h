@@ -35,13 +35,6 @@ namespace moraine
     /** Start of the stage: only changes from then on act. */
     double start = 0;
 
-    /** Displacement since the start of material that is at @p x at @p t. */
-    dealii::Tensor<1, dim>
-    value(const dealii::Point<dim> &x, const double t) const
-    {
-      return displacement(x, t) + (x - motion.pose(t).inverse(x));
-    }
-
     /** Displacement from @p t_start to @p t_end of what is at @p x at
      * @p t_start and was at @p X in the mesh as it was built, whose place @p
      * displacement asks for. */

@@ -231,6 +231,11 @@ namespace moraine
     void
     set_target(const double t_end);
 
+    /** Ask for what it prescribes at @p t, at one place.
+     * @throws InputError if that is not a number */
+    void
+    check_value(const double t) const;
+
     /** Set the prescribed increments alone. */
     void
     move_target(const double t_end);
@@ -349,11 +354,16 @@ namespace moraine
       return boundary_name;
     }
 
-    /** The middle of the box around the surface at the start. */
+    /** The middle of the box around the surface at the start; of a surface
+     * without ends, the point nearest to @p near. */
     dealii::Point<dim>
-    middle() const
+    middle(const dealii::Point<dim> &near) const
     {
-      return at_start.bounding_box().center();
+      const auto box = at_start.bounding_box();
+      if (is_finite(box))
+        return box.center();
+      const NearestPoint<dim> nearest = at_start.nearest(near);
+      return near + nearest.level * nearest.normal; // positive in the body
     }
 
     const RigidMotion<dim> &

@@ -28,6 +28,14 @@ namespace moraine
   intersection(const dealii::BoundingBox<dim> &a,
                const dealii::BoundingBox<dim> &b);
 
+  /** Whether @p x is in the box made wider by @p margin [length] on all sides.
+   */
+  template <int dim>
+  bool
+  is_inside(const dealii::BoundingBox<dim> &box,
+            const dealii::Point<dim>       &x,
+            const double                    margin);
+
   /** Whether a box has limits in all directions. */
   template <int dim>
   bool

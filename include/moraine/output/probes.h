@@ -24,7 +24,8 @@ namespace moraine
   {
     std::string              name;
     std::vector<double>      location;
-    std::string              kind       = "nearest point";
+    std::string              kind = "nearest point";
+    std::string              body;
     std::vector<std::string> quantities = {"displacement"};
 
     void
@@ -43,13 +44,13 @@ namespace moraine
    * The probes of a scene.
    *
    * A probe of kind *nearest point* chooses the point that is nearest to its
-   * location at the start (of equally near ones the one with the smallest id)
-   * and follows it. A probe of kind *interpolated* stands on the material: the
-   * increments of the mesh displacement at its place add up to its displacement
-   * and carry it along. Where an interpolated probe leaves the active cells it
-   * follows the point that is nearest to it from then on, and news() says so.
-   * It waits where it is as long as it has not stood on a body, or while that
-   * body is not there.
+   * location at the start (of equally near ones the one with the smallest id),
+   * of the body that it names, if it names one, and follows it. A probe of kind
+   * *interpolated* stands on the material: the increments of the mesh
+   * displacement at its place add up to its displacement and carry it along.
+   * Where an interpolated probe leaves the active cells it follows the point
+   * that is nearest to it from then on, and news() says so. It waits where it
+   * is as long as it has not stood on a body, or while that body is not there.
    */
   template <int dim>
   class Probes : public StatePart
@@ -61,10 +62,14 @@ namespace moraine
      * @p moves_through_mesh says whether material moves through the mesh (the
      * mesh is reset after a step). Otherwise a place keeps its position in its
      * cell, and step increments are always evaluated at its location at the
-     * start.
+     * start. @p points are those of all bodies, those that come later too.
+     *
+     * @throws InputError if a probe names a body that is not among @p
+     * body_names
      */
     Probes(const std::vector<ProbeParameters<dim>> &parameters,
            const PointSet<dim>                     &points,
+           const std::vector<std::string>          &body_names,
            const bool                               moves_through_mesh);
 
     /**
@@ -164,10 +169,12 @@ namespace moraine
       follows_point() const;
     };
 
-    /** Find the point nearest to @p place. Collective. */
+    /** Find the point nearest to @p place, of @p body if it is valid.
+     * Collective. */
     void
     choose_point(const dealii::Point<dim> &place,
                  const PointSet<dim>      &points,
+                 const unsigned int        body,
                  Probe                    &probe) const;
 
     /** The body of a point, known on one rank. Collective. */

@@ -31,6 +31,17 @@ namespace moraine
   hold_stress_at_start(const StageParameters          &stage,
                        const std::vector<std::string> &before,
                        Model<dim>                     &model);
+
+  /**
+   * Let boundaries that go on hold bodies that come in @p stage by the stress of
+   * their own, in cells where no other body is: what they took over is the
+   * traction of a neighbour. Begins the step anew where bodies come. Collective.
+   */
+  template <int dim>
+  void
+  hold_stress_of_newcomers(const StageParameters &stage,
+                           const StageParameters &before,
+                           Model<dim>            &model);
 } // namespace moraine
 
 #endif

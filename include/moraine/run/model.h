@@ -95,6 +95,13 @@ namespace moraine
   acting_conditions(const std::vector<GridCondition<dim>> &conditions,
                     const StageParameters                 &stage);
 
+  /** Whether a boundary absorbs in a stage. */
+  template <int dim>
+  bool
+  absorbs_in(const StageParameters        &stage,
+             const Scene<dim>             &scene,
+             const AbsorbingBoundary<dim> &boundary);
+
   /**
    * Find cells and pieces for the first step, and what cannot be right: that
    * boundaries touch a body and have it on their inner side, that what is

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -157,22 +158,19 @@ namespace moraine
     void
     begin_step();
 
-    /** Fills the constrained entries of an increment with the prescribed part
-     * at the @p end of the step or in its middle, or without it. */
-    enum class Prescribed
-    {
-      none,
-      in_the_middle,
-      at_the_end
-    };
-    using Constrain = std::function<void(const Prescribed, LA::Vector &)>;
+    /** Fills the constrained entries of an increment with the part prescribed
+     * up to this share of the step, or with none. */
+    using Constrain =
+      std::function<void(const std::optional<double> share, LA::Vector &)>;
 
     /**
-     * Aim at the end of a step of @p size. Nodes that conditions move do so at
-     * an acceleration that is the same all the step, by where they are in its
-     * middle and at its end; those that are tied follow. @p constrain is empty
-     * if there are no conditions; @p moves: some prescribe a motion that is not
-     * none in the step. Collective.
+     * Aim at the end of a step of @p size. Nodes that conditions move have the
+     * accelerations of a cubic in time through where they are at both ends and
+     * thirds of the step, and the velocity by which the rule gives them; with
+     * forces in the middle of the step the mean acceleration, by where they are
+     * in the middle. Those that are tied follow. @p constrain is empty if there
+     * are no conditions; @p moves: some prescribe a motion that is not none in
+     * the step. Collective.
      */
     void
     set_target(const double     size,

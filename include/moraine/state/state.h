@@ -350,6 +350,27 @@ namespace moraine
                     const unsigned int                   p,
                     const dealii::SymmetricTensor<2, 3> *own);
 
+    /** What accept() works on. */
+    struct Acceptance;
+
+    /** A block of @p of and the increments of its nodes. */
+    void
+    gather(const Basis<dim>  &of,
+           const unsigned int batch,
+           Acceptance        &work) const;
+
+    /** Stress times volume by the functions of the block. */
+    void
+    find_own_stresses(Acceptance &work) const;
+
+    /** commit() the points of the block. */
+    void
+    commit_block(Acceptance &work, StepEnergies *energies);
+
+    /** Increments of the points of the block, added to their displacement. */
+    void
+    displace(Acceptance &work);
+
     GridSpace<dim>                                    &space;
     PointSet<dim>                                     &points;
     Basis<dim>                                        &basis;

@@ -155,6 +155,21 @@ namespace moraine
       return result;
     }
 
+    /** @f$v_n@f$ by which acceleration() is @p a_end. */
+    template <class Value>
+    Value
+    start_velocity(const double step_size,
+                   const Value &du,
+                   const Value &a,
+                   const Value &a_before,
+                   const Value &a_end) const
+    {
+      return (du -
+              (a_end - acceleration(step_size, Value(), Value(), a, a_before)) /
+                acceleration_by_increment(step_size)) /
+             step_size;
+    }
+
     /** @f$v_{n+1}@f$ from the accelerations of both ends and the one before. */
     template <class Value>
     Value
@@ -202,6 +217,14 @@ namespace moraine
     start_forces() const
     {
       return alpha_f / (1 - alpha_f);
+    }
+
+    /** Accelerations are those of this share of a step earlier, for their mean
+     * is in balance with that of forces: @f$\alpha_f - \alpha_m@f$. */
+    double
+    delay_of_acceleration() const
+    {
+      return alpha_f - alpha_m;
     }
 
     /** What the equations are divided by, @f$1 - \alpha_f@f$. */
