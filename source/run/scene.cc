@@ -476,7 +476,8 @@ namespace moraine
         prm.enter_subsection(name);
         if (!input.has(section, "Enforcement"))
           prm.set("Enforcement", if_left_out);
-        if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
+        if (if_left_out == "augmented Lagrangian" &&
+            boundary.enforcement.enforcement == if_left_out &&
             !input.has(section, "Band width"))
           prm.set("Band width", 0.01);
         prm.leave_subsection();

@@ -71,7 +71,9 @@ namespace moraine
         {
           names.push_back(boundary.name());
           if (boundary.name() == name)
-            return {boundary.middle(middle_of_mesh), boundary.rigid_motion(), {}};
+            return {boundary.middle(middle_of_mesh),
+                    boundary.rigid_motion(),
+                    {}};
         }
       std::string known;
       for (const std::string &other : names)

@@ -474,6 +474,7 @@ namespace moraine
       time_control.message() +
       (in_vain ? " A shorter step has the same matrix." : "") +
       (scene.newton.limit_points == "stop" && path_may_end &&
+           scene.strength_reduction.factor == 1 && // else the answer is there
            !time_control.follows_path() ?
          " If a path of equilibria ends here, 'Limit points = "
          "pseudo-transient' in section 'Solver' looks for one beyond; 'Arc "

@@ -121,6 +121,32 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Active cells that only domains of points reach have the least fill of
+     * the cells that touch them. */
+    template <int dim>
+    void
+    fill_without_points(const GridSpace<dim>      &space,
+                        const std::vector<double> &filled,
+                        std::vector<double>       &fill)
+    {
+      const auto &cells_at_vertex =
+        space.mesh().search_cache().get_vertex_to_cell_map();
+      for (const auto &cell :
+           space.mesh().triangulation().active_cell_iterators())
+        if (const unsigned int c = cell->active_cell_index();
+            space.is_active(cell) && filled[c] == 0)
+          for (const unsigned int v : cell->vertex_indices())
+            for (const auto &near : cells_at_vertex[cell->vertex_index(v)])
+              if (const unsigned int n = near->active_cell_index();
+                  filled[n] > 0)
+                fill[c] = std::min(fill[c], fill[n]);
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<bool>
   vertices_in_bulk(const GridSpace<dim>      &space,
@@ -207,6 +233,7 @@ namespace moraine
         }
     Utilities::MPI::sum(filled, space.communicator(), filled);
     Utilities::MPI::min(fill, space.communicator(), fill);
+    fill_without_points(space, filled, fill);
     for (const auto &cell : tria.active_cell_iterators())
       if (space.is_active(cell))
         filled[cell->active_cell_index()] /= cell->measure();
@@ -244,6 +271,8 @@ namespace moraine
           const double       part = (1 + 1e-9) * filled[c];
           if (fill[c] > 0 && part < fill_of_held && is_held_near(cell))
             fill[c] = std::max(fill[c], fill_of_held);
+          if (filled[c] == 0 && fill[c] == 0)
+            continue; // its nodes are free, but hold no others
           parts[c] =
             part >= fill[c] ||
                 part >= threshold_of(space, cell, filled, in_bulk, fill[c]) ?
