@@ -132,7 +132,8 @@ TEST(SeedBodies, RefusesWhatIsNotInTheMesh)
   EXPECT_EQ(complaint({{"a", box(Point<2>(1, 1), Point<2>(5, 2))}}),
             "body 'a': found 25 % of its volume outside the mesh, "
             "which is (0 0) to (4 4), allowed: a body in the mesh; only "
-            "half-spaces and expressions are cut by it");
+            "half-spaces and expressions are cut by it, and 'Shape = "
+            "intersection' with a box cuts others");
   EXPECT_EQ(complaint({{"a", box(Point<2>(5, 1), Point<2>(6, 2))}}),
             "body 'a': found no part of the body inside the mesh, "
             "allowed: a body that is not empty and lies in the mesh");
