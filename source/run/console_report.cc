@@ -109,8 +109,8 @@ namespace moraine
     describe_conditions();
     for (const std::string &note : notes)
       console << "  note        " << note << '\n';
-    for (const auto &[name, stage] : scene.stages)
-      describe_stage(name, stage.time);
+    for (unsigned int k = 0; k < scene.stages.size(); ++k)
+      describe_stage(k);
     console << "" << std::flush;
   }
 
@@ -118,20 +118,27 @@ namespace moraine
 
   template <int dim>
   void
-  ConsoleReport<dim>::describe_stage(const std::string    &name,
-                                     const TimeParameters &time)
+  ConsoleReport<dim>::describe_stage(const unsigned int k)
   {
+    const auto &[name, stage]  = scene.stages[k];
+    const TimeParameters &time = stage.time;
     console << (name.empty() ? "  steps       " :
                                "  stage       " + name + ", ")
             << std::defaultfloat << time.n_steps
-            << (name.empty() ? "" : " steps") << " from t = " << time.start_time
-            << " to " << time.end_time;
+            << (name.empty()      ? "" :
+                time.n_steps == 1 ? " step" :
+                                    " steps")
+            << " from t = " << time.start_time << " to " << time.end_time;
     if (time.follows_path())
       console << ", along the path by " << time.arc_length << " each";
     if (time.integrator.dynamic())
       console << ", " << time.integrator.integrator << ", Courant number "
               << std::setprecision(3) << courant_number(time)
               << std::setprecision(8);
+    if (k > 0)
+      console << change_of_bodies(stage, scene.stages[k - 1].second);
+    if (!stage.absorbing.empty())
+      console << ", absorbing " << list_of(stage.absorbing);
     console << '\n';
   }
 

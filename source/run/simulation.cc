@@ -435,6 +435,8 @@ namespace moraine
     RunOptions       options;
     ConsoleReport<dim>(scene, model, options, console)
       .describe(begin_first_step(scene, model));
+    if (scene.stages.size() > 1)
+      console << "  what begins in a later stage is looked at as it begins\n";
   }
 
 

@@ -188,6 +188,21 @@ namespace moraine
 
 
 
+  std::string
+  change_of_bodies(const StageParameters &stage, const StageParameters &before)
+  {
+    std::string text;
+    for (const std::string &body : stage.bodies)
+      if (!contains(before.bodies, body))
+        text += ", with " + body;
+    for (const std::string &body : before.bodies)
+      if (!contains(stage.bodies, body))
+        text += ", without " + body;
+    return text;
+  }
+
+
+
   void
   complete_stages(const std::vector<InputFile::Entry> &given,
                   const TimeParameters                &time,

@@ -207,12 +207,7 @@ namespace moraine
     text << "stage " << name << ", " << parameters.time.integrator.integrator
          << ", from t = " << parameters.time.start_time << " to "
          << parameters.time.end_time;
-    for (const std::string &body : parameters.bodies)
-      if (!contains(before.bodies, body))
-        text << ", with " << body;
-    for (const std::string &body : before.bodies)
-      if (!contains(parameters.bodies, body))
-        text << ", without " << body;
+    text << change_of_bodies(parameters, before);
     tell(text.str());
     checks.stage_begins(parameters.bodies != before.bodies,
                         parameters.time.integrator.dynamic() &&

@@ -95,7 +95,7 @@ namespace moraine
     courant_number(const TimeParameters &time) const;
 
     void
-    describe_stage(const std::string &name, const TimeParameters &time);
+    describe_stage(const unsigned int k);
 
     void
     print_energy(const Summary &summary);

@@ -57,6 +57,10 @@ namespace moraine
                   const StageNames                    &names,
                   NamedStages                         &stages);
 
+  /** Which bodies come and go, in words: ", with a, without b". */
+  std::string
+  change_of_bodies(const StageParameters &stage, const StageParameters &before);
+
   /** The section with the keys of a stage's time. */
   std::string
   time_section(const std::string &stage);
