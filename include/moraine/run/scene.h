@@ -4,15 +4,13 @@
 #ifndef moraine_run_scene_h
 #define moraine_run_scene_h
 
-#include <moraine/boundary/enforcement.h>
-#include <moraine/geometry/placement.h>
 #include <moraine/geometry/shape_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
 #include <moraine/output/probes.h>
-#include <moraine/run/absorbing_parameters.h>
+#include <moraine/run/condition_parameters.h>
 #include <moraine/run/damping_parameters.h>
 #include <moraine/run/initial_stress_parameters.h>
 #include <moraine/run/method.h>
@@ -55,80 +53,6 @@ namespace moraine
     {
       return point_grid.empty() && !shape.is_point_file();
     }
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-  };
-
-  /** The dim numbers of a key, named by @p place, as a point. */
-  template <int dim>
-  dealii::Point<dim>
-  point_from(const std::vector<double> &numbers, const std::string &place);
-
-  /** How a boundary or a grid condition moves as a rigid body. */
-  template <int dim>
-  struct MotionParameters
-  {
-    std::string         translation;
-    std::string         rotation_angle;
-    std::vector<double> rotation_centre;
-    std::vector<double> rotation_axis;
-
-    /** @p what moves, in the words of the key texts. */
-    void
-    add_parameters(dealii::ParameterHandler &prm, const std::string &what);
-
-    /** @throw InputError for what is no motion in section @p section. */
-    RigidMotion<dim>
-    make_motion(const std::string &section) const;
-  };
-
-  /** Section `Boundaries/<name>`. */
-  template <int dim>
-  struct BoundaryParameters
-  {
-    ShapeParameters<dim>  surface{ShapeUse::surface};
-    EnforcementParameters enforcement;
-    std::string           constraint = "fixed";
-    std::string           components;
-    std::string           displacement;
-    MotionParameters<dim> motion;
-    double                penetration_limit = 0;
-    AbsorbingParameters   absorbing;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-  };
-
-  /** Section `Grid conditions/<name>`. */
-  template <int dim>
-  struct GridConditionParameters
-  {
-    std::string           constraint = "fixed";
-    std::string           side;
-    std::vector<double>   lower_corner;
-    std::vector<double>   upper_corner;
-    std::string           components;
-    std::string           displacement;
-    MotionParameters<dim> motion;
-    AbsorbingParameters   absorbing;
-
-    void
-    add_parameters(dealii::ParameterHandler &prm);
-  };
-
-  /** Section `Loads/<name>`. */
-  template <int dim>
-  struct LoadParameters
-  {
-    std::string              type = "body force";
-    std::string              value;
-    std::string              curve;
-    std::vector<std::string> bodies;
-    std::string              coordinates = "current";
-    std::string              side;
-    std::vector<double>      location;
-    ShapeParameters<dim>     surface{ShapeUse::surface};
 
     void
     add_parameters(dealii::ParameterHandler &prm);
