@@ -200,16 +200,25 @@ namespace moraine
     std::vector<unsigned int> condition_of(dim * space.n_nodes(), none);
     for (const auto &entry : grid_conditions->nodes().entries)
       condition_of[dim * entry.node + entry.component] = entry.condition;
+    const auto is_prescribed = [&](const unsigned int node) {
+      const auto first = condition_of.begin() + dim * node;
+      return std::any_of(first, first + dim, [](const unsigned int c) {
+        return c != none;
+      });
+    };
     for (unsigned int b = 0; b < held.size(); ++b)
       for (auto &place : held[b])
         {
-          const unsigned int  *nodes = space.cell_nodes(place.cell);
-          const double        *N     = boundaries[b]->functions(place);
+          const unsigned int *nodes = space.cell_nodes(place.cell);
+          const unsigned int  n     = space.nodes_per_cell();
+          if (std::none_of(nodes, nodes + n, is_prescribed))
+            continue;
+          const double        *N = boundaries[b]->functions(place);
           const Tensor<1, dim> missing =
             place.area *
               traction_of_stress(context.state.material_points(), place) -
             place.force;
-          for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+          for (unsigned int a = 0; a < n; ++a)
             for (unsigned int d = 0; d < dim; ++d)
               if (const unsigned int c = condition_of[dim * nodes[a] + d];
                   c != none)
