@@ -67,12 +67,11 @@ namespace moraine
           lower[d] = 0.3;
           upper[d] = 3.4;
         }
-      const auto box = make_box<dim>(lower, upper);
-      seed_bodies({{"box", box}},
-                  CellSeeder<dim>(n, PointLayout::equal),
-                  points);
+      const auto            box = make_box<dim>(lower, upper);
+      const CellSeeder<dim> seeder(n, PointLayout::equal);
+      seed_bodies({{"box", box}}, seeder, points);
       if (gimp)
-        basis = std::make_unique<GimpBasis<dim>>(space, points, n);
+        basis = std::make_unique<GimpBasis<dim>>(space, points, seeder);
       else
         basis = std::make_unique<CellBasis<dim, 1>>(space, points);
       basis->initialise_points(points);

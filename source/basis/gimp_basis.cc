@@ -13,18 +13,18 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  GimpBasis<dim>::GimpBasis(const GridSpace<dim>    &space,
-                            const PointSet<dim>     &points,
-                            const unsigned int       points_per_direction,
-                            const std::vector<bool> &is_seeded,
-                            const DomainUpdate       update,
-                            const bool               split,
-                            const std::string       &name,
+  GimpBasis<dim>::GimpBasis(const GridSpace<dim>              &space,
+                            const PointSet<dim>               &points,
+                            const CellSeeder<dim>             &seeder,
+                            const std::vector<bool>           &is_seeded,
+                            const DomainUpdate                 update,
+                            const bool                         split,
+                            const std::string                 &name,
                             const std::vector<Tensor<2, dim>> &half_edges)
     : Basis<dim>(space, points)
     , name(name)
     , neighbours((require_box_mesh(space, name), space.mesh()))
-    , points_per_direction(points_per_direction)
+    , seeder(seeder)
     , is_seeded(is_seeded)
     , half_edges_of_body(half_edges)
     , update(DomainTools::finite_strain(points) ? update : DomainUpdate::frozen)

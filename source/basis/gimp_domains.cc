@@ -68,15 +68,17 @@ namespace moraine
     const unsigned int  body = this->points.body(point);
     if (is_of_cells(body))
       {
-        Tensor<1, dim> half_length;
+        Point<dim> xi;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double length = grid.cell_size[d] / points_per_direction;
             const double place =
-              (this->points.position(point)[d] - grid.lower_corner[d]) / length;
-            const double from_face = place - std::floor(place);
-            half_length[d] = length * std::min(from_face, 1. - from_face);
+              (this->points.position(point)[d] - grid.lower_corner[d]) /
+              grid.cell_size[d];
+            xi[d] = place - std::floor(place);
           }
+        Tensor<1, dim> half_length = seeder.distance_to_faces(xi);
+        for (unsigned int d = 0; d < dim; ++d)
+          half_length[d] *= grid.cell_size[d];
         return half_length;
       }
     const bool has_part =
@@ -107,7 +109,7 @@ namespace moraine
         const unsigned int body  = this->points.body(p);
         double            &limit = of_bodies[body];
         if (is_of_cells(body))
-          limit = std::max(limit, 0.5 / points_per_direction);
+          limit = std::max(limit, 0.5 * seeder.longest_edge());
         else
           for (unsigned int d = 0; d < dim; ++d)
             limit =

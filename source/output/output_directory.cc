@@ -33,10 +33,15 @@ namespace moraine
                                             "mesh.pvd",
                                             "domains.pvd"};
     /** What a run has that fails before. */
-    constexpr const char *other_names[]      = {"summary.json",
-                                                "log.txt",
-                                                "parameters.prm",
-                                                "original.prm"};
+    constexpr const char *other_names[] = {"summary.json",
+                                           "log.txt",
+                                           "parameters.prm",
+                                           "original.prm"};
+    /** What a study has beside the folders of its cases. */
+    constexpr const char *study_names[]      = {"study.csv",
+                                                "study.prm",
+                                                "study.gp",
+                                                "study.png"};
     constexpr const char *series_names[]     = {"points", "mesh", "domains"};
     constexpr const char *checkpoint_names[] = {"last",
                                                 "a.h5",
@@ -96,7 +101,9 @@ namespace moraine
     void
     prepare(const fs::path &folder, const bool overwrite)
     {
-      const std::vector<fs::path> results = results_in(folder);
+      std::vector<fs::path> results = results_in(folder);
+      if (results.empty() && OutputDirectory::holds_study(folder.string()))
+        results.push_back(study_names[0]);
       if (!results.empty() && !overwrite)
         throw InputError("the output directory '" + folder.string() +
                          "' holds results of an earlier run (" +
@@ -117,6 +124,7 @@ namespace moraine
         fs::remove(file);
       for (const char *name : other_names)
         fs::remove(folder / name);
+      OutputDirectory::remove_study(folder.string());
     }
   } // namespace
 
@@ -201,6 +209,25 @@ namespace moraine
     bool found = false;
     on_root(communicator, [&]() { found = !results_in(path).empty(); });
     return dealii::Utilities::MPI::broadcast(communicator, found);
+  }
+
+
+
+  bool
+  OutputDirectory::holds_study(const std::string &path)
+  {
+    return fs::exists(fs::path(path) / study_names[0]);
+  }
+
+
+
+  void
+  OutputDirectory::remove_study(const std::string &path)
+  {
+    for (const char *name : study_names)
+      fs::remove(fs::path(path) / name);
+    if (results_in(path).empty()) // else it is the summary of a run
+      fs::remove(fs::path(path) / "summary.json");
   }
 
 

@@ -279,9 +279,8 @@ namespace moraine
 
 
   template <int dim>
-  CellVertices<dim>
-  CellSeeder<dim>::sub_cell_around(const CellVertices<dim> &cell,
-                                   const Point<dim>        &xi) const
+  unsigned int
+  CellSeeder<dim>::sub_cell_index(const Point<dim> &xi) const
   {
     unsigned int best    = 0;
     double       nearest = std::numeric_limits<double>::infinity();
@@ -298,7 +297,44 @@ namespace moraine
             nearest = outside;
           }
       }
-    return sub_cell(cell, best);
+    return best;
+  }
+
+
+
+  template <int dim>
+  CellVertices<dim>
+  CellSeeder<dim>::sub_cell_around(const CellVertices<dim> &cell,
+                                   const Point<dim>        &xi) const
+  {
+    return sub_cell(cell, sub_cell_index(xi));
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  CellSeeder<dim>::distance_to_faces(const Point<dim> &xi) const
+  {
+    const unsigned int q = sub_cell_index(xi);
+    Tensor<1, dim>     distance;
+    for (unsigned int d = 0; d < dim; ++d)
+      distance[d] = std::min(std::abs(xi[d] - lower[q][d]),
+                             std::abs(lower[q][d] + lengths[q][d] - xi[d]));
+    return distance;
+  }
+
+
+
+  template <int dim>
+  double
+  CellSeeder<dim>::longest_edge() const
+  {
+    double longest = 0;
+    for (const Tensor<1, dim> &edges : lengths)
+      for (unsigned int d = 0; d < dim; ++d)
+        longest = std::max(longest, edges[d]);
+    return longest;
   }
 
 

@@ -144,7 +144,7 @@ namespace moraine
         }
       return std::make_unique<BoxBasis>(of.space,
                                         of.points,
-                                        of.parameters.points_per_direction,
+                                        material_points<dim>(of.parameters),
                                         is_seeded,
                                         of.parameters.update_of_domains(),
                                         of.parameters.splits_domains(),

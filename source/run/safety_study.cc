@@ -229,6 +229,8 @@ namespace moraine
           return result;
         factor =
           result.failed ? result.factor_of_safety() : parameters.upper_factor;
+        if (factor == result.stood || factor == result.failed)
+          return result; // no number between them
       }
   }
 

@@ -271,7 +271,8 @@ namespace moraine
         for (RunObserver<dim> *observer : observers)
           observer->run_fails(summary);
       };
-      std::string status = "ok", message;
+      std::string status         = "ok", message;
+      bool        no_equilibrium = false;
       try
         {
           const auto after_step = [&]() {
@@ -296,8 +297,9 @@ namespace moraine
         {
           end_if_alone(not_converged, error.what());
           driver.undo();
-          status  = "not converged";
-          message = error.what();
+          status         = "not converged";
+          message        = error.what();
+          no_equilibrium = dynamic_cast<const NoEquilibrium *>(&error);
           if (checkpoints && checkpoints->are_asked_for() &&
               driver.can_go_on() && checkpoints->write(driver))
             message +=
@@ -308,9 +310,10 @@ namespace moraine
           fail(internal_error, error.what());
           throw;
         }
-      Summary summary = make_summary(scene, model, driver, times);
-      summary.status  = status;
-      summary.message = message;
+      Summary summary        = make_summary(scene, model, driver, times);
+      summary.status         = status;
+      summary.message        = message;
+      summary.no_equilibrium = no_equilibrium;
       if (summary.steps > 0)
         for (const auto &doubts :
              {doubts_of_stress(scene, model, summary.stress_error),

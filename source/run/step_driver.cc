@@ -465,7 +465,7 @@ namespace moraine
     const bool path_may_end =
       report.status == NewtonStatus::diverged ||
       report.status == NewtonStatus::too_many_iterations;
-    throw ComputationError(
+    const std::string message =
       time_control.message() +
       (in_vain ? " A shorter step has the same matrix." : "") +
       (scene.newton.limit_points == "stop" && path_may_end &&
@@ -474,7 +474,10 @@ namespace moraine
          " If a path of equilibria ends here, 'Limit points = "
          "pseudo-transient' in section 'Solver' looks for one beyond; 'Arc "
          "length' in section 'Time' follows the path where the load falls." :
-         ""));
+         "");
+    if (report.ran_out_of_linear_iterations)
+      throw ComputationError(message);
+    throw NoEquilibrium(message);
   }
 
 

@@ -11,6 +11,7 @@
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
+#include <moraine/output/output_directory.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/located.h>
 #include <moraine/run/scene.h>
@@ -248,7 +249,7 @@ namespace moraine
                     const MPI_Comm    &communicator)
   {
     on_root(communicator, [&]() {
-      if (fs::exists(fs::path(folder) / "study.csv") && !overwrite)
+      if (OutputDirectory::holds_study(folder) && !overwrite)
         throw InputError("the output directory '" + folder +
                          "' holds results of an earlier study (study.csv); "
                          "choose another one with --output, or replace them "
@@ -259,6 +260,8 @@ namespace moraine
         throw InputError("cannot make the output directory '" + folder +
                          "': " + problem.message() +
                          "; choose another one with --output");
+      if (OutputDirectory::holds_study(folder))
+        OutputDirectory::remove_study(folder);
       AtomicFile original((fs::path(folder) / "study.prm").string());
       original.stream() << input.text();
       original.commit();

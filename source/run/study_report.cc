@@ -169,12 +169,15 @@ namespace moraine
           if (!(v0 > 0) || !(v1 > 0) || !before.error || !result.error ||
               !(*before.error > 0) || !(*result.error > 0))
             return "";
-          const double refinement =
-            (result.summary.sizes.unknowns < before.summary.sizes.unknowns ?
-               -1 :
-               1) *
-            std::abs(std::log(v1 / v0));
-          return text_of(std::log(*before.error / *result.error) / refinement,
+          const auto unknowns = [](const StudyResult &of) {
+            return of.summary.sizes.unknowns;
+          };
+          const bool is_coarser = unknowns(result) < unknowns(before) ||
+                                  (unknowns(result) == unknowns(before) &&
+                                   path.rfind("Time/", 0) == 0 &&
+                                   result.summary.steps < before.summary.steps);
+          return text_of(std::log(*before.error / *result.error) /
+                           std::abs(std::log(v1 / v0)) * (is_coarser ? -1 : 1),
                          3);
         }
       return "";

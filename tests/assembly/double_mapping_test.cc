@@ -96,14 +96,15 @@ namespace double_mapping_test
       , space(mesh, 1)
       , points(mesh, fields(kind, measure, this->law))
     {
+      const CellSeeder<dim> seeder(2,
+                                   kind == Kind::finite_element ?
+                                     PointLayout::gauss :
+                                     PointLayout::equal);
       seed_bodies({{"box", make_box<dim>(diagonal(lower), diagonal(upper))}},
-                  CellSeeder<dim>(2,
-                                  kind == Kind::finite_element ?
-                                    PointLayout::gauss :
-                                    PointLayout::equal),
+                  seeder,
                   points);
       if (kind == Kind::gimp || kind == Kind::dm_g)
-        basis = std::make_unique<GimpBasis<dim>>(space, points, 2);
+        basis = std::make_unique<GimpBasis<dim>>(space, points, seeder);
       else if (kind == Kind::dm_c)
         basis =
           std::make_unique<WithCompositeStrain<dim, CellBasis<dim, 1>>>(space,
@@ -112,7 +113,7 @@ namespace double_mapping_test
         basis =
           std::make_unique<WithCompositeStrain<dim, GimpBasis<dim>>>(space,
                                                                      points,
-                                                                     2);
+                                                                     seeder);
       else
         basis = std::make_unique<CellBasis<dim, 1>>(space, points);
       basis->initialise_points(points);

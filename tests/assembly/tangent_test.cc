@@ -110,7 +110,7 @@ namespace
             basis = std::make_unique<CellBasis<dim, 2>>(space, points);
             break;
           case Method::gimp:
-            basis = std::make_unique<GimpBasis<dim>>(space, points, n);
+            basis = std::make_unique<GimpBasis<dim>>(space, points, seeder);
             break;
           case Method::cpdi1:
             basis =

@@ -341,9 +341,10 @@ namespace
           materials.push_back(
             std::make_shared<LinearElastic>(10 * bodies.size(), 0., 1.));
         }
-      seed_bodies(bodies, CellSeeder<2>(4, PointLayout::equal), points);
+      const CellSeeder<2> seeder(4, PointLayout::equal);
+      seed_bodies(bodies, seeder, points);
       if (gimp)
-        basis = std::make_unique<GimpBasis<2>>(space, points, 4);
+        basis = std::make_unique<GimpBasis<2>>(space, points, seeder);
       else
         basis = std::make_unique<CellBasis<2, 1>>(space, points);
       basis->initialise_points(points);

@@ -159,7 +159,7 @@ namespace moraine
             return std::make_unique<GimpBasis<dim>>(
               space,
               points,
-              2,
+              seeder,
               std::vector<bool>(bodies.size(), options.own_points == 0),
               options.method == Method::gimp_stretch ? DomainUpdate::stretch :
               options.method == Method::gimp_corners ? DomainUpdate::corners :

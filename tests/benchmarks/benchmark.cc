@@ -378,7 +378,7 @@ namespace
       if (options.method == "gimp")
         basis = std::make_unique<GimpBasis<dim>>(space,
                                                  points,
-                                                 options.points,
+                                                 seeder,
                                                  std::vector<bool>{true},
                                                  DomainUpdate::corners);
       else if (options.method == "cpdi1")

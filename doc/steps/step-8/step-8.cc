@@ -336,15 +336,16 @@ main(int argc, char **argv)
   PointFields            fields;
   GimpBasis<dim>::request_fields(fields, DomainUpdate::frozen);
   Motion<dim>::request_fields(transfer, fields);
-  PointSet<dim> points(mesh, fields);
+  PointSet<dim>         points(mesh, fields);
+  const CellSeeder<dim> seeder(2, PointLayout::equal);
   seed_bodies({{"embankment",
                 make_polygon<dim>({Point<dim>(0, 0),
                                    Point<dim>(44, 0),
                                    Point<dim>(26, 12),
                                    Point<dim>(18, 12)})}},
-              CellSeeder<dim>(2, PointLayout::equal),
+              seeder,
               points);
-  GimpBasis<dim> basis(space, points, /* points_per_direction = */ 2);
+  GimpBasis<dim> basis(space, points, seeder);
   basis.initialise_points(points);
   State<dim> state(
     space,

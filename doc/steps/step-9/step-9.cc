@@ -186,11 +186,10 @@ bear_weight(
   StateFields<dim>(fields,
                    StrainMeasure::small,
                    {clay_with_strength_over(factor)});
-  PointSet<dim> points(mesh, fields);
-  seed_bodies({{"embankment", make_polygon<dim>(sketch())}},
-              CellSeeder<dim>(2, PointLayout::equal),
-              points);
-  GimpBasis<dim> basis(space, points, /* points_per_direction = */ 2);
+  PointSet<dim>         points(mesh, fields);
+  const CellSeeder<dim> seeder(2, PointLayout::equal);
+  seed_bodies({{"embankment", make_polygon<dim>(sketch())}}, seeder, points);
+  GimpBasis<dim> basis(space, points, seeder);
   basis.initialise_points(points);
   State<dim> state(space,
                    points,

@@ -8,6 +8,8 @@
 #include <moraine/basis/cell_patch.h>
 #include <moraine/basis/local_functions.h>
 
+#include <moraine/points/seeding.h>
+
 #include <string>
 #include <vector>
 
@@ -64,9 +66,9 @@ namespace moraine
     }
 
     /**
-     * The divisions of a cell at seeding, @p points_per_direction, give the
-     * boxes their shape. @p is_seeded says which bodies were seeded that way;
-     * the others, all if left out, have points of their own (a file). With
+     * The sub-cells of @p seeder give the boxes of the points that it made
+     * their shape. @p is_seeded says which bodies were seeded that way; the
+     * others, all if left out, have points of their own (a file). With
      * @p split, boxes that grow too long are halved, see split_domains(); all
      * points are there, as they are at the start. Collective then.
      * @p name is the method's in messages. @p half_edges, as columns, of the
@@ -75,7 +77,7 @@ namespace moraine
      */
     GimpBasis(const GridSpace<dim>    &space,
               const PointSet<dim>     &points,
-              const unsigned int       points_per_direction,
+              const CellSeeder<dim>   &seeder,
               const std::vector<bool> &is_seeded = {},
               const DomainUpdate       update    = DomainUpdate::frozen,
               const bool               split     = false,
@@ -196,7 +198,7 @@ namespace moraine
 
     const std::string                         name;
     const CellNeighbours<dim>                 neighbours;
-    const unsigned int                        points_per_direction;
+    const CellSeeder<dim>                     seeder;
     const std::vector<bool>                   is_seeded;
     const std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
     const DomainUpdate                        update;

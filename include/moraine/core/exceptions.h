@@ -30,6 +30,15 @@ namespace moraine
     using std::runtime_error::runtime_error;
   };
 
+  /** A step has no equilibrium, as far as can be told: not found at the
+   * smallest step, for another cause than what the solver of linear systems is
+   * given. */
+  class NoEquilibrium : public ComputationError
+  {
+  public:
+    using ComputationError::ComputationError;
+  };
+
   /**
    * How a message names a key: "section 'Materials/clay', key 'Density'".
    * @p section is the path of subsections joined by '/'; empty for the top.

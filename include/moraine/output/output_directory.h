@@ -49,6 +49,14 @@ namespace moraine
     static bool
     holds_results(const std::string &path, const MPI_Comm &communicator);
 
+    /** Whether it holds the rows of a study. */
+    static bool
+    holds_study(const std::string &path);
+
+    /** Remove what a study left, but for the folders of its cases. */
+    static void
+    remove_study(const std::string &path);
+
     /** Path of a file in the folder. */
     std::string
     file(const std::string &name) const;

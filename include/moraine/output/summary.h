@@ -53,6 +53,8 @@ namespace moraine
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
     std::string message;
+    /** It ended with NoEquilibrium; in the message alone in summary.json. */
+    bool        no_equilibrium = false;
     std::string version;
     Sizes       sizes;
     /** End of the last accepted step. */

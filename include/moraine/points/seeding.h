@@ -98,6 +98,15 @@ namespace moraine
     sub_cell_around(const CellVertices<dim>  &cell,
                     const dealii::Point<dim> &xi) const;
 
+    /** The distances from @p xi in a unit cell to the nearer faces of the
+     * sub-cell that holds it. */
+    dealii::Tensor<1, dim>
+    distance_to_faces(const dealii::Point<dim> &xi) const;
+
+    /** The longest edge of a sub-cell of a unit cell. */
+    double
+    longest_edge() const;
+
   private:
     void
     seed_full_cell(const CellVertices<dim>       &cell,
@@ -111,6 +120,10 @@ namespace moraine
 
     CellVertices<dim>
     sub_cell(const CellVertices<dim> &cell, const unsigned int q) const;
+
+    /** The sub-cell of a unit cell that holds @p xi, or is nearest to it. */
+    unsigned int
+    sub_cell_index(const dealii::Point<dim> &xi) const;
 
     PointLayout  layout;
     unsigned int fitted_degree;

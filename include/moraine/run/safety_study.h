@@ -74,11 +74,12 @@ namespace moraine
       }
 
       /** There is none, from some step on. Else, if it did not stand, there is
-       * no answer: a mistake in the scene, or an interruption. */
+       * no answer: a mistake in the scene, an interruption, or a failure of
+       * another kind (linear solver, memory). */
       bool
       failed() const
       {
-        return summary.status == "not converged" && !summary.version.empty();
+        return summary.no_equilibrium;
       }
     };
 
