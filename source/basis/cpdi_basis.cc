@@ -359,18 +359,21 @@ namespace moraine
   CpdiBasis<dim>::limits_of_bodies() const
   {
     const double of_full_cell = std::pow(seeder.n_sub_cells(), -1. / dim);
+    const bool   is_box       = this->space.mesh().box_grid().has_value();
     std::vector<double> of_bodies;
     for (const bool seeded : is_seeded)
       of_bodies.push_back(
         std::max(DomainTools::longest_edge, seeded ? of_full_cell : 0.));
-    if (std::find(is_seeded.begin(), is_seeded.end(), false) == is_seeded.end())
+    if (is_box &&
+        std::find(is_seeded.begin(), is_seeded.end(), false) == is_seeded.end())
       return of_bodies;
     const auto domains = initial_domains(this->points);
     for (const auto &in_cell : this->points.cells())
       {
         const auto cell = vertices_of<dim>(in_cell.cell);
         for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          if (const unsigned int body = this->points.body(p); !is_seeded[body])
+          if (const unsigned int body = this->points.body(p);
+              !is_box || !is_seeded[body])
             of_bodies[body] =
               std::max(of_bodies[body],
                        longest_in_cell<dim>(cell, domains[p].corners).second);

@@ -61,7 +61,9 @@ namespace moraine
     const typename BodyBehind<dim>::Covers &covers,
     const bool                              through_cells)
   {
-    t_start                  = t;
+    t_start = t;
+    at_start.see_over(space.mesh().cell_size());
+    at_end.see_over(space.mesh().cell_size());
     const bool curved_roller = is_curved_roller();
     const Kind before        = kind;
     kind                     = {moves_points,

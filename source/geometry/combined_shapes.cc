@@ -29,6 +29,12 @@ namespace moraine
         return shape->level(motion.inverse(p));
       }
 
+      bool
+      covers(const Point<dim> &p, const double margin) const override
+      {
+        return shape->covers(motion.inverse(p), margin);
+      }
+
       Overlap
       overlap(const ConvexPolytope<dim> &cell) const override
       {
@@ -123,6 +129,15 @@ namespace moraine
         if (operation == Operation::unite)
           return std::max(a->level(p), b->level(p));
         return std::min(a->level(p), (takes_off ? -1. : 1.) * b->level(p));
+      }
+
+      bool
+      covers(const Point<dim> &p, const double margin) const override
+      {
+        if (operation == Operation::unite)
+          return a->covers(p, margin) || b->covers(p, margin);
+        return a->covers(p, margin) &&
+               (takes_off ? !b->covers(p, -margin) : b->covers(p, margin));
       }
 
       Overlap
@@ -250,23 +265,39 @@ namespace moraine
                     const Action              &action) const
       {
         const double sign = operation == Operation::intersect ? 1. : -1.;
-        if (operation != Operation::intersect)
-          action(1., *a, cell);
-        if (operation == Operation::unite)
-          action(1., *b, cell);
         if (operation == Operation::hollow_out)
-          return action(sign, *b, cell);
+          {
+            action(1., *a, cell);
+            return action(sign, *b, cell);
+          }
+        const auto counts = [this](const Shape<dim> &shape) {
+          return operation == Operation::unite ||
+                 (operation == Operation::subtract && &shape == a.get());
+        };
+        if (counts(second))
+          action(1., second, cell);
+        const bool both = second.overlap(cell) != Overlap::none;
+        // Pieces serve twice: a chain of unions would double the work with
+        // each.
+        const bool by_pieces = both && first.is_straight() && counts(first);
+        if (counts(first) && !by_pieces)
+          action(1., first, cell);
         SignedPieces<dim> pieces;
-        if (second.overlap(cell) != Overlap::none)
+        if (both)
           first.add_pieces(cell, 1., pieces);
         for (const auto &piece : pieces)
-          action(sign * piece.sign, second, piece.polytope);
+          {
+            if (by_pieces)
+              action(piece.sign, *everywhere, piece.polytope);
+            action(sign * piece.sign, second, piece.polytope);
+          }
       }
 
       Operation                  operation;
       bool                       takes_off;
       ShapePointer<dim>          a;
       ShapePointer<dim>          b;
+      ShapePointer<dim>          everywhere = make_space<dim>();
       std::array<std::string, 2> names;
     };
   } // namespace

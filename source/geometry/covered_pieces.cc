@@ -88,7 +88,7 @@ namespace moraine
   {
     try
       {
-        return shape.level(x) > -margin;
+        return shape.covers(x, margin);
       }
     catch (const InputError &)
       {

@@ -95,7 +95,7 @@ namespace moraine
       }
 
       NearestPoint<dim>
-      nearest(const Point<dim> &x) const override
+      nearest(const Point<dim> &x, const double) const override
       {
         const Tensor<1, dim> r = radial(x - centre);
         // on the axis r is round-off in any direction
@@ -151,20 +151,27 @@ namespace moraine
     class ExpressionShape : public SmoothShape<dim>
     {
     public:
-      ExpressionShape(const std::string &text,
-                      const std::string &place,
-                      const double       length)
+      ExpressionShape(const std::string &text, const std::string &place)
         : SmoothShape<dim>(unlimited_box<dim>())
         , expression(text, place, 1, {}, false)
         , text(text)
         , place(place)
-        , length(length)
       {}
 
       double
       level(const Point<dim> &p) const override
       {
         return expression.value(p);
+      }
+
+      bool
+      covers(const Point<dim> &p, const double margin) const override
+      {
+        const double phi = level(p);
+        // Seen over a cell, of which margins are about a thousandth.
+        return margin != 0. ?
+                 phi > -margin * gradient(p, 1e3 * std::abs(margin)).norm() :
+                 phi > 0.;
       }
 
       Overlap
@@ -177,13 +184,17 @@ namespace moraine
       Tensor<1, dim>
       gradient(const Point<dim> &x, const double length) const override
       {
-        // step ~ eps^(1/3)
+        // step ~ eps^(1/3); far from the origin x itself is known less well
+        constexpr double eps = 0.01 * std::numeric_limits<double>::epsilon();
+        const double     step =
+          std::max(1e-5,
+                   std::cbrt(eps * coordinate_magnitude<dim>(x) / length));
         return central_gradient<dim>(
-          [this](const Point<dim> &p) { return level(p); }, x, 1e-5 * length);
+          [this](const Point<dim> &p) { return level(p); }, x, step * length);
       }
 
       NearestPoint<dim>
-      nearest(const Point<dim> &x) const override
+      nearest(const Point<dim> &x, const double length) const override
       {
         const double scale =
           length > 0. ? length : std::max(coordinate_magnitude<dim>(x), 1e-3);
@@ -289,7 +300,6 @@ namespace moraine
       Expression<dim> expression;
       std::string     text;
       std::string     place;
-      double          length;
     };
   } // namespace
 
@@ -340,11 +350,9 @@ namespace moraine
 
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
-  make_expression(const std::string &text,
-                  const std::string &place,
-                  const double       length)
+  make_expression(const std::string &text, const std::string &place)
   {
-    return std::make_shared<ExpressionShape<dim>>(text, place, length);
+    return std::make_shared<ExpressionShape<dim>>(text, place);
   }
 
 
@@ -353,7 +361,7 @@ namespace moraine
   template std::shared_ptr<const SmoothShape<dim>> make_ball(            \
     const Point<dim> &, const double);                                   \
   template std::shared_ptr<const SmoothShape<dim>> make_expression<dim>( \
-    const std::string &, const std::string &, const double);
+    const std::string &, const std::string &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -162,7 +162,7 @@ namespace moraine
             radius = std::max(radius, x.distance(middle));
           }
         // twice: the distance from an expression is only an estimate
-        return std::abs(shape.nearest(middle).level) > 2. * radius;
+        return std::abs(shape.nearest(middle, radius).level) > 2. * radius;
       }
 
       /**
@@ -239,9 +239,9 @@ namespace moraine
       {}
 
       NearestPoint<dim>
-      nearest(const Point<dim> &x) const override
+      nearest(const Point<dim> &x, const double length) const override
       {
-        NearestPoint<dim> point = shape->nearest(x);
+        NearestPoint<dim> point = shape->nearest(x, length);
         point.level *= sign;
         point.normal *= sign;
         point.in_extent =
@@ -329,10 +329,10 @@ namespace moraine
       }
 
       NearestPoint<2>
-      nearest(const Point<2> &x) const override
+      nearest(const Point<2> &x, const double length) const override
       {
         constexpr double tolerance = 1e-10;
-        NearestPoint<2>  point     = SmoothFace<2>::nearest(x);
+        NearestPoint<2>  point     = SmoothFace<2>::nearest(x, length);
         const double     angle     = from_start(x);
         point.in_extent =
           point.in_extent &&

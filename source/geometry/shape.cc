@@ -241,10 +241,11 @@ namespace moraine
 
   template <int dim>
   NearestPoint<dim>
-  MovedSurface<dim>::nearest(const Point<dim> &x) const
+  MovedSurface<dim>::nearest(const Point<dim> &x, const double length) const
   {
-    NearestPoint<dim> point = reference->nearest(present.inverse(x));
-    point.normal            = present.rotate(point.normal);
+    NearestPoint<dim> point =
+      reference->nearest(present.inverse(x), length > 0 ? length : seen_over);
+    point.normal = present.rotate(point.normal);
     return point;
   }
 
@@ -288,12 +289,12 @@ namespace moraine
       }
 
       NearestPoint<dim>
-      nearest(const Point<dim> &x) const override
+      nearest(const Point<dim> &x, const double length) const override
       {
-        NearestPoint<dim> best = members[0]->nearest(x);
+        NearestPoint<dim> best = members[0]->nearest(x, length);
         for (unsigned int i = 1; i < members.size(); ++i)
           {
-            const NearestPoint<dim> other = members[i]->nearest(x);
+            const NearestPoint<dim> other = members[i]->nearest(x, length);
             if (other.in_extent != best.in_extent ?
                   other.in_extent :
                   std::abs(other.level) < std::abs(best.level))

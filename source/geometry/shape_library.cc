@@ -89,13 +89,8 @@ namespace moraine
             return make_half_space<dim>(point("Point"), point("Normal"));
           }
         if (kind == "expression")
-          {
-            const auto box = extent().box;
-            return make_expression<dim>(p.text("Expression"),
-                                        place(section, "Expression"),
-                                        is_finite(box) ? box.side_length(0) :
-                                                         0.);
-          }
+          return make_expression<dim>(p.text("Expression"),
+                                      place(section, "Expression"));
         if (kind == "mesh")
           return make_space<dim>();
         return combination();

@@ -248,7 +248,7 @@ namespace moraine
 
       /** That of the nearest facet. */
       NearestPoint<dim>
-      nearest(const Point<dim> &x) const override
+      nearest(const Point<dim> &x, const double) const override
       {
         const Facet<dim>               *facet   = &facets[0];
         const typename Facet<dim>::End *end     = nullptr;

@@ -50,7 +50,7 @@ namespace moraine
 
     /** All values that an entry's text stands for, its last choice fastest. */
     std::vector<std::string>
-    values_of(const std::string &text, const std::string &where)
+    expansions_of(const std::string &text, const std::string &where)
     {
       const auto begin = text.find("{{");
       if (begin == std::string::npos)
@@ -65,7 +65,7 @@ namespace moraine
         throw InputError(where + ": found '" + text + "', a '{{' without '}}'");
 
       std::vector<std::string> values;
-      const auto               tails = values_of(text.substr(end + 2), where);
+      const auto tails = expansions_of(text.substr(end + 2), where);
       for (const std::string &word :
            alternatives(text.substr(begin + 2, end - begin - 2), where))
         for (const std::string &tail : tails)
@@ -133,8 +133,8 @@ namespace moraine
         const InputFile::Entry &entry = input.entries()[e];
         check_names(entry);
         const auto values =
-          values_of(entry.value,
-                    entry.origin + ": " + place(entry.section, entry.key));
+          expansions_of(entry.value,
+                        entry.origin + ": " + place(entry.section, entry.key));
         if (values.size() == 1 && values[0] == entry.value)
           continue;
 

@@ -34,6 +34,7 @@ namespace moraine
       Scaled(const Operator &A, const LA::Vector &weights, const bool inverse)
         : A(A)
         , w(weights)
+        , scaled(weights)
       {
         if (inverse)
           for (unsigned int k = 0; k < w.locally_owned_size(); ++k)
@@ -43,15 +44,16 @@ namespace moraine
       void
       vmult(LA::Vector &y, const LA::Vector &x) const
       {
-        LA::Vector scaled(x);
+        scaled = x;
         scaled.scale(w);
         A.vmult(y, scaled);
         y.scale(w);
       }
 
     private:
-      const Operator &A;
-      LA::Vector      w;
+      const Operator    &A;
+      LA::Vector         w;
+      mutable LA::Vector scaled;
     };
   } // namespace
 

@@ -223,6 +223,7 @@ namespace moraine
       return;
     if (s.method == Implementation::Method::direct)
       {
+        s.iterative.reset();
         if (s.direct)
           s.direct->refactorise();
         else

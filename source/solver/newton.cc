@@ -521,9 +521,11 @@ namespace moraine
                            LA::Vector      &x)
   {
     system.start_over();
-    NewtonReport report = come_to_rest(parameters, system, linear_solver, x);
+    NewtonReport report =
+      come_to_rest(parameters, system, linear_solver, x, watcher);
     if (report.converged())
-      report = Iteration(parameters, system, linear_solver, x).go_on(report);
+      report =
+        Iteration(parameters, system, linear_solver, x, watcher).go_on(report);
     return report;
   }
 

@@ -78,7 +78,8 @@ namespace moraine
   come_to_rest(const NewtonParameters &parameters,
                NonlinearSystem        &system,
                LinearSolver           &linear_solver,
-               LA::Vector             &x)
+               LA::Vector             &x,
+               const Newton::Watcher  &watcher)
   {
     NewtonReport report;
     const auto   fail = [&](const NewtonStatus status, const std::string &why) {
@@ -149,6 +150,11 @@ namespace moraine
           }
         ++report.iterations;
         record();
+        if (watcher)
+          watcher({report.iterations,
+                   report.residuals.back(),
+                   linear.iterations,
+                   1.});
         const double work_after = dx * system.residual();
         LA::Vector   d_dx(dx);
         d_dx.scale(d);

@@ -90,10 +90,11 @@ namespace moraine
     /**
      * φ is positive on the body's side: the signed distance; for expressions
      * φ/|∇φ|, its first-order estimate. The normal −∇φ/|∇φ| means something at
-     * or near the surface.
+     * or near the surface. @p length is the scale over which an expression is
+     * seen (a cell's size); 0 where none is known: the coordinates' size.
      */
     virtual NearestPoint<dim>
-    nearest(const dealii::Point<dim> &x) const = 0;
+    nearest(const dealii::Point<dim> &x, const double length = 0.) const = 0;
 
     double
     level(const dealii::Point<dim> &x) const
@@ -234,6 +235,13 @@ namespace moraine
     void
     set_pose(const Placement<dim> &pose);
 
+    /** From here on nearest() sees it over this length unless told another. */
+    void
+    see_over(const double length)
+    {
+      seen_over = length;
+    }
+
     const Placement<dim> &
     pose() const
     {
@@ -241,7 +249,8 @@ namespace moraine
     }
 
     NearestPoint<dim>
-    nearest(const dealii::Point<dim> &x) const override;
+    nearest(const dealii::Point<dim> &x,
+            const double              length = 0.) const override;
 
     void
     pieces(const CellVertices<dim>        &cell,
@@ -251,6 +260,7 @@ namespace moraine
   private:
     SurfacePointer<dim> reference;
     Placement<dim>      present;
+    double              seen_over = 0;
   };
 
   /**
@@ -317,6 +327,15 @@ namespace moraine
      */
     virtual double
     level(const dealii::Point<dim> &p) const = 0;
+
+    /** Whether @p p is inside or nearer than @p margin, a length, to the
+     * boundary; if negative: deeper inside than that. An estimate for
+     * expressions, whose level is no length. */
+    virtual bool
+    covers(const dealii::Point<dim> &p, const double margin) const
+    {
+      return level(p) > -margin;
+    }
 
     /** Whether @p p is strictly inside. */
     bool
@@ -448,9 +467,10 @@ namespace moraine
     virtual dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x, const double length) const = 0;
 
-    /** Distance from φ = 0, an estimate for expressions, and outward normal. */
+    /** Distance from φ = 0, an estimate for expressions, and outward normal;
+     * see Surface::nearest(). */
     virtual NearestPoint<dim>
-    nearest(const dealii::Point<dim> &x) const = 0;
+    nearest(const dealii::Point<dim> &x, const double length) const = 0;
 
     /**
      * How far the normal of φ = 0 turns along each of the @p edges of a box

@@ -101,8 +101,7 @@ namespace moraine
    * Where an expression in x, y and z is positive. What is smaller than a
    * sub-cell between its vertices is not seen. The gradient is by central
    * differences (errors about 1e-9 relative to φ's variation over a cell).
-   * @p place: where the text stands, for messages. @p length: scale of
-   * differences where no cell is at hand; 0: the coordinates' size.
+   * @p place: where the text stands, for messages.
    *
    * Throws InputError if the text cannot be understood; later where it has no
    * finite value, and for a boundary with so many details in a cell that
@@ -110,9 +109,7 @@ namespace moraine
    */
   template <int dim>
   std::shared_ptr<const SmoothShape<dim>>
-  make_expression(const std::string &text,
-                  const std::string &place,
-                  const double       length = 0.);
+  make_expression(const std::string &text, const std::string &place);
 
   /** A shape after a rigid motion. */
   template <int dim>

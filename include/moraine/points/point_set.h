@@ -305,12 +305,6 @@ namespace moraine
       return background;
     }
 
-    const dealii::Particles::ParticleHandler<dim> &
-    particle_handler() const
-    {
-      return handler;
-    }
-
     /** Bytes of one point: location, reference location, id and values. */
     unsigned int
     bytes_per_point() const;

@@ -145,7 +145,7 @@ namespace moraine
 
     using Watcher = std::function<void(const NewtonIteration &)>;
 
-    /** Call @p watcher after each correction of solve(). */
+    /** Call @p watcher after each correction. */
     void
     watch(const Watcher &watcher);
 

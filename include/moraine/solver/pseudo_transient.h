@@ -33,7 +33,8 @@ namespace moraine
   come_to_rest(const NewtonParameters &parameters,
                NonlinearSystem        &system,
                LinearSolver           &linear_solver,
-               LA::Vector             &x);
+               LA::Vector             &x,
+               const Newton::Watcher  &watcher = {});
 } // namespace moraine
 
 #endif
