@@ -275,9 +275,10 @@ namespace moraine
     class FileInMemory
     {
     public:
-      FileInMemory()
+      /** For about so many bytes. */
+      FileInMemory(const std::size_t bytes)
         : access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose)
-        , file(create(access), H5Fclose)
+        , file(create(bytes, access), H5Fclose)
       {}
 
       void
@@ -297,10 +298,11 @@ namespace moraine
 
     private:
       static hid_t
-      create(const hid_t access)
+      create(const std::size_t bytes, const hid_t access)
       {
-        constexpr std::size_t growth = 1 << 24;
-        check(H5Pset_fapl_core(access, growth, 0));
+        // Memory grows by pieces that are filled with zeros first.
+        constexpr std::size_t least = 1 << 16;
+        check(H5Pset_fapl_core(access, std::max(least, bytes / 4), 0));
         return H5Fcreate("archive", H5F_ACC_TRUNC, H5P_DEFAULT, access);
       }
 
@@ -413,7 +415,7 @@ namespace moraine
     class FileInMemory
     {
     public:
-      FileInMemory()
+      FileInMemory(const std::size_t)
       {
         throw InputError("deal.II was built without HDF5");
       }
@@ -461,6 +463,22 @@ namespace moraine
 
 
 
+    /** Of the values of this rank. */
+    std::size_t
+    bytes_of(const Archive &archive)
+    {
+      std::size_t bytes = 0;
+      for (const auto &[name, set] : archive.data_sets())
+        bytes += std::visit(
+          [](const auto &values) {
+            return values.size() * sizeof(*values.data());
+          },
+          set.values);
+      return bytes;
+    }
+
+
+
     /** Bring the closed file @p path to the disk and see that it is good. */
     void
     verify(const std::string &path)
@@ -483,8 +501,9 @@ namespace moraine
              const MPI_Comm    &communicator)
   {
     std::unique_ptr<FileInMemory> in_memory;
-    on_first_rank(communicator,
-                  [&]() { in_memory = std::make_unique<FileInMemory>(); });
+    on_first_rank(communicator, [&]() {
+      in_memory = std::make_unique<FileInMemory>(bytes_of(archive));
+    });
     // All ranks take part to the end, whatever fails on the first.
     std::exception_ptr failure;
     archive.gather_each(communicator,

@@ -243,18 +243,21 @@ namespace moraine
   double
   LinearTable::value(const double x) const
   {
-    if (x <= table.front().first)
+    const auto next = std::lower_bound(table.begin(),
+                                       table.end(),
+                                       x,
+                                       [](const Row &row, const double there) {
+                                         return row.first < there;
+                                       });
+    if (next == table.begin())
       return table.front().second;
-    for (std::size_t i = 1; i < table.size(); ++i)
-      if (x <= table[i].first)
-        {
-          const auto &[x0, f0] = table[i - 1];
-          const auto &[x1, f1] = table[i];
-          // Written so that the ends are met exactly.
-          const double s = (x - x0) / (x1 - x0);
-          return (1 - s) * f0 + s * f1;
-        }
-    return table.back().second;
+    if (next == table.end())
+      return table.back().second;
+    const auto &[x0, f0] = *(next - 1);
+    const auto &[x1, f1] = *next;
+    // Written so that the ends are met exactly.
+    const double s = (x - x0) / (x1 - x0);
+    return (1 - s) * f0 + s * f1;
   }
 
 
