@@ -45,12 +45,12 @@ namespace moraine
       json["linear_iterations"]      = summary.linear.iterations;
       if (summary.linear.condition_number)
         json["condition_number"] = *summary.linear.condition_number;
-      if (summary.ghost_term)
+      if (summary.quality.ghost_term)
         json["ghost_term"] = object_of(Summary::List<double>{
-          {"share_of_forces", summary.ghost_term->of_forces},
-          {"share_of_work", summary.ghost_term->of_work}});
-      if (summary.stress_error)
-        json["estimated_stress_error"] = *summary.stress_error;
+          {"share_of_forces", summary.quality.ghost_term->of_forces},
+          {"share_of_work", summary.quality.ghost_term->of_work}});
+      if (summary.quality.stress_error)
+        json["estimated_stress_error"] = *summary.quality.stress_error;
       json["bytes_per_point"] = summary.sizes.bytes_per_point;
       json["peak_memory_mib"] = summary.sizes.peak_memory_mib;
       json["wall_seconds"]    = summary.wall_seconds;

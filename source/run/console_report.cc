@@ -406,13 +406,15 @@ namespace moraine
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
             << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
-    if (summary.stress_error)
+    if (summary.quality.stress_error)
       console << "  estimated error of stress: "
-              << per_cent(*summary.stress_error) << " in the energy norm\n";
-    if (summary.ghost_term)
+              << per_cent(*summary.quality.stress_error)
+              << " in the energy norm\n";
+    if (summary.quality.ghost_term)
       console << "  ghost term: at most " << std::setprecision(2)
-              << 100 * summary.ghost_term->of_forces << " % of the forces and "
-              << 100 * summary.ghost_term->of_work
+              << 100 * summary.quality.ghost_term->of_forces
+              << " % of the forces and "
+              << 100 * summary.quality.ghost_term->of_work
               << " % of the work of a step\n";
     if (options.verbosity == Verbosity::quiet) // these have not been seen
       for (const std::string &warning : summary.warnings)

@@ -78,7 +78,7 @@ namespace moraine
                       exact,
                       driver.time().time(),
                       model.state->mesh_after_step() != MeshAfterStep::keep);
-      summary.stress_error = stress_error(model);
+      summary.quality.stress_error = stress_error(model);
       if (model.system->step_context().motion)
         summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
@@ -140,7 +140,7 @@ namespace moraine
       summary.newton_iterations       = counts.newton_iterations;
       summary.linear.iterations       = counts.linear_iterations;
       summary.linear.condition_number = counts.condition_number;
-      summary.ghost_term              = counts.ghost_term;
+      summary.quality.ghost_term      = counts.ghost_term;
       summary.sizes.bytes_per_point   = model.points->bytes_per_point();
       summary.sizes.peak_memory_mib   = memory_in_use(communicator).peak_mib;
       summary.linear.solvers          = model.linear_solver->choices();
@@ -316,7 +316,7 @@ namespace moraine
       summary.no_equilibrium = no_equilibrium;
       if (summary.steps > 0)
         for (const auto &doubts :
-             {doubts_of_stress(scene, model, summary.stress_error),
+             {doubts_of_stress(scene, model, summary.quality.stress_error),
               doubts_of_strain(model),
               doubts_of_geometric_stiffness(model, driver.geometric_share())})
           for (const std::string &doubt : doubts)

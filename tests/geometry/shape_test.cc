@@ -426,6 +426,48 @@ TEST(CurvedShapes, TwoCurvedOperands)
 
 
 
+// What takes twice as long with each operand does not end.
+TEST(CombinedShapes, ManyOperands)
+{
+  constexpr unsigned int n = 40;
+  ShapePointer<2>        boxes;
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      const auto box =
+        make_box<2>(Point<2>(i + 0.25, 0.25), Point<2>(i + 0.75, 1.));
+      boxes = boxes ? combine<2>(Operation::unite, boxes, box) : box;
+    }
+  const ConvexPolytope<2> all(Point<2>(0, 0), Point<2>(n, 1));
+  EXPECT_NEAR(boxes->clip(all).volume, n * 0.375, 1e-12 * n);
+
+  auto rest = make_box<2>(Point<2>(0, 0), Point<2>(n, 0.5));
+  rest      = combine<2>(Operation::subtract, rest, boxes);
+  EXPECT_NEAR(rest->clip(all).volume, n * (0.5 - 0.125), 1e-12 * n);
+}
+
+
+
+TEST(CurvedShapes, ExpressionsCoverByLengths)
+{
+  for (const std::string scale : {"1", "1e-4", "1e4"})
+    {
+      const auto disc  = make_expression<2>(scale + " * (1 - x^2 - y^2)", "");
+      const auto moved = make_moved<2>(disc, {0., {}, {}, Point<2>(1., 0.)});
+      const auto lens  = combine<2>(Operation::intersect, disc, moved);
+      const auto moon  = combine<2>(Operation::subtract, disc, moved);
+      EXPECT_TRUE(disc->covers({1.0005, 0.}, 1e-3));
+      EXPECT_FALSE(disc->covers({1.002, 0.}, 1e-3));
+      EXPECT_FALSE(disc->covers({0.9995, 0.}, -1e-3));
+      EXPECT_TRUE(disc->covers({0.998, 0.}, -1e-3));
+      EXPECT_TRUE(lens->covers({-0.0005, 0.}, 1e-3));
+      EXPECT_FALSE(lens->covers({-0.002, 0.}, 1e-3));
+      EXPECT_TRUE(moon->covers({0.0005, 0.}, 1e-3));
+      EXPECT_FALSE(moon->covers({0.002, 0.}, 1e-3));
+    }
+}
+
+
+
 TEST(CurvedShapes, Expressions)
 {
   const auto disc = make_expression<2>("1 - x^2 - y^2", "");

@@ -127,6 +127,34 @@ TEST(Seeding, VolumesSumUpToTheBody)
 
 
 
+TEST(Seeding, FacesOfSubCellsOfGaussPoints)
+{
+  for (const unsigned int n : {1, 3, 4})
+    {
+      const dealii::QGauss<1> line(n);
+      const CellSeeder<2>     seeder(n, PointLayout::gauss);
+      double                  start = 0, longest = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double x   = line.point(i)[0];
+          const double end = start + line.weight(i);
+          longest          = std::max(longest, line.weight(i));
+          EXPECT_NEAR(seeder.distance_to_faces(Point<2>(0.5, x))[1],
+                      std::min(x - start, end - x),
+                      1e-14);
+          start = end;
+        }
+      EXPECT_NEAR(seeder.longest_edge(), longest, 1e-14);
+    }
+  const CellSeeder<3> equal(5, PointLayout::equal);
+  EXPECT_NEAR(equal.longest_edge(), 0.2, 1e-15);
+  EXPECT_NEAR(equal.distance_to_faces(Point<3>(0.1, 0.25, 0.99))[1],
+              0.05,
+              1e-15);
+}
+
+
+
 TEST(Seeding, FullCellWithGaussLayoutIsTheGaussRule)
 {
   const auto everywhere = make_box<2>(Point<2>(-9., -9.), Point<2>(9., 9.));

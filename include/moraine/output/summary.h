@@ -49,6 +49,15 @@ namespace moraine
       std::optional<double> condition_number;
     };
 
+    /** How good the results are. */
+    struct Quality
+    {
+      /** Left out without a ghost term. */
+      std::optional<GhostShares> ghost_term;
+      /** See estimated_stress_error(). */
+      std::optional<double> stress_error;
+    };
+
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
@@ -64,11 +73,8 @@ namespace moraine
     /** Steps that ended by Newton::pseudo_transient(). */
     unsigned int n_pseudo_transient = 0;
     unsigned int newton_iterations  = 0;
-    /** Left out without a ghost term. */
-    std::optional<GhostShares> ghost_term;
-    /** See estimated_stress_error(). */
-    std::optional<double> stress_error;
-    double                wall_seconds = 0;
+    Quality      quality;
+    double       wall_seconds = 0;
     /** Seconds by part of the program. */
     List<double> timings;
     /** Names of the effects simulated. */

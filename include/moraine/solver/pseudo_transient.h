@@ -27,6 +27,7 @@ namespace moraine
    * @param parameters the tolerances are those of Newton's method
    * @param x at the end the last iterate; it starts from
    * NonlinearSystem::initial_guess()
+   * @param watcher called after each correction
    * @return converged, too_many_iterations or not_a_number
    */
   NewtonReport
