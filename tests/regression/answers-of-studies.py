@@ -5,14 +5,13 @@
 runs and studies do not remove each other's results; orders in time do not depend
 on the order of cases."""
 
-import csv
 import json
 
 SLOPE = "prm/geotechnics/factor-of-safety.prm"
 QUICK = {"Mesh/Cell size": 2, "Time/Steps": 4, "Strength reduction/Tolerance": 0.2}
 
-weak = run(SLOPE, {**QUICK, "Solver/Solver": "gmres",
-                   "Solver/Maximum linear iterations": 2},
+weak = run(SLOPE, {**QUICK, "Mesh/Cell size": 0.5, "Solver/Solver": "gmres",
+                   "Solver/Maximum linear iterations": 60},
            command="study", expect=1)
 case = json.loads((weak.folder / "summary.json").read_text())["cases"][0]
 text("solver that gives up", case["status"])
@@ -40,13 +39,19 @@ text("  replaced: rows of the study are left",
 text("  and it is a run", (study.folder / "history.csv").exists())
 
 # Old pictures do not stand beside new rows.
-beam = {"Mesh/Cell size": "{{20|10}}", "Study/Choices": ""}
-first = run("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "{{20|10}}"},
-            command="study")
-again = run("prm/studies/fe-mpm.prm", {"Mesh/Cell size": "20",
-                                       "Exact solution/Displacement": ""},
-            command="study", extra=["--output", str(first.folder), "--overwrite"],
-            expect=None)
-text("study again: exit code", again.code)
-text("  old picture", (first.folder / "study.png").exists()
-     and "plot in" not in again.output)
+BEAM = "prm/studies/fe-mpm.prm"
+beam = run(BEAM, {"Mesh/Cell size": "{{20|10}}"}, command="study")
+text("study with a picture", (beam.folder / "study.png").exists())
+run(SLOPE, QUICK, command="study",
+    extra=["--output", str(beam.folder), "--overwrite"])
+text("  another study in its place: old picture",
+     (beam.folder / "study.png").exists())
+
+# A curve from its end to its beginning.
+for steps in "{{10|40}}", "{{40|10}}":
+    column = run("prm/studies/large-column.prm",
+                 {"Mesh/Cells": "1, 8", "Time/Steps": steps}, command="study")
+    header, *rows = ([cell.strip() for cell in line.split("|")[1:-1]]
+                     for line in column.output.splitlines()
+                     if line.startswith("|"))
+    text(f"steps {steps}, order", rows[-1][header.index("order")])

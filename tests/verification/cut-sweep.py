@@ -14,8 +14,8 @@ from math import cos, radians, sin, sqrt
 PLACES = int(os.environ.get("MORAINE_PLACES", 300))
 METHODS = ("GIMP", "material point", "CPDI1", "CPDI2", "finite element")
 # Scene, cell size (so small that multigrid has two levels), places.
-SCENES = {2: ("prm/hard-cases/cut-block.prm", 1 / 32, PLACES),
-          3: ("prm/hard-cases/cut-block-3d.prm", 1 / 8, PLACES // 3)}
+SCENES = {2: ("prm/hard-cases/cut-block.prm", 1 / 32, 3 * PLACES // 4),
+          3: ("prm/hard-cases/cut-block-3d.prm", 1 / 8, PLACES // 4)}
 QUIET = {"Output/Mesh": "false", "Output/Write": "end", "Solver/Solver": "gmres",
          "Solver/Maximum linear iterations": 500}
 

@@ -33,9 +33,10 @@ namespace moraine
                        Model<dim>                     &model);
 
   /**
-   * Let boundaries that go on hold bodies that come in @p stage by the stress of
-   * their own, in cells where no other body is: what they took over is the
-   * traction of a neighbour. Begins the step anew where bodies come. Collective.
+   * Let boundaries that go on hold bodies that come in @p stage by the stress
+   * of their own, in cells where no other body is: what they took over is the
+   * traction of a neighbour. Begins the step anew where bodies come.
+   * Collective.
    */
   template <int dim>
   void
