@@ -14,9 +14,9 @@ namespace moraine
   /**
    * Add to @p notes which loads and boundaries of the stage @p before and of
    * @p stage lie on bodies that go between them, and get hold of what is
-   * beside, in the same cells; and which forces on points go with theirs, or act
-   * again after theirs went. In a
-   * step that has begun with the bodies of the stage before. Collective.
+   * beside, in the same cells; and which forces on points go with theirs, or
+   * act again after theirs went. In a step that has begun with the bodies of
+   * the stage before. Collective.
    */
   template <int dim>
   void
