@@ -9,8 +9,8 @@
 // The request is the number of bytes that follow, in four bytes, which carry
 // the standard streams too (SCM_RIGHTS), and words that end with '\0': the
 // folder, the number of arguments, the arguments, the environment. The server
-// says 0 first, then the number of the process and its status, in four bytes each. Where the
-// connection ends, the server ends the copy.
+// says 0 first, then the number of the process and its status, in four bytes
+// each. Where the connection ends, the server ends the copy.
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -118,7 +118,7 @@ main(int argc, char **argv)
   const char *name = std::getenv("MORAINE_FORK_SOCKET");
   if (name == nullptr)
     fail("MORAINE_FORK_SOCKET is not set");
-  const int   s      = connect_to(name);
+  const int s = connect_to(name);
   read_number(s);
   char       *folder = getcwd(nullptr, 0);
   std::string words  = folder + std::string(1, '\0');

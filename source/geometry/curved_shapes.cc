@@ -167,11 +167,12 @@ namespace moraine
       bool
       covers(const Point<dim> &p, const double margin) const override
       {
-        const double phi = level(p);
+        const double phi    = level(p);
+        const bool   inside = phi > 0.;
+        if (margin == 0. || inside == (margin > 0.))
+          return inside;
         // Seen over a cell, of which margins are about a thousandth.
-        return margin != 0. ?
-                 phi > -margin * gradient(p, 1e3 * std::abs(margin)).norm() :
-                 phi > 0.;
+        return phi > -margin * gradient(p, 1e3 * std::abs(margin)).norm();
       }
 
       Overlap

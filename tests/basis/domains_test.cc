@@ -802,6 +802,37 @@ namespace
 
 
 
+  TEST(Domains, BoxesOfGimpReachTheFacesOfSubCellsOfGaussPoints)
+  {
+    const CellSeeder<2>     seeder(4, PointLayout::gauss);
+    const dealii::QGauss<1> line(4);
+    const BackgroundMesh<2> mesh(unit_cells<2>(4), MPI_COMM_WORLD);
+    const GridSpace<2>      space(mesh, 1);
+    PointFields             layout;
+    GimpBasis<2>::request_fields(layout);
+    PointSet<2> points(mesh, layout);
+    seed_bodies({{"box", make_box<2>(Point<2>(1, 1), Point<2>(3, 3))}},
+                seeder,
+                points);
+    const GimpBasis<2> basis(space, points, seeder, {true});
+    basis.initialise_points(points);
+    const auto half_length =
+      points.fields().find(FieldNames<2>::Vector{"half_length", "length"});
+    for (unsigned int p = 0; p < points.n_local(); ++p)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          // The outer points come first and last; all are symmetric.
+          const double x     = points.position(p)[d];
+          const double place = std::min(x - std::floor(x), std::ceil(x) - x);
+          const bool   outer = place < line.weight(0);
+          EXPECT_NEAR(half_length(points.values(p))[d],
+                      outer ? place : place - line.weight(0),
+                      1e-12);
+        }
+  }
+
+
+
   template <int dim>
   void
   torn_body(const Method method)

@@ -605,7 +605,11 @@ namespace
     LinearSolver linear_solver(LinearSolverParameters(), 2);
     LA::Vector   x;
     Outcome      outcome;
-    outcome.report    = Newton({}).pseudo_transient(system, linear_solver, x);
+    unsigned int n_seen = 0;
+    Newton       newton({});
+    newton.watch([&n_seen](const NewtonIteration &) { ++n_seen; });
+    outcome.report = newton.pseudo_transient(system, linear_solver, x);
+    EXPECT_EQ(n_seen, outcome.report.iterations);
     outcome.x         = SmallSystem::everywhere(x);
     outcome.n_set_ups = linear_solver.n_set_ups();
     return outcome;

@@ -87,11 +87,11 @@ namespace moraine
     /**
      * Half lengths. Of a seeded point: its distance to the nearer face of its
      * sub-cell, so that the box never leaves the sub-cell and boxes of equally
-     * spaced points tile a body whose faces follow the mesh; averages over a box within one cell are the
-     * values at its centre, so at the start GIMP integrates what points do. Of
-     * other points: a box of the point's volume, with the proportions of the
-     * box around the part that it stands for, else of a cell; at most half a
-     * cell.
+     * spaced points tile a body whose faces follow the mesh; averages over a
+     * box within one cell are the values at its centre, so at the start GIMP
+     * integrates what points do. Of other points: a box of the point's volume,
+     * with the proportions of the box around the part that it stands for, else
+     * of a cell; at most half a cell.
      */
     void
     initialise_points(PointSet<dim> &points) const override;

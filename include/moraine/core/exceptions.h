@@ -30,9 +30,8 @@ namespace moraine
     using std::runtime_error::runtime_error;
   };
 
-  /** A step has no equilibrium, as far as can be told: not found at the
-   * smallest step, for another cause than what the solver of linear systems is
-   * given. */
+  /** No equilibrium was found with the smallest step, and not for want of
+   * linear iterations: as far as can be told there is none. */
   class NoEquilibrium : public ComputationError
   {
   public:
