@@ -5,6 +5,7 @@
 
 #include <moraine/assembly/couplings.h>
 #include <moraine/assembly/rigid_motion_check.h>
+#include <moraine/core/exceptions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -556,6 +557,24 @@ namespace moraine
                        rigid_modes,
                        body_names,
                        first_step);
+  }
+
+
+
+  template <int dim>
+  std::string
+  MechanicsSystem<dim>::why_not_held() const
+  {
+    if (context.couplings_changed)
+      try
+        {
+          check_that_it_is_held(false);
+        }
+      catch (const ComputationError &error)
+        {
+          return error.what();
+        }
+    return "";
   }
 
 

@@ -9,7 +9,9 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -132,19 +134,35 @@ namespace moraine
     std::vector<LA::Vector> modes(dim + n_rotations,
                                   LA::Vector(space.locally_owned(),
                                              space.communicator()));
-    // As large as translations, whatever the unit of length.
-    double size = 0;
+    // About the middle, wherever the origin is, and as large as translations,
+    // whatever the unit of length.
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::numeric_limits<double>::max();
+        upper[d] = -lower[d];
+      }
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
-      size = std::max(size, space.node_position(node).norm());
-    size = Utilities::MPI::max(size, space.communicator());
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], space.node_position(node)[d]);
+          upper[d] = std::max(upper[d], space.node_position(node)[d]);
+        }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = Utilities::MPI::min(lower[d], space.communicator());
+        upper[d] = Utilities::MPI::max(upper[d], space.communicator());
+      }
+    const Point<dim> middle = lower + 0.5 * (upper - lower);
+    const double     size   = 0.5 * (upper - lower).norm();
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
         {
           const auto dof = space.node_dof(node) + c;
           if (!space.locally_owned().is_element(dof))
             continue;
-          modes[c](dof)       = 1;
-          const Point<dim> &x = space.node_position(node);
+          modes[c](dof)          = 1;
+          const Tensor<1, dim> x = space.node_position(node) - middle;
           // Rotation r turns direction i towards direction j.
           constexpr unsigned int turn[3][2] = {{0, 1}, {1, 2}, {2, 0}};
           for (unsigned int r = 0; r < n_rotations; ++r)

@@ -27,11 +27,18 @@ namespace moraine
       constraint.kind == Constraint<dim>::roller ?
         R :
         Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    const bool is_straight_roller =
+      constraint.kind == Constraint<dim>::roller && !kind.projects;
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
         BoundaryPoint<dim> &point   = boundary_points[q];
         point.multiplier_at_start   = from_frame * from[q].multiplier;
         point.accumulated_violation = from_frame * from[q].violation;
+        // It may come from a segment with another normal, and nothing but the
+        // normal component is ever corrected.
+        if (is_straight_roller)
+          point.multiplier_at_start =
+            constraint.projection(point.normal) * point.multiplier_at_start;
       }
     for (BoundarySlope<dim> &slope : held_slopes.all)
       slope.traction_at_start =
@@ -44,13 +51,17 @@ namespace moraine
   std::vector<CarriedPlace<dim>>
   ImplicitBoundary<dim>::places_of_points() const
   {
+    const Placement<dim>          &pose       = at_start.pose();
+    const Tensor<2, dim>           into_frame = transpose(pose.rotation());
     std::vector<CarriedPlace<dim>> places;
     for (const auto &point : boundary_points)
-      places.push_back({Tensor<1, dim>(at_start.pose().inverse(point.x)),
+      places.push_back({Tensor<1, dim>(pose.inverse(point.x)),
                         {},
                         {},
                         {},
                         point.JxW,
+                        into_frame * point.normal,
+                        point.h,
                         {{point.cell, point.number}}});
     return places;
   }
@@ -77,20 +88,43 @@ namespace moraine
 
 
 
-    /** For each of @p places the nearest of @p among. */
+    /** For each of @p places the nearest of @p among that faces the same way
+     * but for 30 degrees, no further than a cell; or an invalid number. */
     template <int dim>
     std::vector<unsigned int>
     nearest_of(const std::vector<CarriedPlace<dim>> &places,
                const std::vector<CarriedPlace<dim>> &among)
     {
+      namespace bgi                = boost::geometry::index;
+      constexpr double        same = 0.866;
       std::vector<Point<dim>> points;
+      double                  largest_h = 0;
       for (const auto &entry : among)
-        points.emplace_back(entry.place);
+        {
+          points.emplace_back(entry.place);
+          largest_h = std::max(largest_h, entry.h);
+        }
       const auto                tree = pack_rtree_of_indices(points);
-      std::vector<unsigned int> nearest;
-      for (const auto &entry : places)
-        nearest.push_back(*tree.qbegin(
-          boost::geometry::index::nearest(Point<dim>(entry.place), 1)));
+      std::vector<unsigned int> nearest(places.size(),
+                                        numbers::invalid_unsigned_int);
+      for (unsigned int k = 0; k < places.size(); ++k)
+        {
+          const CarriedPlace<dim> &entry = places[k];
+          Tensor<1, dim>           reach;
+          for (unsigned int d = 0; d < dim; ++d)
+            reach[d] = std::max(entry.h, largest_h);
+          const Point<dim> x(entry.place);
+          const auto       is_of_it = [&](const unsigned int other) {
+            return entry.normal * among[other].normal > same &&
+                   (entry.place - among[other].place).norm() <=
+                     std::max(entry.h, among[other].h);
+          };
+          const auto found = tree.qbegin(
+            bgi::intersects(BoundingBox<dim>({x - reach, x + reach})) &&
+            bgi::satisfies(is_of_it) && bgi::nearest(x, 1));
+          if (found != tree.qend())
+            nearest[k] = *found;
+        }
       return nearest;
     }
 
@@ -134,13 +168,17 @@ namespace moraine
         const auto new_places  = gather(of_this_rank, communicator);
         const auto nearest_new = nearest_of(old_places, new_places);
         for (unsigned int k = 0; k < old_places.size(); ++k)
-          nearest_to[new_places[nearest_new[k]].id].push_back(k);
+          if (nearest_new[k] != numbers::invalid_unsigned_int)
+            nearest_to[new_places[nearest_new[k]].id].push_back(k);
       }
     std::vector<CarriedPlace<dim>> of_points;
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        const auto               found   = nearest_to.find(of_this_rank[q].id);
-        const CarriedPlace<dim> &nearest = old_places[nearest_old[q]];
+        const auto found = nearest_to.find(of_this_rank[q].id);
+        const bool is_new_place =
+          nearest_old[q] == numbers::invalid_unsigned_int;
+        const CarriedPlace<dim> &nearest =
+          is_new_place ? of_this_rank[q] : old_places[nearest_old[q]];
         of_points.push_back(found == nearest_to.end() ?
                               nearest :
                               mean_of(found->second, old_places));
@@ -180,6 +218,8 @@ namespace moraine
                        into_frame * violation,
                        {},
                        point.JxW,
+                       transpose(pose.rotation()) * point.normal,
+                       point.h,
                        {{point.cell, point.number}}};
       }
     for (unsigned int k = 0; k < of_slopes.size(); ++k)
@@ -206,9 +246,20 @@ namespace moraine
 
   template <int dim>
   void
+  ImplicitBoundary<dim>::forget() noexcept
+  {
+    carried.clear();
+    search.done = kept_at_points = false;
+  }
+
+
+
+  template <int dim>
+  void
   ImplicitBoundary<dim>::write(Archive &archive) const
   {
-    std::vector<double>       places, multipliers, violations, slopes, areas;
+    std::vector<double> places, multipliers, violations, slopes, areas, normals,
+      sizes;
     std::vector<unsigned int> ids;
     for (const CarriedPlace<dim> &of : carried)
       {
@@ -217,10 +268,12 @@ namespace moraine
             places.push_back(of.place[d]);
             multipliers.push_back(of.multiplier[d]);
             violations.push_back(of.violation[d]);
+            normals.push_back(of.normal[d]);
             for (unsigned int e = 0; e < dim; ++e)
               slopes.push_back(of.slope[d][e]);
           }
         areas.push_back(of.area);
+        sizes.push_back(of.h);
         ids.insert(ids.end(), of.id.begin(), of.id.end());
       }
     const std::string group = "boundaries/" + boundary_name;
@@ -235,6 +288,8 @@ namespace moraine
                   areas,
                   1,
                   dim == 2 ? "length" : "length^2");
+    archive.write(group + "/carried/normal", normals, dim);
+    archive.write(group + "/carried/cell_size", sizes, 1, "length");
   }
 
 
@@ -252,8 +307,10 @@ namespace moraine
     const auto &multipliers =
       archive.numbers(group + "/carried/multiplier", dim);
     const auto &violations = archive.numbers(group + "/carried/violation", dim);
-    const auto &slopes = archive.numbers(group + "/carried/slope", dim * dim);
-    const auto &areas  = archive.numbers(group + "/carried/area", 1);
+    const auto &slopes  = archive.numbers(group + "/carried/slope", dim * dim);
+    const auto &areas   = archive.numbers(group + "/carried/area", 1);
+    const auto &normals = archive.numbers(group + "/carried/normal", dim);
+    const auto &sizes   = archive.numbers(group + "/carried/cell_size", 1);
     carried.resize(ids.size() / 2);
     for (unsigned int k = 0; k < carried.size(); ++k)
       {
@@ -262,10 +319,12 @@ namespace moraine
             carried[k].place[d]      = places[dim * k + d];
             carried[k].multiplier[d] = multipliers[dim * k + d];
             carried[k].violation[d]  = violations[dim * k + d];
+            carried[k].normal[d]     = normals[dim * k + d];
             for (unsigned int e = 0; e < dim; ++e)
               carried[k].slope[d][e] = slopes[dim * (dim * k + d) + e];
           }
         carried[k].area = areas[k];
+        carried[k].h    = sizes[k];
         carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};
       }
     // The points are derived from that by the next begin_step().
@@ -293,6 +352,7 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &,                                    \
     const std::vector<Tensor<1, dim>> &);                                   \
   template void ImplicitBoundary<dim>::keep() noexcept;                     \
+  template void ImplicitBoundary<dim>::forget() noexcept;                   \
   template void ImplicitBoundary<dim>::write(Archive &) const;              \
   template void ImplicitBoundary<dim>::read(const Archive &);               \
   template void ImplicitBoundary<dim>::undo();

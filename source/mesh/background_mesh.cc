@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <functional>
 #include <iomanip>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -178,7 +179,9 @@ namespace moraine
       BoxGrid<dim> moved = box;
       moved.lower_corner = motion(box.lower_corner);
       upper              = motion(upper);
-      Tensor<1, dim> stretch;
+      // Of a motion: a sum of products, and their differences.
+      constexpr double round_off = 32. * std::numeric_limits<double>::epsilon();
+      Tensor<1, dim>   stretch;
       for (unsigned int d = 0; d < dim; ++d)
         {
           moved.cell_size[d] =
@@ -190,7 +193,8 @@ namespace moraine
           if (std::abs(moved.lower_corner[d] +
                        stretch[d] * (places[v][d] - box.lower_corner[d]) -
                        vertices[v][d]) >
-              1e-12 * moved.cell_size[d] * moved.n_cells[d])
+              std::max(1e-12 * moved.cell_size[d] * moved.n_cells[d],
+                       round_off * vertices[v].norm()))
             return {};
       return moved;
     }

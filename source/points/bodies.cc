@@ -63,14 +63,31 @@ namespace moraine
 
 
 
-    /** The points of one cell. @return where two bodies overlap, or "". */
+    /** Volume of the cell that the points given for a body fill. */
+    template <int dim>
+    double
+    listed_in_cell(const Body<dim>           &body,
+                   const ConvexPolytope<dim> &cell,
+                   const BoundingBox<dim>    &cell_box)
+    {
+      if (!body.outline ||
+          intersection(body.outline->bounding_box(), cell_box).volume() == 0.)
+        return 0.;
+      return body.outline->clip(cell).volume;
+    }
+
+
+
+    /** The points of one cell; add to @p listed_volumes what of it is filled by
+     * points given. @return where two bodies overlap, or "". */
     template <int dim>
     std::string
     seed_cell(const typename PointSet<dim>::CellIterator &cell,
               const std::vector<Body<dim>>               &bodies,
               const CellSeeder<dim>                      &seeder,
               const Meet                                 &meet,
-              PointSet<dim>                              &points)
+              PointSet<dim>                              &points,
+              std::vector<double>                        &listed_volumes)
     {
       const auto                    vertices = vertices_of<dim>(cell);
       std::string                   overlap;
@@ -78,16 +95,19 @@ namespace moraine
       std::vector<SeededPoint<dim>> seeded;
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
-          if (!bodies[b].shape)
-            continue;
           seeded.clear();
-          seeder.seed(vertices, *bodies[b].shape, seeded);
-          if (seeded.empty())
+          if (bodies[b].shape)
+            seeder.seed(vertices, *bodies[b].shape, seeded);
+          const double listed = listed_in_cell(bodies[b],
+                                               ConvexPolytope<dim>(vertices),
+                                               cell->bounding_box());
+          listed_volumes[b] += listed;
+          if (seeded.empty() && listed == 0.)
             continue;
           for (const unsigned int other : earlier)
             if (overlap.empty() && (!meet || meet(other, b)) &&
-                overlap_in_cell<dim>(bodies[other].shape,
-                                     bodies[b].shape,
+                overlap_in_cell<dim>(bodies[other].filled(),
+                                     bodies[b].filled(),
                                      vertices,
                                      cell->measure()))
               {
@@ -116,20 +136,23 @@ namespace moraine
 
 
 
+    /** @return what cells of this rank have of each body whose points are
+     * given. */
     template <int dim>
-    void
+    std::vector<double>
     seed_cells(const std::vector<Body<dim>> &bodies,
                const CellSeeder<dim>        &seeder,
                const Meet                   &meet,
                PointSet<dim>                &points)
     {
       const Triangulation<dim> &triangulation = points.mesh().triangulation();
+      std::vector<double>       listed_volumes(bodies.size(), 0.);
       std::string               overlap;
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           {
             const std::string found =
-              seed_cell(cell, bodies, seeder, meet, points);
+              seed_cell(cell, bodies, seeder, meet, points, listed_volumes);
             if (overlap.empty())
               overlap = found;
           }
@@ -138,6 +161,7 @@ namespace moraine
                                       overlap))
         if (!message.empty())
           throw ObjectError("bodies", "", message);
+      return listed_volumes;
     }
 
 
@@ -196,7 +220,8 @@ namespace moraine
 
 
 
-    /** That a body has points, and lies in the mesh as a whole. */
+    /** That a body has points, and lies in the mesh as a whole, of which @p
+     * volume does. */
     template <int dim>
     void
     check_body(const Body<dim>        &body,
@@ -209,16 +234,16 @@ namespace moraine
                           body.name,
                           "found no part of the body inside the mesh, allowed: "
                           "a body that is not empty and lies in the mesh");
-      if (!body.shape)
+      if (!body.filled())
         return;
-      const BoundingBox<dim> box = body.shape->bounding_box();
+      const Shape<dim>      &shape = *body.filled();
+      const BoundingBox<dim> box   = shape.bounding_box();
       if (!is_finite(box) || (mesh_is_box && fits_into(box, mesh_box)))
         return;
       const auto  &corners = box.get_boundary_points();
       const double whole =
-        body.shape->clip(ConvexPolytope<dim>(corners.first, corners.second))
-          .volume;
-      if (volume > (1 - (body.shape->is_straight() ? 1e-9 : 1e-3)) * whole)
+        shape.clip(ConvexPolytope<dim>(corners.first, corners.second)).volume;
+      if (volume > (1 - (shape.is_straight() ? 1e-9 : 1e-3)) * whole)
         return;
       std::ostringstream message;
       message << "found " << 100 * (1 - volume / whole)
@@ -320,8 +345,8 @@ namespace moraine
   {
     const Triangulation<dim> &triangulation = points.mesh().triangulation();
     check_number_of_points(bodies, seeder, triangulation);
-    seed_cells(bodies, seeder, meet, points);
-    const unsigned int first_of_lists =
+    std::vector<double> in_cells = seed_cells(bodies, seeder, meet, points);
+    const unsigned int  first_of_lists =
       triangulation.n_active_cells() * bodies.size() * seeder.max_points();
     const auto for_each_list = [&](const auto &action) {
       unsigned int first_id = first_of_lists;
@@ -344,11 +369,12 @@ namespace moraine
     for (unsigned int p = 0; p < points.n_local(); ++p)
       volumes[points.body(p)] += points.volume(p);
     Utilities::MPI::sum(volumes, triangulation.get_communicator(), volumes);
+    Utilities::MPI::sum(in_cells, triangulation.get_communicator(), in_cells);
     const BoundingBox<dim> mesh_box =
       GridTools::compute_bounding_box(triangulation);
     for (unsigned int b = 0; b < bodies.size(); ++b)
       check_body(bodies[b],
-                 volumes[b],
+                 bodies[b].outline ? in_cells[b] : volumes[b],
                  mesh_box,
                  points.mesh().box_grid().has_value());
     return volumes;

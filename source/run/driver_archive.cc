@@ -138,9 +138,14 @@ namespace moraine
     stage      = archive.integer("run/stage");
     if (stage > 0)
       model.set_stage(scene, stage);
-    // Nodes that move with the material are found before their moves are read.
+    // Where no step finds stencils anew, they are of the points in the order in
+    // which these were kept, and nodes that move are there before their moves.
     if (model.state->mesh_after_step() != MeshAfterStep::reset)
-      model.state->begin_step();
+      {
+        model.points->read(archive);
+        model.state->points_changed();
+        model.state->begin_step();
+      }
     lasting.read(archive);
     accepted_fraction  = archive.number("run/stiffness_of_empty_parts");
     share_of_last_step = archive.number("run/geometric_share");

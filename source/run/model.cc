@@ -393,6 +393,10 @@ namespace moraine
     set_bodies(stage.bodies);
     for (auto &condition : grid_conditions)
       condition.start = stage.time.start_time;
+    for (ImplicitBoundary<dim> &boundary : boundaries)
+      if (k > 0 && contains(stage.boundaries, boundary.name()) &&
+          !contains(scene.stages[k - 1].second.boundaries, boundary.name()))
+        boundary.forget();
     system->set_terms(terms_of(scene, stage));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic)

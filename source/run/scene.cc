@@ -138,7 +138,8 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
-    if (method.strain_measure() == StrainMeasure::finite || any_yields())
+    if (method.strain_measure() == StrainMeasure::finite || any_yields() ||
+        conserves_energy())
       choose_enforcement("augmented Lagrangian", input);
     else if (is_dynamic())
       choose_enforcement("symmetric Nitsche", input);
@@ -177,6 +178,17 @@ namespace moraine
   Scene<dim>::is_dynamic() const
   {
     return first_dynamic_stage().time.integrator.dynamic();
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::conserves_energy() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+      return named.second.time.integrator.integrator == "energy-momentum";
+    });
   }
 
 
@@ -281,18 +293,14 @@ namespace moraine
       std::any_of(materials.begin(), materials.end(), [](const auto &named) {
         return named.second.hardly_changes_volume();
       });
-    const bool conserves =
-      std::any_of(stages.begin(), stages.end(), [](const auto &named) {
-        return named.second.time.integrator.integrator == "energy-momentum";
-      });
     const bool is_damped =
       std::any_of(given.begin(), given.end(), [](const auto &entry) {
         return contains({"Stiffness damping", "Damping ratio"}, entry.key);
       });
     prm.enter_subsection("Method");
     prm.set("Volumetric strain",
-            hardly_changes && method.can_average_volume() && !conserves &&
-                !is_damped ?
+            hardly_changes && method.can_average_volume() &&
+                !conserves_energy() && !is_damped ?
               std::string("cell mean") :
               std::string("pointwise"));
     prm.leave_subsection();

@@ -108,7 +108,9 @@ namespace moraine
           bodies.push_back({name, shapes.at(name)});
         else if (!body.shape.is_point_file())
           bodies.push_back(
-            {name, make_point_grid(body.shape, body.point_grid, section)});
+            {name,
+             make_point_grid(body.shape, body.point_grid, section),
+             shapes.at(name)});
         else if (std::ifstream(file))
           bodies.push_back({name, read_point_file<dim>(file)});
         else

@@ -382,6 +382,14 @@ namespace moraine
                  "Components",
                  boundary.components,
                  "nothing; key 'Constraint' is '" + boundary.constraint + "'");
+        if (boundary.enforcement.enforcement == "symmetric Nitsche" &&
+            conserves_energy())
+          reject(
+            section,
+            "Enforcement",
+            boundary.enforcement.enforcement,
+            "another one with 'Integrator = energy-momentum', whose forces "
+            "are those of the middle of a step");
         check_absorbing(section,
                         boundary.constraint,
                         boundary.absorbing,

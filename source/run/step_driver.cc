@@ -226,9 +226,7 @@ namespace moraine
   NewtonReport
   StepDriver<dim>::solve(LA::Vector &x)
   {
-    MechanicsSystem<dim> &system     = *model.system;
-    const bool            is_dynamic = // and so held by inertia
-      scene.stages[stage].second.time.integrator.dynamic();
+    MechanicsSystem<dim> &system = *model.system;
     for (;;)
       {
         // Along a path the time is found from where it is.
@@ -236,23 +234,6 @@ namespace moraine
                             time_control.time() :
                             time_control.trial_time());
         system.initial_guess(x);
-        if (!first_step && !is_dynamic && system.coupling_changed())
-          {
-            system.assemble(x, true);
-            try
-              {
-                system.check_that_it_is_held(false);
-              }
-            catch (const ComputationError &error)
-              {
-                // A shorter step may be less distorted at first.
-                NewtonReport not_held;
-                not_held.status  = NewtonStatus::not_held;
-                not_held.message = error.what();
-                return not_held;
-              }
-            system.start_over();
-          }
         const NewtonReport report =
           time_control.follows_path() ?
             follow_path(x) :

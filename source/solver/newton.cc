@@ -441,6 +441,12 @@ namespace moraine
                cause("the residual is not a number at the start of the step"));
           return report;
         }
+      const std::string not_held = system.why_not_held();
+      if (!not_held.empty())
+        {
+          stop(NewtonStatus::not_held, not_held);
+          return report;
+        }
       // The first residual may be a linearised one.
       if (system.linearised() && small())
         evaluate(false);

@@ -208,7 +208,12 @@ namespace moraine
     bool
     PathIteration::predict()
     {
-      if (!assemble() || !find_rate())
+      if (!assemble())
+        return false;
+      const std::string not_held = system.why_not_held();
+      if (!not_held.empty())
+        return stop(NewtonStatus::not_held, not_held);
+      if (!find_rate())
         return false;
       measure.start();
       const double length = std::sqrt(product(rate, rate));

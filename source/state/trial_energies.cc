@@ -61,8 +61,9 @@ namespace moraine
                         const Tensor<1, 3>          &p,
                         const Tensor<2, 3>          &dp)
     {
-      const Tensor<2, 3> &e = principal.directions;
-      const Tensor<2, 3>  t = e * Tensor<2, 3>(T) * transpose(e);
+      const Tensor<2, 3> &e     = principal.directions;
+      const Tensor<2, 3>  t     = e * Tensor<2, 3>(T) * transpose(e);
+      const double        equal = equal_strains(strain);
       Tensor<2, 3>        g;
       for (unsigned int B = 0; B < 3; ++B)
         for (unsigned int A = 0; A < 3; ++A)
@@ -70,10 +71,9 @@ namespace moraine
             g[B][B] += t[A][A] * dp[A][B];
             if (A == B)
               continue;
-            constexpr double equal      = 1e-6;
-            const double     difference = strain[A] - strain[B];
+            const double difference = strain[A] - strain[B];
             g[A][B] =
-              t[A][B] * (std::abs(difference) < equal ?
+              t[A][B] * (std::abs(difference) <= equal ?
                            0.5 * (dp[A][A] - dp[A][B] + dp[B][B] - dp[B][A]) :
                            (p[A] - p[B]) / std::tanh(difference));
           }

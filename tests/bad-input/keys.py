@@ -44,6 +44,10 @@ for name, settings in (
         ("stiffness damping", {"Time/Integrator": "Newmark",
                                "Bodies/block/Stiffness damping": 0.1})):
     refused(f"cell means, {name}", settings={**MEAN, **settings})
+refused("symmetric Nitsche in the middle of a step",
+        settings={"Boundaries/left/Enforcement": "symmetric Nitsche",
+                  "Materials/soil/Density": 1,
+                  "Time/Integrator": "energy-momentum"})
 refused("more than a full cell", settings={"Method/Aggregate below": 1.5})
 refused("part of a cell in words", settings={"Method/Aggregate below": "half"})
 refused("more than a full cell, of a body",

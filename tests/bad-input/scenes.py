@@ -96,6 +96,12 @@ refused("point grid with one number", {block + "Point grid": 4})
 refused("point grid with a zero", {block + "Point grid": "4, 0"})
 refused("point grid outside", {block + "Point grid": "4, 4",
                                block + "Translation": "100, 0"})
+refused("point grid in part outside", {
+    "Bodies/second/Lower corner": "6, 6.2", "Bodies/second/Upper corner": "7.5, 8.3",
+    "Bodies/second/Point grid": "4, 3"})
+refused("point grid over another body", {
+    "Bodies/second/Lower corner": "3, 3", "Bodies/second/Upper corner": "5, 6",
+    "Bodies/second/Point grid": "4, 3"})
 
 # Each part is judged by its own stiffness: this one is held.
 soft = run(scene, {

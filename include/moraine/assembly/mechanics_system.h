@@ -154,6 +154,10 @@ namespace moraine
     void
     check_that_it_is_held(const bool first_step) const;
 
+    /** The same of a tangent whose couplings are new, for the solver. */
+    std::string
+    why_not_held() const override;
+
     using Which = std::function<bool(const Term<dim> &)>;
 
     /** What some terms are of all, as assembled last. */

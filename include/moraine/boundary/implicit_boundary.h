@@ -119,6 +119,9 @@ namespace moraine
      * each of its components, columns in the surface's own frame. */
     dealii::Tensor<2, dim> slope;
     double                 area = 0; ///< of the surface that it stands for
+    /** Outward, in the surface's own frame. */
+    dealii::Tensor<1, dim> normal;
+    double                 h = 0; ///< size of the cell it was in
     /** Cell and number of the point it was: names that ranks share. */
     std::array<unsigned int, 2> id;
 
@@ -126,7 +129,7 @@ namespace moraine
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &place &multiplier &violation &slope &area &id;
+      archive &place &multiplier &violation &slope &area &normal &h &id;
     }
   };
 
@@ -299,6 +302,10 @@ namespace moraine
     /** Carry what was prepared. */
     void
     keep() noexcept;
+
+    /** Carry nothing: it begins to act, maybe anew. */
+    void
+    forget() noexcept;
 
     /** What it carries, in the group "boundaries/" and its name. */
     void
@@ -553,10 +560,12 @@ namespace moraine
     places_of_points() const;
 
     /**
-     * Give every point what the nearest carried place of all ranks has. A point
-     * that stands for a piece of a cell gets the mean, by area, of the places
-     * that it is the nearest point to, if there are any: where it takes the
-     * place of several, the force stays the same.
+     * Give every point what the nearest carried place of all ranks has, if one
+     * is near and faces the same way: the next side of a corner and places of
+     * another body are no place of it. A point that stands for a piece of a
+     * cell gets the mean, by area, of the places that it is the nearest point
+     * to, if there are any: where it takes the place of several, the force
+     * stays the same.
      */
     void
     take_over_nearest(const MPI_Comm &communicator);

@@ -109,6 +109,21 @@ namespace moraine
   }
 
   /**
+   * Principal strains that differ by no more than this are equal in a tangent:
+   * of a difference quotient of stresses, round-off would leave less than the
+   * limit is off by. It goes with the strains, as yield strains may be small.
+   */
+  inline double
+  equal_strains(const dealii::Tensor<1, 3> &strain)
+  {
+    return 1e-7 *
+           std::max(
+             {std::abs(strain[0]), std::abs(strain[1]), std::abs(strain[2])});
+  }
+
+
+
+  /**
    * The spatial tangent @f$c@f$ of the Kirchhoff stress, with which a material
    * frame's rate obeys @f$L_v \tau = c : d@f$ (at small strain
    * @f$c = \partial\sigma/\partial\varepsilon@f$). In principal directions
@@ -152,6 +167,7 @@ namespace moraine
       for (unsigned int I = 0; I < n; ++I)
         m[A][I] = e[A][pairs[I][0]] * e[A][pairs[I][1]];
 
+    const double     equal = equal_strains(trial_strain);
     VoigtMatrix<dim> c{};
     for (unsigned int A = 0; A < dim; ++A)
       for (unsigned int B = 0; B < dim; ++B)
@@ -164,11 +180,10 @@ namespace moraine
     for (unsigned int A = 0; A < dim; ++A)
       for (unsigned int B = A + 1; B < dim; ++B)
         {
-          constexpr double equal      = 1e-6;
-          const double     difference = trial_strain[A] - trial_strain[B];
-          double           shear      = std::abs(difference) < equal ?
-                                          0.25 * (D[A][A] - D[A][B] + D[B][B] - D[B][A]) :
-                                          0.5 * (tau[A] - tau[B]) /
+          const double difference = trial_strain[A] - trial_strain[B];
+          double       shear      = std::abs(difference) <= equal ?
+                                      0.25 * (D[A][A] - D[A][B] + D[B][B] - D[B][A]) :
+                                      0.5 * (tau[A] - tau[B]) /
                              (finite ? std::tanh(difference) : difference);
           if (finite)
             shear -= 0.5 * (tau[A] + tau[B]);

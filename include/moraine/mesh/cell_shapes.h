@@ -152,7 +152,9 @@ namespace moraine
           }
         const dealii::Tensor<1, dim> step = dealii::invert(J) * residual;
         xi += step;
-        if (step.norm_square() < 1e-30)
+        // Steps shrink to their squares; far from the origin round-off of x
+        // keeps them from shrinking further.
+        if (step.norm_square() < 1e-20)
           break;
       }
     return xi;

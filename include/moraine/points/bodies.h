@@ -27,15 +27,26 @@ namespace moraine
       , shape(shape)
     {}
 
-    /** The points are given. */
-    Body(const std::string &name, const PointList<dim> &listed)
+    /** The points are given, and fill @p outline if that is not null. */
+    Body(const std::string                       &name,
+         const PointList<dim>                    &listed,
+         const std::shared_ptr<const Shape<dim>> &outline = nullptr)
       : name(name)
       , listed(listed)
+      , outline(outline)
     {}
+
+    /** What it fills; null if that is not known. */
+    const std::shared_ptr<const Shape<dim>> &
+    filled() const
+    {
+      return shape ? shape : outline;
+    }
 
     std::string                       name;
     std::shared_ptr<const Shape<dim>> shape; ///< null if the points are given
     PointList<dim>                    listed;
+    std::shared_ptr<const Shape<dim>> outline; ///< of the points given
   };
 
 

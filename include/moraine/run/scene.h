@@ -137,6 +137,10 @@ namespace moraine
     bool
     any_yields() const;
 
+    /** Whether some integrator has the energy of the motion as it was. */
+    bool
+    conserves_energy() const;
+
     /** Whether some integrator divides steps into two parts. */
     bool
     divides_steps() const;

@@ -65,6 +65,16 @@ namespace moraine
     }
 
     /**
+     * After the first tangent of a step: why it determines no solution, as of a
+     * body that nothing holds, or "". Collective.
+     */
+    virtual std::string
+    why_not_held() const
+    {
+      return "";
+    }
+
+    /**
      * Where an unknown is, as "the node at (1 2)", or "". Collective.
      */
     virtual std::string
