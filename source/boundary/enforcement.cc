@@ -18,20 +18,20 @@ namespace moraine
       "How the constraint is imposed: Nitsche's method (skew or symmetric), a "
       "penalty with multipliers that take its place until the constraint holds "
       "(augmented Lagrangian), the Dirichlet-weighted basis of a thin band, or "
-      "a penalty alone. If left out with finite strain, or with a "
-      "material that yields: augmented Lagrangian with a band of 0.01, because "
-      "Nitsche's flux is elastic and linear in the increment of a step; else "
-      "in dynamics symmetric Nitsche, because the skew flux feeds vibrations.",
+      "a penalty alone. If left out with finite strain, with a material that "
+      "yields or with 'Integrator = energy-momentum': augmented Lagrangian "
+      "with a band of 0.01, because Nitsche's flux is elastic, linear in the "
+      "increment of a step and that of its end; else in dynamics symmetric "
+      "Nitsche, because the skew flux feeds vibrations.",
       Patterns::Selection("skew Nitsche|symmetric Nitsche|augmented Lagrangian|"
                           "weighted|penalty"));
-    prm.add_parameter(
-      "Band width",
-      band_width,
-      "Width of the band over the cell size, delta/h: of "
-      "'weighted', whose error is of its order, and of "
-      "'augmented Lagrangian', whose penalty is 4/(3 delta); "
-      "0.01 there if left out with finite strain or a material that yields.",
-      Patterns::Double(1e-12, 1.));
+    prm.add_parameter("Band width",
+                      band_width,
+                      "Width of the band over the cell size, delta/h: of "
+                      "'weighted', whose error is of its order, and of "
+                      "'augmented Lagrangian', whose penalty is 4/(3 delta); "
+                      "0.01 there if it is the default and this is left out.",
+                      Patterns::Double(1e-12, 1.));
     prm.add_parameter(
       "Nitsche factor",
       nitsche_factor,

@@ -14,6 +14,44 @@ namespace moraine
 
   namespace
   {
+    /** Levels that are zero but for round-off, over the cell size. */
+    constexpr double on_surface = 1e-6;
+
+    /** Gaps that are slips of drawing, over the cell size: bodies that share
+     * nodes bear each other. */
+    constexpr double smallest_gap = 1e-2;
+
+
+
+    /** Directions perpendicular to @p up, opposite ones in pairs; in 3D four,
+     * along no plane that a scene is likely to have. */
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    sideways(const Tensor<1, dim> &up)
+    {
+      if constexpr (dim == 2)
+        {
+          const Tensor<1, dim> a = cross_product_2d(up);
+          return {a, -a};
+        }
+      else
+        {
+          unsigned int smallest = 0;
+          for (unsigned int d = 1; d < dim; ++d)
+            if (std::abs(up[d]) < std::abs(up[smallest]))
+              smallest = d;
+          Tensor<1, dim> axis;
+          axis[smallest]   = 1;
+          Tensor<1, dim> a = cross_product_3d(up, axis);
+          a /= a.norm();
+          const Tensor<1, dim> b = cross_product_3d(up, a);
+          const double         c = std::cos(0.3), s = std::sin(0.3);
+          return {c * a + s * b, c * b - s * a, -c * a - s * b, s * a - c * b};
+        }
+    }
+
+
+
     /** Where the line x + s up meets the facet, if it does beyond x. */
     template <int dim>
     std::optional<double>
@@ -86,7 +124,7 @@ namespace moraine
 
 
   template <int dim>
-  void
+  bool
   Overburden<dim>::add_parts(const unsigned int    b,
                              const Point<dim>     &x,
                              const Tensor<1, dim> &up,
@@ -97,13 +135,17 @@ namespace moraine
       return bodies[b]->level(x + s * up);
     };
     double s = 0, value = level(0.), begin = 0;
+    bool   runs_along = false;
     while (s < length)
       {
         const double next =
           std::min(length,
                    s + std::clamp(std::abs(value), cell_size / 32, cell_size));
         const bool was_inside = value > 0;
+        const bool was_on_it  = std::abs(value) <= on_surface * cell_size;
         value                 = level(next);
+        runs_along            = runs_along ||
+                     (was_on_it && std::abs(value) <= on_surface * cell_size);
         if ((value > 0) != was_inside)
           {
             double lower = s, upper = next;
@@ -120,22 +162,24 @@ namespace moraine
       }
     if (value > 0)
       parts.push_back({begin, length, b});
+    return runs_along;
   }
 
 
 
   template <int dim>
   typename Overburden<dim>::Column
-  Overburden<dim>::above(const Point<dim>          &x,
-                         const unsigned int         body,
-                         const Tensor<1, dim>      &up,
-                         const std::vector<double> &weights) const
+  Overburden<dim>::column(const Point<dim>          &x,
+                          const unsigned int         body,
+                          const Tensor<1, dim>      &up,
+                          const std::vector<double> &weights,
+                          bool                      &runs_along) const
   {
     const double      length = length_in_mesh(x, up);
     std::vector<Part> parts;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (bodies[b])
-        add_parts(b, x, up, length, parts);
+        runs_along = add_parts(b, x, up, length, parts) || runs_along;
     std::sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
       return a.begin < b.begin;
     });
@@ -143,7 +187,7 @@ namespace moraine
     double reached = 0;
     for (const Part &part : parts)
       {
-        if (part.begin > reached + 1e-6 * cell_size)
+        if (part.begin > reached + smallest_gap * cell_size)
           break;
         column.pressure += weights[part.body] * (part.end - part.begin);
         column.top = part.body;
@@ -151,6 +195,26 @@ namespace moraine
       }
     column.surface = x + reached * up;
     return column;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename Overburden<dim>::Column>
+  Overburden<dim>::above(const Point<dim>          &x,
+                         const unsigned int         body,
+                         const Tensor<1, dim>      &up,
+                         const std::vector<double> &weights) const
+  {
+    bool         runs_along = false;
+    const Column straight   = column(x, body, up, weights, runs_along);
+    if (!runs_along)
+      return {straight};
+    std::vector<Column> beside;
+    for (const Tensor<1, dim> &shift : sideways(up))
+      beside.push_back(column(
+        x + 4 * on_surface * cell_size * shift, body, up, weights, runs_along));
+    return beside;
   }
 
 

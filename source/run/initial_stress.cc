@@ -187,11 +187,16 @@ namespace moraine
                     "material with a 'Density' in a body it acts on";
             throw InputError(text.str());
           }
-        const Tensor<1, dim> up     = -g;
-        const auto           column = overburden->above(x, body, up, weights);
-        const auto          &load   = surcharge[column.top];
-        const double         vertical =
-          column.pressure + (load ? load->value(column.surface) : 0.);
+        const Tensor<1, dim> up       = -g;
+        const auto           columns  = overburden->above(x, body, up, weights);
+        double               vertical = 0;
+        for (const auto &column : columns)
+          {
+            const auto &load = surcharge[column.top];
+            vertical +=
+              (column.pressure + (load ? load->value(column.surface) : 0.)) /
+              columns.size();
+          }
         SymmetricTensor<2, 3> stress;
         for (unsigned int d = 0; d < 3; ++d)
           stress[d][d] = -horizontal_share(x) * vertical;

@@ -184,7 +184,8 @@ namespace moraine
                   !have_common_node<dim>(model.points->cell_of(p), cell))
                 continue;
               const double depth = depth_around(shape, gap->middle, h);
-              if (depth < h && 2 * depth < narrowest.first)
+              // The joint of two operands is none.
+              if (depth > 1e-6 * h && depth < h && 2 * depth < narrowest.first)
                 narrowest = {2 * depth, gap->middle};
             }
         }

@@ -163,6 +163,8 @@ def main():
         run = None
         if args.history is not None:
             render.fail(f"--history: there is no folder '{args.files[0]}'")
+        if not pathlib.Path(args.files[0]).exists():
+            render.fail(f"there is no folder or file '{args.files[0]}'")
     elif len(args.files) > 1:
         render.fail("one folder at a time; or several VTU files")
     if run is None and not args.output:

@@ -123,7 +123,11 @@ TEST(ImplicitBoundary, ARollersMultiplierGoesWithItsNormal)
     {
       const TurningLine line(Constraint<2>::roller, measure);
       EXPECT_GT((line.turned(0, 1) - traction).norm(), 0.1);
-      line.expect(line.turned(0, 1));
+      // What is along the line is no pressure of a roller.
+      const Tensor<1, 2> along =
+        line.motion.pose(1).rotation() * Tensor<1, 2>({0.2, 1.7});
+      const Tensor<1, 2> turned = line.turned(0, 1);
+      line.expect(turned - (turned * along) / along.norm_square() * along);
     }
 }
 
@@ -148,7 +152,7 @@ TEST(ImplicitBoundary, WhatItCarriesGoesThroughAnArchive)
     {
       EXPECT_EQ(copy.points()[q].x, points[q].x);
       EXPECT_EQ(copy.points()[q].multiplier, points[q].multiplier);
-      EXPECT_GT(points[q].multiplier.norm(), 1.);
+      EXPECT_GT(points[q].multiplier.norm(), 0.5);
     }
   Archive again;
   copy.write(again);

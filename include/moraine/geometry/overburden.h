@@ -29,7 +29,8 @@ namespace moraine
      * @param bodies their shapes; null for those that are not there
      * @param mesh_box bodies without limits end at its sides
      * @param cell_size bodies thinner than a 32nd of it may be missed, and if
-     * they are expressions, than itself; gaps below its millionth are round-off
+     * they are expressions, than itself; gaps below its hundredth are none:
+     * such bodies bear each other
      * @param mesh_surface where bodies end, too, if the mesh is no box
      */
     Overburden(const std::vector<ShapePointer<dim>> &bodies,
@@ -46,11 +47,14 @@ namespace moraine
     };
 
     /**
+     * What counts by its mean: one line, or where that runs along the edge of a
+     * body, as between two that stand side by side, those close beside it.
+     *
      * Of @p x in body @p body, with the direction @p up of unit length.
      * @p weights are those of the bodies per volume,
      * @f$\rho\,|g|@f$ [force/length^dim].
      */
-    Column
+    std::vector<Column>
     above(const dealii::Point<dim>     &x,
           const unsigned int            body,
           const dealii::Tensor<1, dim> &up,
@@ -64,8 +68,17 @@ namespace moraine
       unsigned int body;
     };
 
-    /** Those of body @p b up to @p length. */
-    void
+    /** One line; set @p runs_along if it runs along the edge of a body. */
+    Column
+    column(const dealii::Point<dim>     &x,
+           const unsigned int            body,
+           const dealii::Tensor<1, dim> &up,
+           const std::vector<double>    &weights,
+           bool                         &runs_along) const;
+
+    /** Those of body @p b up to @p length. @return whether the line runs along
+     * its edge somewhere. */
+    bool
     add_parts(const unsigned int            b,
               const dealii::Point<dim>     &x,
               const dealii::Tensor<1, dim> &up,

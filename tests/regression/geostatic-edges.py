@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Ground at rest: points straight below the joint of two bodies bear what stands on
+both sides of it, and a coordinate that was rounded is no gap."""
+
+GROUND = """
+set Dimension = {dim}
+subsection Mesh
+  set Lower corner = {lower}
+  set Upper corner = {upper}
+  set Cell size    = 1
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 30e3
+    set Poisson ratio = 0.35
+    set Density       = 1.9
+  end
+end
+subsection Grid conditions
+  subsection left
+    set Side       = left
+    set Components = x
+  end
+  subsection right
+    set Side       = right
+    set Components = x
+  end
+  subsection bottom
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = gravity
+    set Value = {gravity}
+  end
+end
+"""
+SIDES_3D = """
+subsection Grid conditions
+  subsection front
+    set Side       = front
+    set Components = y
+  end
+  subsection back
+    set Side       = back
+    set Components = y
+  end
+end
+"""
+
+
+def body(name, keys):
+    lines = "".join(f"    set {key} = {value}\n" for key, value in keys.items())
+    return (f"subsection Bodies\n  subsection {name}\n{lines}"
+            "    set Initial stress = geostatic\n    set K0 = 0.6\n  end\nend\n")
+
+
+def box(name, lower, upper):
+    return body(name, {"Lower corner": lower, "Upper corner": upper})
+
+
+def at_rest(title, scene, limit, settings=None):
+    file = folder / "ground.prm"
+    file.write_text(scene)
+    ground = run(file, settings)
+    upward = 2 if "Dimension = 3" in scene else 1
+    points = ground.points("stress", "position")
+    bound(f"{title}: vertical stress over weight - 1",
+          max(abs(stress[4 * upward] / (19 * x[upward]) - 1)
+              for stress, x in points), limit)
+
+
+FLAT = GROUND.format(dim=2, lower="-4, -6", upper="4, 1", gravity="0; -10")
+TWO = (FLAT + box("clay", "-4, -6", "4, -3") + box("a", "-4, -3", "0.75, 0")
+       + box("b", "0.75, -3", "4, 0"))
+for method in ("material point", "GIMP", "CPDI2"):
+    at_rest(f"two fills, {method}", TWO, 1e-9, {"Method/Method": method})
+at_rest("two fills, finite element, degree 2", TWO.replace("0.75", "0.5"), 1e-6,
+        {"Method/Method": "finite element", "Method/Degree": 2})
+at_rest("3D", GROUND.format(dim=3, lower="-2, -2, -4", upper="2, 2, 1",
+                            gravity="0; 0; -10") + SIDES_3D
+        + box("clay", "-2, -2, -4", "2, 2, -2")
+        + box("a", "-2, -2, -2", "0.75, 0.25, 0")
+        + box("b", "0.75, -2, -2", "2, 0.25, 0")
+        + box("c", "-2, 0.25, -2", "2, 2, 0"), 1e-9)
+
+# A vertex that is half a millimetre too high.
+LAYERS = FLAT + body("below", {
+    "Shape": "polygon", "Vertices": "-4 -6; 4 -6; 4 -2.4; -4 -3.5"}) + body(
+    "above", {"Shape": "polygon",
+              "Vertices": "-4 -3.5; 1 {y}; 4 -2.4; 4 0; -4 0"})
+at_rest("layers that meet", LAYERS.replace("{y}", "-2.8125"), 2e-3)
+at_rest("layers 0.5 mm apart", LAYERS.replace("{y}", "-2.812"), 2e-3)
