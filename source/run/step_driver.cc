@@ -495,8 +495,12 @@ namespace moraine
         model.system
             ->share([this](const Term<dim> &term) { return &term == support; })
             .of_forces > largest_empty_share)
-      return "what points leave empty would carry the load: too few points in "
-             "the cells, or a body that is not held";
+      return std::string("what points leave empty would carry the load: too "
+                         "few points in the cells, ") +
+             (scene.any_yields() ?
+                "a body that is not held, or a limit load of material that "
+                "yields" :
+                "or a body that is not held");
     return model.system->reason_to_reject(x);
   }
 
