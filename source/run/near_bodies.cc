@@ -17,38 +17,37 @@ namespace moraine
 {
   using namespace dealii;
 
+  template <int dim>
+  std::vector<std::vector<Tensor<1, dim>>>
+  touched_nodes(const Model<dim> &model)
+  {
+    const unsigned int                       n = model.space->n_nodes();
+    std::vector<std::vector<Tensor<1, dim>>> touched(
+      model.bodies.size(), std::vector<Tensor<1, dim>>(n));
+    StencilBlock<dim> block;
+    for (unsigned int g = 0; g < model.basis->n_batches(); ++g)
+      {
+        model.basis->evaluate(g, block);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            std::vector<Tensor<1, dim>> &of_body =
+              touched[model.points->body(block.points[p])];
+            for (unsigned int a = 0; a < block.n_nodes; ++a)
+              if (block.N(p)[a] > 0)
+                of_body[block.nodes[a]][0] = 1;
+          }
+      }
+    for (std::vector<Tensor<1, dim>> &of_body : touched)
+      model.space->sum_over_ranks(of_body);
+    return touched;
+  }
+
+
+
   namespace
   {
     /** Of a cell: a gap that is meant. */
     constexpr double least_gap = 0.05;
-
-
-
-    /** For each body 1 at the nodes that its points touch, on any rank. */
-    template <int dim>
-    std::vector<std::vector<Tensor<1, dim>>>
-    touched_nodes(const Model<dim> &model)
-    {
-      const unsigned int                       n = model.space->n_nodes();
-      std::vector<std::vector<Tensor<1, dim>>> touched(
-        model.bodies.size(), std::vector<Tensor<1, dim>>(n));
-      StencilBlock<dim> block;
-      for (unsigned int g = 0; g < model.basis->n_batches(); ++g)
-        {
-          model.basis->evaluate(g, block);
-          for (unsigned int p = 0; p < block.n_points; ++p)
-            {
-              std::vector<Tensor<1, dim>> &of_body =
-                touched[model.points->body(block.points[p])];
-              for (unsigned int a = 0; a < block.n_nodes; ++a)
-                if (block.N(p)[a] > 0)
-                  of_body[block.nodes[a]][0] = 1;
-            }
-        }
-      for (std::vector<Tensor<1, dim>> &of_body : touched)
-        model.space->sum_over_ranks(of_body);
-      return touched;
-    }
 
 
 
@@ -149,6 +148,10 @@ namespace moraine
 
 
 
+  template std::vector<std::vector<Tensor<1, 2>>>
+  touched_nodes(const Model<2> &);
+  template std::vector<std::vector<Tensor<1, 3>>>
+  touched_nodes(const Model<3> &);
   template void
   tell_of_near_bodies(const Model<2> &,
                       const std::vector<std::string> &,

@@ -3,6 +3,8 @@
 
 #include <moraine/run/pass_watch.h>
 
+#include <moraine/run/near_bodies.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -130,6 +132,42 @@ namespace moraine
 
   template <int dim>
   std::string
+  PassWatch<dim>::pair_that_sticks(const std::vector<Box> &start,
+                                   const std::vector<Box> &now)
+  {
+    const auto  &names = model.body_names;
+    const double far   = apart * model.mesh->cell_size();
+    std::vector<std::vector<Tensor<1, dim>>> touched;
+    for (unsigned int a = 0; a < now.size(); ++a)
+      for (unsigned int b = a + 1; b < now.size(); ++b)
+        {
+          const std::string pair = names[a] + " and " + names[b];
+          if (!model.present[a] || !model.present[b] || told.count(pair) > 0 ||
+              !(overlap(start[a], start[b]) < -far) ||
+              !(overlap(now[a], now[b]) > -far))
+            continue;
+          if (touched.empty())
+            touched = touched_nodes(model);
+          bool share = false;
+          for (unsigned int node = 0; node < touched[a].size(); ++node)
+            share =
+              share || (touched[a][node][0] > 0 && touched[b][node][0] > 0);
+          if (!Utilities::MPI::logical_or(share, model.space->communicator()))
+            continue;
+          told.insert(pair);
+          return pair +
+                 ", drawn apart, touch the same nodes: there is no contact, "
+                 "they press on each other up to two cells before they meet, "
+                 "stick together, and pull when they part; smaller cells bring "
+                 "that later";
+        }
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
   PassWatch<dim>::side_passed(const StageParameters  &stage,
                               const std::vector<Box> &now)
   {
@@ -166,15 +204,18 @@ namespace moraine
   std::string
   PassWatch<dim>::look(const StageParameters &stage, const double t)
   {
-    if (model.state->mesh_after_step() == MeshAfterStep::reset ||
-        model.points->forgotten_displacement() > 0 ||
+    const bool moves_through_mesh =
+      model.state->mesh_after_step() == MeshAfterStep::reset;
+    if (model.points->forgotten_displacement() > 0 ||
+        (moves_through_mesh && model.body_names.size() < 2) ||
         !(since_look > told_overlap * model.mesh->cell_size()))
       return "";
     since_look                   = 0;
     const std::vector<Box> start = boxes_of_bodies(false);
     const std::vector<Box> now   = boxes_of_bodies(true);
-    std::string            found = pair_that_met(start, now);
-    if (found.empty() && model.mesh->box_grid())
+    std::string found = moves_through_mesh ? pair_that_sticks(start, now) :
+                                             pair_that_met(start, now);
+    if (found.empty() && !moves_through_mesh && model.mesh->box_grid())
       found = side_passed(stage, now);
     if (found.empty())
       return "";

@@ -50,9 +50,14 @@ text("note before step", next(
         turning.output.index("note:"):].splitlines() if " t = " in line))
 
 # One row of cells with one point each does not resist bending.
-row = run("tests/bad-input/base.prm", {
-    "Method/Points per direction": 1,
-    "Bodies/block/Lower corner": "0.5, 1.2",
-    "Bodies/block/Upper corner": "4.5, 1.8",
-    "Boundaries/left/Points": "0.5 1.8; 0.5 1.2"}, expect=1)
-text("refused", row.summary["message"].split(". ")[0])
+ROW = {"Method/Points per direction": 1,
+       "Bodies/block/Lower corner": "0.5, 1.2",
+       "Bodies/block/Upper corner": "4.5, 1.8",
+       "Boundaries/left/Points": "0.5 1.8; 0.5 1.2"}
+for name, material in (("elastic", {}),
+                       ("yields", {"Materials/soil/Model": "von Mises",
+                                   "Materials/soil/Shear yield stress": 1e6})):
+    row = run("tests/bad-input/base.prm", {
+        **ROW, "Boundaries/left/Enforcement": "skew Nitsche", **material},
+        expect=1)
+    text(f"refused, {name}", row.summary["message"].split(". ")[0])

@@ -315,11 +315,14 @@ end
 """
 flight = folder / "flight.prm"
 for method, velocity in (("finite element", "1; 0"), ("finite element", "0; -0.5"),
-                         ("finite element", "0.2; 0"), ("GIMP", "1; 0")):
+                         ("finite element", "0.2; 0"), ("GIMP", "1; 0"),
+                         ("GIMP", "0; 0.1"), ("CPDI2", "1; 0"),
+                         ("material point", "1; 0")):
     flight.write_text(FLIGHT.format(method=method, velocity=velocity))
     output = run(flight, expect=None).output
     text(f"{method}, {velocity}: told of passing",
          f"{output.count('moved into each other')} {output.count('moved through')}")
+    text("  of sticking together", output.count("touch the same nodes"))
 
 # Boxes of points in rows have their proportions, turned with the body.
 for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):

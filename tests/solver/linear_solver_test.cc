@@ -122,7 +122,7 @@ TEST(LinearSolver, RotationsInTheNearNullSpacePay)
 // Newmark's method, average acceleration: 4 / (time step)^2 times the mass.
 TEST(LinearSolver, InertiaNeedsNoSmoothCoarseSpace)
 {
-  const unsigned int n         = 16;
+  const unsigned int n         = 12;
   const auto         is_smooth = [](const Elasticity<3> &problem) {
     const MultigridOptions options(*problem.matrix, true, problem.modes, 3);
     return options.list.get<double>("aggregation: damping factor") > 0;

@@ -11,6 +11,12 @@
 
 namespace moraine
 {
+  /** For each body, 1 in the first component at the nodes that its points
+   * touch, on any rank. In a step that has begun. Collective. */
+  template <int dim>
+  std::vector<std::vector<dealii::Tensor<1, dim>>>
+  touched_nodes(const Model<dim> &model);
+
   /**
    * Add to @p notes which bodies are drawn apart and stick together all the
    * same, as they touch the same nodes: across a gap of up to two cells, or

@@ -18,8 +18,10 @@ namespace moraine
    * Looks whether bodies whose nodes stay with the material, which know nothing
    * of each other, move into each other, or through a side of the mesh that has
    * a condition and no body at it. Goes by the boxes around bodies along the
-   * axes: what was apart at the start and overlaps by now. Displacements that
-   * a stage has reset end it.
+   * axes: what was apart at the start and overlaps by now. Where points move
+   * through the mesh, whether bodies with such boxes come to touch the same
+   * nodes, by which they hang together. Displacements that a stage has reset
+   * end it.
    */
   template <int dim>
   class PassWatch : public StatePart
@@ -57,6 +59,11 @@ namespace moraine
 
     std::string
     pair_that_met(const std::vector<Box> &start, const std::vector<Box> &now);
+
+    /** Collective. */
+    std::string
+    pair_that_sticks(const std::vector<Box> &start,
+                     const std::vector<Box> &now);
 
     std::string
     side_passed(const StageParameters &stage, const std::vector<Box> &now);
