@@ -1,3 +1,4 @@
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What a place of a boundary carries is its own: not that of the next side of a

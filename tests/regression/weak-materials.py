@@ -1,4 +1,4 @@
-# ranks: 1
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Newton's tangent is right however small the strains are at which a material
