@@ -63,17 +63,16 @@ namespace moraine
 
 
 
-    /** Volume of the cell that the points given for a body fill. */
+    /** Volume of the cell that points with this outline fill. */
     template <int dim>
     double
-    listed_in_cell(const Body<dim>           &body,
+    listed_in_cell(const Shape<dim>          &outline,
                    const ConvexPolytope<dim> &cell,
                    const BoundingBox<dim>    &cell_box)
     {
-      if (!body.outline ||
-          intersection(body.outline->bounding_box(), cell_box).volume() == 0.)
-        return 0.;
-      return body.outline->clip(cell).volume;
+      return intersection(outline.bounding_box(), cell_box).volume() == 0. ?
+               0. :
+               outline.clip(cell).volume;
     }
 
 
@@ -98,9 +97,11 @@ namespace moraine
           seeded.clear();
           if (bodies[b].shape)
             seeder.seed(vertices, *bodies[b].shape, seeded);
-          const double listed = listed_in_cell(bodies[b],
-                                               ConvexPolytope<dim>(vertices),
-                                               cell->bounding_box());
+          const double listed = bodies[b].outline ?
+                                  listed_in_cell(*bodies[b].outline,
+                                                 ConvexPolytope<dim>(vertices),
+                                                 cell->bounding_box()) :
+                                  0.;
           listed_volumes[b] += listed;
           if (seeded.empty() && listed == 0.)
             continue;
