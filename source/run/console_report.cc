@@ -6,6 +6,7 @@
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
+#include <moraine/run/resume.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -430,7 +431,14 @@ namespace moraine
   void
   ConsoleReport<dim>::print_timings(const Summary &summary)
   {
-    console << '\n' << "  part                       seconds   share\n";
+    // The clock of a run that goes on begins anew.
+    const std::string since =
+      options.saved ?
+        "since step " + std::to_string(options.saved->label.step) :
+        "";
+    console << "\n  " << std::left << std::setw(24)
+            << (since.empty() ? "part" : "part, " + since) << std::right
+            << std::setw(10) << "seconds" << std::setw(8) << "share" << '\n';
     double rest = summary.wall_seconds;
     for (const auto &[name, seconds] : summary.timings)
       rest -= seconds;
@@ -442,7 +450,8 @@ namespace moraine
               << std::setprecision(1) << std::setw(7)
               << 100 * seconds / std::max(summary.wall_seconds, 1e-12)
               << " %\n";
-    console << "  " << std::left << std::setw(24) << "whole run" << std::right
+    console << "  " << std::left << std::setw(24)
+            << (since.empty() ? "whole run" : "all " + since) << std::right
             << std::setprecision(3) << std::setw(10) << summary.wall_seconds
             << std::defaultfloat << "\n";
   }

@@ -137,7 +137,7 @@ def pvd_entries(path):
 
 def steps_in_log(path):
     """What the log says of steps, without the notes of those who went on."""
-    lines = path.read_text().split("\n  part  ")[0].splitlines()
+    lines = re.split(r"\n  part[ ,]", path.read_text())[0].splitlines()
     return [line for line in lines
             if "results in" not in line and "goes on after" not in line]
 
