@@ -25,7 +25,7 @@ namespace moraine
   namespace
   {
     /** Of the data sets of a checkpoint and what they mean. */
-    constexpr unsigned int format_number = 11;
+    constexpr unsigned int format_number = 12;
 
     constexpr std::array<const char *, 2> slots{{"a", "b"}};
 

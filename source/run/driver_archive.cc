@@ -122,6 +122,7 @@ namespace moraine
     archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
     archive.write("run/stiffness_of_empty_parts", accepted_fraction);
     archive.write("run/geometric_share", share_of_last_step);
+    archive.write("run/strain_at_resets", largest_strain_at_resets);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
     checks.write(archive);
@@ -147,8 +148,9 @@ namespace moraine
         model.state->begin_step();
       }
     lasting.read(archive);
-    accepted_fraction  = archive.number("run/stiffness_of_empty_parts");
-    share_of_last_step = archive.number("run/geometric_share");
+    accepted_fraction        = archive.number("run/stiffness_of_empty_parts");
+    share_of_last_step       = archive.number("run/geometric_share");
+    largest_strain_at_resets = archive.number("run/strain_at_resets");
     if (archive.integer("run/empty_parts_have_stiffness") != 0)
       {
         auto term =

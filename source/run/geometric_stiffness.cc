@@ -284,16 +284,16 @@ namespace moraine
 
   template <int dim>
   std::vector<std::string>
-  doubts_of_geometric_stiffness(const Model<dim> &model, const double share)
+  doubts_of_geometric_stiffness(const Model<dim> &model,
+                                const double      share,
+                                const double      strain_at_resets)
   {
     if (!(share >= told_geometric_share))
       return {};
-    const auto strains = mean_strains(*model.points,
-                                      model.mesh->cell_size(),
-                                      model.body_names.size(),
-                                      model.space->communicator());
-    if (share <
-        slender_share * *std::max_element(strains.begin(), strains.end()))
+    double strain = strain_at_resets;
+    for (const double of_body : mean_strains(model))
+      strain = std::max(strain, of_body);
+    if (share < slender_share * strain)
       return {};
     std::ostringstream text;
     text << "stress is " << std::setprecision(2) << share
@@ -313,7 +313,7 @@ namespace moraine
                                                     const LA::Vector &,              \
                                                     const LinearSolverParameters &); \
   template std::vector<std::string> doubts_of_geometric_stiffness(                   \
-    const Model<dim> &, const double);
+    const Model<dim> &, const double, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -10,6 +10,7 @@
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/geometric_stiffness.h>
 #include <moraine/run/step_failure.h>
+#include <moraine/run/strain_signs.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -212,12 +213,26 @@ namespace moraine
     checks.stage_begins(parameters.bodies != before.bodies,
                         parameters.time.integrator.dynamic() &&
                           !before.time.integrator.dynamic());
+    if (parameters.reset_displacements)
+      look_back_at_strain();
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction, false);
     for (const std::string &note : notes)
       tell(note);
     stage_is_begun = true;
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::look_back_at_strain()
+  {
+    for (const double strain : mean_strains(model))
+      largest_strain_at_resets = std::max(largest_strain_at_resets, strain);
+    for (const std::string &doubt : doubts_of_strain(model))
+      warn(doubt);
   }
 
 

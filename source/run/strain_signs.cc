@@ -71,6 +71,18 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<double>
+  mean_strains(const Model<dim> &model)
+  {
+    return mean_strains(*model.points,
+                        model.mesh->cell_size(),
+                        model.body_names.size(),
+                        model.space->communicator());
+  }
+
+
+
+  template <int dim>
   std::vector<std::string>
   doubts_of_strain(const Model<dim> &model)
   {
@@ -78,19 +90,19 @@ namespace moraine
     if (model.state->strain_measure() != StrainMeasure::small ||
         model.state->mesh_after_step() == MeshAfterStep::keep)
       return {};
-    const auto               strains = mean_strains(*model.points,
-                                      model.mesh->cell_size(),
-                                      model.body_names.size(),
-                                      model.space->communicator());
-    std::vector<std::string> doubts;
+    const std::vector<double> strains = mean_strains(model);
+    std::vector<std::string>  doubts;
     for (unsigned int b = 0; b < strains.size(); ++b)
       if (strains[b] > told_strain)
         {
           std::ostringstream text;
           text
             << "body '" << model.body_names[b] << "' is strained by "
-            << std::setprecision(2) << 100 * strains[b]
-            << " % in the mean, and 'Strain = small' takes lengths and areas "
+            << std::setprecision(2) << 100 * strains[b] << " % in the mean"
+            << (model.points->forgotten_displacement() > 0 ?
+                  " since displacements were reset" :
+                  "")
+            << ", and 'Strain = small' takes lengths and areas "
                "of the start where points move: stresses, and forces by "
                "them, differ by about as much; 'Strain = finite' knows of it";
           doubts.push_back(text.str());
@@ -110,6 +122,10 @@ namespace moraine
                const double,
                const unsigned int,
                const MPI_Comm &);
+  template std::vector<double>
+  mean_strains(const Model<2> &);
+  template std::vector<double>
+  mean_strains(const Model<3> &);
   template std::vector<std::string>
   doubts_of_strain(const Model<2> &);
   template std::vector<std::string>

@@ -228,7 +228,8 @@ namespace moraine
 
 
 
-    /** Whether no point has moved or has a stress. Collective. */
+    /** Whether no point has moved since the start or has a stress. Collective.
+     */
     template <int dim>
     bool
     nothing_happened(const Model<dim> &model)
@@ -236,7 +237,7 @@ namespace moraine
       const PointSet<dim> &points = *model.points;
       const auto           u      = points.displacement_field();
       const auto           stress = points.stress_field();
-      bool                 any    = false;
+      bool                 any    = points.forgotten_displacement() > 0;
       for (const auto &in_cell : points.cells())
         for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
           any = any || u(points.values(p)).norm() > 0 ||

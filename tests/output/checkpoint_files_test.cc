@@ -153,7 +153,7 @@ TEST(CheckpointFiles, AnotherFormatIsRefused)
               [&]() { CheckpointLabel::read(older, "a.h5"); }),
             "cannot read 'a.h5': it has format 0, written by Moraine 0.0.9; "
             "Moraine " +
-              std::string(version) + " reads format 11 only");
+              std::string(version) + " reads format 12 only");
   EXPECT_EQ(message_of<InputError>(
               [&]() { CheckpointLabel::read(other, "a.h5"); }),
             "cannot read 'a.h5': it is no checkpoint of Moraine");

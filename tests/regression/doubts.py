@@ -5,6 +5,8 @@
 cuts are felt, or that strain is not small, says so, with the key that helps; one
 that took the key does not."""
 
+import json
+
 POINT = {"Method/Volumetric strain": "pointwise"}
 BEARING = {"Mesh/Cell size": 0.25, "Time/Steps": 4}
 BLOCK = "prm/hard-cases/cut-block.prm"
@@ -133,6 +135,48 @@ for name, settings in (
     result = run(plate, {**SMALL, **settings})
     text(f"plate pulled, small strain, {name}: warnings", "; ".join(
         warning.split(",")[0] for warning in told(result)) or "none")
+
+# What displacements do not know of after a reset: that the plate was strained, and
+# is not slender; that it was moved.
+STEPS = """subsection Time
+  set Steps = 4
+end
+"""
+assert STEPS in PLATE
+plate.write_text(PLATE.replace(STEPS, """subsection Stages
+  subsection first
+    subsection Time
+      set Steps = 4
+    end
+  end
+  subsection held
+    set Reset displacements = true
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+""").replace("100 * t", "100 * min(t, 1)"))
+for name, settings in (
+        ("", {"Output/Checkpoint every": "1 step"}),
+        (", not reset", {"Stages/held/Reset displacements": "false"}),
+        (", a third of the load", {"Loads/pull/Value": "33 * min(t, 1); 0"})):
+    result = run(plate, {**SMALL, **settings})
+    text(f"plate pulled, then held{name}: warnings", "; ".join(
+        warning.split(",")[0] for warning in told(result)) or "none")
+    if "Output/Checkpoint every" in settings:
+        run(result.folder, command="resume", extra=["--from", "4"])
+        again = json.loads((result.folder / "summary.json").read_text())
+        text("  resumed before: the same", again["warnings"] == told(result))
+        run(result.folder, command="resume", extra=["--from", "5"])
+        again = json.loads((result.folder / "summary.json").read_text())
+        text("  resumed after: the same", again["warnings"] == told(result))
+ALL = "Grid conditions/all"
+result = run(plate, {"Method/Method": "material point", "Loads/pull/Value": "0; 0",
+                     f"{ALL}/Lower corner": "-1, -1", f"{ALL}/Upper corner": "4, 4",
+                     f"{ALL}/Translation": "0: 0, 1: 0.5, 2: 0.5; 0",
+                     "Stages/first/Grid conditions": "all"})
+text("plate moved, then held: warnings", told(result))
 
 # A block that has fallen on a floor and rests: what stress is left in it counts,
 # though motion once had much more energy.

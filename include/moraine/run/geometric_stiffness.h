@@ -43,10 +43,13 @@ namespace moraine
 
   /** That small strain has too late what stress does to slender bodies, of
    * which geometric_share() was @p share in the last step: 0.1 or more, and
-   * more than their strain explains. Collective. */
+   * more than their strain explains, which was up to @p strain_at_resets where
+   * displacements were reset. Collective. */
   template <int dim>
   std::vector<std::string>
-  doubts_of_geometric_stiffness(const Model<dim> &model, const double share);
+  doubts_of_geometric_stiffness(const Model<dim> &model,
+                                const double      share,
+                                const double      strain_at_resets);
 } // namespace moraine
 
 #endif

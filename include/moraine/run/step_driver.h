@@ -101,10 +101,21 @@ namespace moraine
       return share_of_last_step;
     }
 
+    /** The largest mean strain of a body where displacements were reset. */
+    double
+    strain_at_resets() const
+    {
+      return largest_strain_at_resets;
+    }
+
   private:
     /** Go over to the next stage. */
     void
     begin_next_stage();
+
+    /** Tell of strain that displacements will not know of any more. */
+    void
+    look_back_at_strain();
 
     /** Whether the user wants the run to end, and it can: not between the two
      * parts of a step, nor in one that gives empty parts of cells another
@@ -233,7 +244,8 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     StepChecks<dim>                       checks;
-    double                                share_of_last_step = 0;
+    double                                share_of_last_step       = 0;
+    double                                largest_strain_at_resets = 0;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step

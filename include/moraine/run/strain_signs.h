@@ -29,8 +29,14 @@ namespace moraine
                const unsigned int   n_bodies,
                const MPI_Comm      &communicator);
 
+  /** The same of all bodies of a model. */
+  template <int dim>
+  std::vector<double>
+  mean_strains(const Model<dim> &model);
+
   /** That small strain was taken for what is none: for each body that is
-   * strained by more than 5 % while points move. Collective. */
+   * strained by more than 5 % while points move, since displacements count.
+   * Collective. */
   template <int dim>
   std::vector<std::string>
   doubts_of_strain(const Model<dim> &model);
