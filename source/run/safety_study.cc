@@ -42,11 +42,21 @@ namespace moraine
 
 
 
-    /** A file's name as the shell wants it. */
-    std::string
-    in_quotes(const std::string &name)
+    /** @throw InputError for stages that find a way on at every strength. */
+    void
+    refuse_inertia(const NamedStages &stages)
     {
-      return name.find(' ') == std::string::npos ? name : '"' + name + '"';
+      for (const auto &[name, stage] : stages)
+        if (stage.time.integrator.dynamic())
+          reject("Study",
+                 "Kind",
+                 "factor of safety",
+                 (name.empty() ? "" : "stages that are all quasi-static; ") +
+                   std::string("'Integrator = quasi-static' in section '") +
+                   time_section(name) + "', where it is '" +
+                   stage.time.integrator.integrator +
+                   "': bodies with inertia never lack equilibrium, they move, "
+                   "and would count as standing at every factor");
     }
 
 
@@ -55,6 +65,7 @@ namespace moraine
     read_scene(const InputFile &input)
     {
       const auto of = [](const auto &scene) {
+        refuse_inertia(scene.stages);
         return SceneOfSafety{scene.title,
                              scene.strength_reduction,
                              scene.start_time(),
@@ -62,8 +73,7 @@ namespace moraine
                              scene.method.after_step() != MeshAfterStep::keep,
                              scene.method.mesh_after_step == "default" &&
                                scene.method.strain_measure() ==
-                                 StrainMeasure::small &&
-                               !scene.is_dynamic()};
+                                 StrainMeasure::small};
       };
       return dimension_of(input) == 2 ? of(Scene<2>(input)) :
                                         of(Scene<3>(input));
@@ -321,14 +331,16 @@ namespace moraine
                 << fixed(*result.stood, 4) << " and failed at "
                 << fixed(*result.failed, 4)
                 << "\n  how it failed: " << failure->summary.message
-                << "\n  to see it: moraine run " << in_quotes(input.name());
+                << "\n  to see it: moraine run " << one_word(input.name());
+        // What a series sets is among the overrides.
         for (const std::string &setting : study_case.input.overrides())
-          console << " --set \"" << setting << '"';
+          console << " --set " << one_word(setting);
         for (const auto &[path, value] : study_case.choices)
-          console << " --set \"" << path << " = " << value << '"';
-        console << " --set \"" << factor_path << " = "
-                << exactly(*result.failed) << "\" --output "
-                << in_quotes(folder + "/failed") << '\n'
+          if (path != "Series")
+            console << " --set " << one_word(path + " = " + value);
+        console << " --set "
+                << one_word(factor_path + " = " + exactly(*result.failed))
+                << " --output " << one_word(folder + "/failed") << '\n'
                 << (compares_meshes ?
                       "" :
                       "  note: cells bear more than the ground, the coarser "

@@ -37,8 +37,8 @@ namespace moraine
       "Kind",
       kind,
       "Of 'moraine study'. errors: one run for each case, error against time. "
-      "factor of safety: of each case by strength reduction, see section "
-      "'Strength reduction'.",
+      "factor of safety: of each case, quasi-static, by strength reduction, see "
+      "section 'Strength reduction'.",
       patterns::selection({"errors", "factor of safety"}));
     prm.add_parameter(
       "Error",
@@ -52,7 +52,7 @@ namespace moraine
       reference_value,
       "Of 'moraine study': what the probe should show; the "
       "error is |value/reference - 1|. Other errors are divided "
-      "by it, if it is given.",
+      "by it, if it is given. Each case may have its own.",
       patterns::NumberText());
     prm.add_parameter(
       "Group by",
@@ -108,13 +108,51 @@ namespace moraine
 
 
 
-    void
-    read_scene(const InputFile &input, StudyParameters &parameters)
+    StudyParameters
+    parameters_of(const InputFile &input)
     {
-      if (dimension_of(input) == 2)
-        parameters = Scene<2>(input).study;
-      else
-        parameters = Scene<3>(input).study;
+      return dimension_of(input) == 2 ? Scene<2>(input).study :
+                                        Scene<3>(input).study;
+    }
+
+
+
+    /** @throw InputError for cases that do not belong in one plot. */
+    void
+    refuse_other_plots(const std::vector<StudyCase>       &cases,
+                       const std::vector<StudyParameters> &parameters)
+    {
+      const std::vector<std::pair<std::string, std::string StudyParameters::*>>
+        keys{{"Error", &StudyParameters::error},
+             {"Group by", &StudyParameters::group_by},
+             {"Panels", &StudyParameters::panels},
+             {"Title", &StudyParameters::title}};
+      for (const auto &[key, member] : keys)
+        for (std::size_t i = 1; i < cases.size(); ++i)
+          if (parameters[i].*member != parameters[0].*member)
+            reject("Study",
+                   key,
+                   parameters[i].*member,
+                   "'" + parameters[0].*member + "' in case '" +
+                     cases[i].label +
+                     "' too, as in the first; all are in one plot, and only "
+                     "'Reference value' may differ");
+    }
+
+
+
+    /** @throw InputError if no error can be measured against it. */
+    void
+    check_reference(const StudyParameters &parameters)
+    {
+      const auto reference = number_from(parameters.reference_value);
+      if ((reference ? *reference == 0. :
+                       !parameters.reference_value.empty()) ||
+          (parameters.error.rfind("probe ", 0) == 0 && !reference))
+        throw InputError(place("Study", "Reference value") + ": found '" +
+                         parameters.reference_value +
+                         "', allowed with an error of a probe: a number other "
+                         "than 0");
     }
 
 
@@ -281,16 +319,11 @@ namespace moraine
     , cases(study_cases(input))
   {
     for (const StudyCase &study_case : cases)
-      read_scene(study_case.input, parameters);
-
-    check_groups(cases, parameters.group_by);
-    const auto reference = number_from(parameters.reference_value);
-    if ((reference ? *reference == 0. : !parameters.reference_value.empty()) ||
-        (parameters.error.rfind("probe ", 0) == 0 && !reference))
-      throw InputError(place("Study", "Reference value") + ": found '" +
-                       parameters.reference_value +
-                       "', allowed with an error of a probe: a number other "
-                       "than 0");
+      parameters.push_back(parameters_of(study_case.input));
+    refuse_other_plots(cases, parameters);
+    check_groups(cases, parameters[0].group_by);
+    for (const StudyParameters &of_case : parameters)
+      check_reference(of_case);
 
     make_study_folder(folder, input, overwrite, communicator);
   }
@@ -302,17 +335,17 @@ namespace moraine
   {
     console << "Moraine " << version << ", study of " << cases.size()
             << " cases\n"
-            << (parameters.title.empty() ? "" : parameters.title + "\n")
+            << (parameters[0].title.empty() ? "" : parameters[0].title + "\n")
             << std::flush;
     bool converged = true, input_is_right = true;
     for (std::size_t i = 0; i < cases.size(); ++i)
       {
         console.progress("  case " + std::to_string(i + 1) + " of " +
                          std::to_string(cases.size()) + ": " + cases[i].label);
-        results.push_back(measured_case(cases[i]));
+        results.push_back(measured_case(i));
         // The first run of a process also loads libraries.
         if (i == 0 && longest_time(results[0]) < 10)
-          results[0] = measured_case(cases[i]);
+          results[0] = measured_case(i);
         const Summary &summary = results.back().summary;
         console << "  case " << std::setw(4) << i + 1 << "  " << cases[i].label
                 << ": " << text_of(summary.wall_seconds, 3) << " s";
@@ -343,19 +376,19 @@ namespace moraine
 
 
   StudyResult
-  Study::measured_case(const StudyCase &study_case)
+  Study::measured_case(const std::size_t i)
   {
     constexpr unsigned int   n_runs = 5;
-    std::vector<StudyResult> runs{run_case(study_case)};
+    std::vector<StudyResult> runs{run_case(i)};
     while (runs.size() < n_runs && runs.back().summary.status == "ok" &&
            longest_time(runs.front()) < short_time)
-      runs.push_back(run_case(study_case));
+      runs.push_back(run_case(i));
     // All ranks take the same run: that with the median time of rank 0.
     std::vector<std::pair<double, unsigned int>> times;
-    for (unsigned int i = 0; i < runs.size(); ++i)
+    for (unsigned int r = 0; r < runs.size(); ++r)
       times.emplace_back(
-        Utilities::MPI::broadcast(communicator, runs[i].summary.wall_seconds),
-        i);
+        Utilities::MPI::broadcast(communicator, runs[r].summary.wall_seconds),
+        r);
     std::sort(times.begin(), times.end());
     return runs[times[times.size() / 2].second];
   }
@@ -363,39 +396,40 @@ namespace moraine
 
 
   StudyResult
-  Study::run_case(const StudyCase &study_case)
+  Study::run_case(const std::size_t i)
   {
     reset_peak_memory();
-    const Summary summary = summary_of_case(study_case.input, communicator);
-    return {study_case, summary, error_of(summary)};
+    const Summary summary = summary_of_case(cases[i].input, communicator);
+    return {cases[i], summary, error_of(summary, i)};
   }
 
 
 
   std::optional<double>
-  Study::error_of(const Summary &summary) const
+  Study::error_of(const Summary &summary, const std::size_t i) const
   {
     if (summary.status != "ok")
       return std::nullopt;
-    const auto reference = number_from(parameters.reference_value);
+    const std::string &error     = parameters[i].error;
+    const auto         reference = number_from(parameters[i].reference_value);
     std::vector<std::string> known;
     for (const auto &[name, value] : summary.errors)
       {
-        if (name == parameters.error || parameters.error.empty())
+        if (name == error || error.empty())
           return value && reference ? *value / std::abs(*reference) : value;
         known.push_back(name);
       }
     for (const auto &[name, value] : summary.probes)
       {
-        if ("probe " + name == parameters.error)
+        if ("probe " + name == error)
           return std::abs(value / *reference - 1);
         known.push_back("probe " + name);
       }
-    if (parameters.error.empty())
+    if (error.empty())
       return std::nullopt;
-    throw InputError(place("Study", "Error") + ": found '" + parameters.error +
+    throw InputError(place("Study", "Error") + ": found '" + error +
                      "', which this scene does not have" +
-                     suggest(parameters.error, known));
+                     suggest(error, known));
   }
 
 
@@ -403,12 +437,19 @@ namespace moraine
   StudyReport
   Study::report() const
   {
+    const StudyParameters &plot = parameters[0];
+    const bool             is_common =
+      std::all_of(parameters.begin(),
+                  parameters.end(),
+                  [&](const StudyParameters &other) {
+                    return other.reference_value == plot.reference_value;
+                  });
     return {folder,
-            parameters.title,
-            parameters.error,
-            parameters.reference_value,
-            parameters.group_by,
-            parameters.panels,
+            plot.title,
+            plot.error,
+            is_common ? plot.reference_value : "reference value",
+            plot.group_by,
+            plot.panels,
             cases,
             results};
   }

@@ -32,6 +32,17 @@ namespace moraine
 
 
 
+  std::string
+  one_word(const std::string &text)
+  {
+    std::string word = "'";
+    for (const char c : text)
+      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+  }
+
+
+
   namespace
   {
     /** Columns in the order in which the cases bring them. */
@@ -148,9 +159,63 @@ namespace moraine
 
 
 
+    /** Whether it says how large cells are. */
+    bool
+    sizes_cells(const InputFile::Entry &entry)
+    {
+      return entry.section == "Mesh" && contains({"Cell size",
+                                                  "Cells",
+                                                  "Refinements",
+                                                  "Arguments",
+                                                  "Extrusion layers"},
+                                                 entry.key);
+    }
+
+
+
+    /** Whether it says how long steps are. */
+    bool
+    sizes_steps(const InputFile::Entry &entry)
+    {
+      return contains({"Steps", "Largest step", "Arc length"}, entry.key) &&
+             (entry.section == "Time" ||
+              (entry.section.rfind("Stages/", 0) == 0 &&
+               names_choice("Time", entry.section)));
+    }
+
+
+
+    /**
+     * |ln(v/v0)| of the first value that differs between two cases of a study
+     * and for which @p counts: whether it is a choice or has its constants from
+     * one. 0 if there is none.
+     */
+    double
+    difference_of_sizes(const InputFile &a,
+                        const InputFile &b,
+                        bool (*counts)(const InputFile::Entry &))
+    {
+      for (const InputFile::Entry &entry : a.entries())
+        if (counts(entry))
+          {
+            const auto [v0, v1] =
+              differing_numbers(a.require(entry.section, entry.key),
+                                b.get(entry.section, entry.key, ""));
+            if (entry.key == "Refinements" && v0 != v1)
+              return std::abs(v1 - v0) * std::log(2.);
+            if (v0 != v1 && v0 > 0 && v1 > 0)
+              return std::abs(std::log(v1 / v0));
+          }
+      return 0.;
+    }
+
+
+
     /**
      * ln(e0/e) / |ln(v/v0)|, where e0 belongs to the last result before with
-     * another value v0 of key @p path and all other choices equal.
+     * another value of key @p path and all other choices equal, and v are sizes
+     * of cells or, if these are equal, of steps. Nothing if that key changes
+     * neither.
      */
     std::string
     observed_order(const std::vector<StudyResult> &results,
@@ -163,21 +228,23 @@ namespace moraine
           const StudyResult &before = results[i];
           if (only_difference(before.study_case, result.study_case) != path)
             continue;
-          const auto [v0, v1] =
-            differing_numbers(value_of(before.study_case, path),
-                              value_of(result.study_case, path));
-          if (!(v0 > 0) || !(v1 > 0) || !before.error || !result.error ||
-              !(*before.error > 0) || !(*result.error > 0))
+          if (!before.error || !result.error || !(*before.error > 0) ||
+              !(*result.error > 0))
             return "";
-          const auto unknowns = [](const StudyResult &of) {
-            return of.summary.sizes.unknowns;
+          const InputFile &a         = before.study_case.input;
+          const InputFile &b         = result.study_case.input;
+          const double     of_cells  = difference_of_sizes(a, b, sizes_cells);
+          const bool       has_cells = of_cells > 0;
+          const double     difference =
+            has_cells ? of_cells : difference_of_sizes(a, b, sizes_steps);
+          const auto count = [has_cells](const Summary &summary) -> double {
+            return has_cells ? summary.sizes.unknowns : summary.steps;
           };
-          const bool is_coarser = unknowns(result) < unknowns(before) ||
-                                  (unknowns(result) == unknowns(before) &&
-                                   path.rfind("Time/", 0) == 0 &&
-                                   result.summary.steps < before.summary.steps);
-          return text_of(std::log(*before.error / *result.error) /
-                           std::abs(std::log(v1 / v0)) * (is_coarser ? -1 : 1),
+          const double n0 = count(before.summary), n1 = count(result.summary);
+          if (!(difference > 0) || n0 == n1)
+            return "";
+          return text_of(std::log(*before.error / *result.error) / difference *
+                           (n1 < n0 ? -1 : 1),
                          3);
         }
       return "";
@@ -200,18 +267,6 @@ namespace moraine
     {
       std::replace(text.begin(), text.end(), '\'', ' ');
       return "'" + text + "'";
-    }
-
-
-
-    /** For the shell. */
-    std::string
-    one_word(const std::string &text)
-    {
-      std::string word = "'";
-      for (const char c : text)
-        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-      return word + "'";
     }
   } // namespace
 

@@ -1,11 +1,12 @@
 # ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A factor of safety is none where something else than equilibrium was missing;
-runs and studies do not remove each other's results; orders in time do not depend
-on the order of cases."""
+"""A factor of safety is none where something else than equilibrium was missing, nor
+where bodies have inertia; what a study says to run runs; runs and studies do not
+remove each other's results."""
 
 import json
+import subprocess
 
 SLOPE = "prm/geotechnics/factor-of-safety.prm"
 QUICK = {"Mesh/Cell size": 2, "Time/Steps": 4, "Strength reduction/Tolerance": 0.2}
@@ -25,6 +26,42 @@ fine = run(SLOPE, {**QUICK, "Strength reduction/Lower factor": 1.5,
            command="study", expect=None)
 text("interval of two numbers ends after trials", len(json.loads(
     (fine.folder / "summary.json").read_text())["cases"][0]["trials"]))
+
+# What shows the failure, pasted into a shell: the soil of the series is in it.
+pasted = run(SLOPE, {
+    **QUICK, "Title": "clay's", "Mesh/Cell size": "{{4|2}}",
+    "Strength reduction/Tolerance": 0.5, "Constants/c": 64,
+    "Study/Series/weak/Settings":
+        "Materials/clay/Shear yield stress = $c; Constants/c = 32"},
+    command="study", extra=["--output", folder / "a study's"])
+said = [line.split(": ", 1)[1] for line in pasted.output.splitlines()
+        if "to see it" in line]
+text("ways to see failures", len(said))
+shown = subprocess.run(said[0].replace("moraine", str(program), 1), shell=True,
+                       capture_output=True, text=True)
+text("  the first one", f"exit code {shown.returncode}")
+trials = [trial for trial in json.loads(
+    (folder / "a study's/summary.json").read_text())["cases"][0]["trials"]
+    if trial["status"] != "ok"]
+failed = json.loads((folder / "a study's/failed/summary.json").read_text())
+text("  it fails as the trial", failed["time"] == trials[-1]["time"] and
+     failed["message"] == trials[-1]["message"])
+
+scene = folder / "slope.prm"
+scene.write_text((root / SLOPE).read_text().replace("""subsection Time
+  set Steps = 10
+end
+""", ""))
+for name, settings in (
+        ("inertia", {"Time/Integrator": "Newmark"}),
+        ("inertia in one of two stages", {
+            "Stages/weight/Time/Steps": 4,
+            "Stages/quake/Time/End time": 2,
+            "Stages/quake/Time/Integrator": "generalised-alpha"})):
+    refused = run(scene, {"Mesh/Cell size": 4, **settings}, command="study",
+                  expect=None)
+    text(name, f"exit code {refused.code}, " + plain(
+        refused.output.strip().splitlines()[-1]))
 
 study = run(SLOPE, QUICK, command="study")
 before = (study.folder / "summary.json").read_bytes()
@@ -46,12 +83,3 @@ run(SLOPE, QUICK, command="study",
     extra=["--output", str(beam.folder), "--overwrite"])
 text("  another study in its place: old picture",
      (beam.folder / "study.png").exists())
-
-# A curve from its end to its beginning.
-for steps in "{{10|40}}", "{{40|10}}":
-    column = run("prm/studies/large-column.prm",
-                 {"Mesh/Cells": "1, 8", "Time/Steps": steps}, command="study")
-    header, *rows = ([cell.strip() for cell in line.split("|")[1:-1]]
-                     for line in column.output.splitlines()
-                     if line.startswith("|"))
-    text(f"steps {steps}, order", rows[-1][header.index("order")])

@@ -38,8 +38,8 @@ namespace moraine
   public:
     /**
      * Read all cases and make the folder.
-     * @throw InputError for a mistake in the text of any of them, or if the
-     * folder holds results and @p overwrite is not set.
+     * @throw InputError for a mistake in the text of any of them, for bodies
+     * with inertia, or if the folder holds results and @p overwrite is not set.
      */
     SafetyStudy(const InputFile   &input,
                 const std::string &folder,

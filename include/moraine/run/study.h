@@ -93,8 +93,9 @@ namespace moraine
   public:
     /**
      * Read all cases.
-     * @throw InputError for a mistake in the text of any of them, or if the
-     * folder holds a study and @p overwrite is not set.
+     * @throw InputError for a mistake in the text of any of them, if what is to
+     * be plotted differs between them, or if the folder holds a study and @p
+     * overwrite is not set.
      */
     Study(const InputFile   &input,
           const std::string &folder,
@@ -108,28 +109,30 @@ namespace moraine
 
   private:
     StudyResult
-    run_case(const StudyCase &study_case);
+    run_case(const std::size_t i);
 
     /** The run with the median time of as many as its time asks for. */
     StudyResult
-    measured_case(const StudyCase &study_case);
+    measured_case(const std::size_t i);
 
     /** Wall time of the slowest rank. Collective. */
     double
     longest_time(const StudyResult &result) const;
 
+    /** By what case @p i is measured against. */
     std::optional<double>
-    error_of(const Summary &summary) const;
+    error_of(const Summary &summary, const std::size_t i) const;
 
     StudyReport
     report() const;
 
-    std::string              folder;
-    MPI_Comm                 communicator;
-    Console                 &console;
-    StudyParameters          parameters;
-    std::vector<StudyCase>   cases;
-    std::vector<StudyResult> results;
+    std::string            folder;
+    MPI_Comm               communicator;
+    Console               &console;
+    std::vector<StudyCase> cases;
+    /** Of each case; only reference values may differ. */
+    std::vector<StudyParameters> parameters;
+    std::vector<StudyResult>     results;
   };
 } // namespace moraine
 

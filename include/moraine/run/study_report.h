@@ -27,6 +27,10 @@ namespace moraine
   std::string
   text_of(const double value, const unsigned int digits);
 
+  /** A text in quotes such that the shell takes it as it is. */
+  std::string
+  one_word(const std::string &text);
+
   /**
    * What a study leaves for its reader: study.csv, a table on the console,
    * study.gp and study.png.
@@ -36,7 +40,7 @@ namespace moraine
     std::string                     folder;
     std::string                     title;
     std::string                     error;     ///< its name; empty: the first
-    std::string                     reference; ///< see StudyParameters
+    std::string                     reference; ///< to name; empty: none
     std::string                     group_by;
     std::string                     panels;
     const std::vector<StudyCase>   &cases;
