@@ -8,6 +8,8 @@
 #include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+
 namespace moraine
 {
   using namespace dealii;
@@ -33,6 +35,9 @@ namespace moraine
         for (unsigned int i = 0; i < dim; ++i)
           local.force[dim * a + i] += N[a] * f[i];
     }
+
+
+
     /** Length or area of face @p f per unit of its reference face. */
     template <int dim>
     double
@@ -51,48 +56,39 @@ namespace moraine
 
 
 
-    /** A traction on the faces of one cell that lie on the side. @param
-     * on_faces places, face by face */
+    /** A traction on a face; @p on_face are places in its cell. */
     template <int dim, int degree>
     void
-    add_side_traction(const State<dim>                            &state,
-                      const SideTraction<dim>                     &load,
-                      const std::vector<Quadrature<dim>>          &on_faces,
-                      const double                                 t,
-                      const typename GridSpace<dim>::CellIterator &cell,
-                      LocalSystem<dim>                            &local)
+    add_side_traction(const State<dim>        &state,
+                      const SideTraction<dim> &load,
+                      const CellFace<dim>     &face,
+                      const Quadrature<dim>   &on_face,
+                      const double             t,
+                      LocalSystem<dim>        &local)
     {
       constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
-      const unsigned int    *nodes = state.grid().cell_nodes(cell);
+      const unsigned int    *nodes = state.grid().cell_nodes(face.cell);
       Point<dim>             X[n];
       double                 N[n];
       Tensor<1, dim>         grad_N[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = state.grid().node_position(nodes[a]);
-      const CellVertices<dim> vertices = vertices_of<dim>(cell);
+      const CellVertices<dim> vertices = vertices_of<dim>(face.cell);
       const CellMap<dim>      map(vertices);
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() &&
-            cell->face(f)->boundary_id() == load.side)
-          {
-            const Quadrature<dim> &on_face = on_faces[f];
-            for (unsigned int q = 0; q < on_face.size(); ++q)
-              {
-                CellShapes<dim, degree>::evaluate(on_face.point(q),
-                                                  X,
-                                                  N,
-                                                  grad_N);
-                const double JxW =
-                  on_face.weight(q) * face_jacobian(map, f, on_face.point(q));
-                Point<dim> x;
-                for (unsigned int a = 0; a < n; ++a)
-                  x += N[a] * X[a];
-                const Tensor<1, dim> traction = load.value(x, t);
-                for (unsigned int a = 0; a < n; ++a)
-                  for (unsigned int i = 0; i < dim; ++i)
-                    local.force[dim * a + i] += JxW * N[a] * traction[i];
-              }
-          }
+      for (unsigned int q = 0; q < on_face.size(); ++q)
+        {
+          const Point<dim> &xi = on_face.point(q);
+          CellShapes<dim, degree>::evaluate(xi, X, N, grad_N);
+          const double JxW =
+            on_face.weight(q) * face_jacobian(map, face.face, xi);
+          Point<dim> x;
+          for (unsigned int a = 0; a < n; ++a)
+            x += N[a] * X[a];
+          const Tensor<1, dim> traction = load.value(x, t);
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int i = 0; i < dim; ++i)
+              local.force[dim * a + i] += JxW * N[a] * traction[i];
+        }
     }
   } // namespace
 
@@ -199,6 +195,35 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<CellFace<dim>>
+  pushed_faces(const SideTraction<dim> &load,
+               const GridSpace<dim>    &space,
+               const PointSet<dim>     &points)
+  {
+    const std::vector<double> filled       = points.volumes_in_cells();
+    const auto                holds_points = [&filled](const auto &cell) {
+      return filled[cell->active_cell_index()] > 0;
+    };
+    std::vector<CellFace<dim>> faces;
+    for (const auto &cell :
+         space.mesh().triangulation().active_cell_iterators())
+      if (cell->at_boundary() && space.is_active(cell))
+        for (const unsigned int f : cell->face_indices())
+          {
+            const unsigned int opposite = f ^ 1u;
+            if (cell->face(f)->at_boundary() &&
+                cell->face(f)->boundary_id() == load.side &&
+                (holds_points(cell) ||
+                 (!cell->at_boundary(opposite) &&
+                  holds_points(cell->neighbor(opposite)))))
+              faces.push_back({cell, f});
+          }
+    return faces;
+  }
+
+
+
+  template <int dim>
   SideTractionTerm<dim>::SideTractionTerm(const SideTraction<dim> &load)
     : load(load)
   {}
@@ -210,6 +235,23 @@ namespace moraine
   SideTractionTerm<dim>::effects(const StepContext<dim> &) const
   {
     return effect_of("side traction", load.name);
+  }
+
+
+
+  template <int dim>
+  bool
+  SideTractionTerm<dim>::begin_step(const StepContext<dim> &context)
+  {
+    faces =
+      pushed_faces(load, context.state.grid(), context.state.material_points());
+    faces.erase(std::remove_if(faces.begin(),
+                               faces.end(),
+                               [](const CellFace<dim> &face) {
+                                 return !face.cell->is_locally_owned();
+                               }),
+                faces.end());
+    return false;
   }
 
 
@@ -228,23 +270,28 @@ namespace moraine
                                          side_quadrature<dim>(space.degree()),
                                          f));
     LocalSystem<dim> local;
-    for (const auto &cell :
-         space.mesh().triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary() &&
-          space.is_active(cell))
-        {
-          local.reinit(context.state,
-                       space.cell_nodes(cell),
-                       space.nodes_per_cell(),
-                       false);
-          if (space.degree() == 1)
-            add_side_traction<dim, 1>(
-              context.state, load, on_faces, context.t_end, cell, local);
-          else
-            add_side_traction<dim, 2>(
-              context.state, load, on_faces, context.t_end, cell, local);
-          system.add(local, false);
-        }
+    for (const CellFace<dim> &face : faces)
+      {
+        local.reinit(context.state,
+                     space.cell_nodes(face.cell),
+                     space.nodes_per_cell(),
+                     false);
+        if (space.degree() == 1)
+          add_side_traction<dim, 1>(context.state,
+                                    load,
+                                    face,
+                                    on_faces[face.face],
+                                    context.t_end,
+                                    local);
+        else
+          add_side_traction<dim, 2>(context.state,
+                                    load,
+                                    face,
+                                    on_faces[face.face],
+                                    context.t_end,
+                                    local);
+        system.add(local, false);
+      }
   }
 
 
@@ -340,11 +387,14 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                 \
-  template Quadrature<dim - 1> side_quadrature<dim>(const unsigned int); \
-  template class BodyForceTerm<dim>;                                     \
-  template class ForceOnPointsTerm<dim>;                                 \
-  template class SideTractionTerm<dim>;                                  \
+#define INSTANTIATE(dim)                                                        \
+  template Quadrature<dim - 1>        side_quadrature<dim>(const unsigned int); \
+  template std::vector<CellFace<dim>> pushed_faces(const SideTraction<dim> &,   \
+                                                   const GridSpace<dim> &,      \
+                                                   const PointSet<dim> &);      \
+  template class BodyForceTerm<dim>;                                            \
+  template class ForceOnPointsTerm<dim>;                                        \
+  template class SideTractionTerm<dim>;                                         \
   template class CarriedLoadTerm<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

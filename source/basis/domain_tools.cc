@@ -285,10 +285,13 @@ namespace moraine
     {
       const MPI_Comm communicator =
         points.mesh().triangulation().get_communicator();
-      const auto v_0 = points.fields().find(FieldNames<dim>::initial_volume);
-      const auto F =
-        points.fields().find(FieldNames<dim>::deformation_gradient);
-      const auto  &u       = points.displacement_field();
+      const PointFields &fields = points.fields();
+      const auto         v_0    = fields.find(FieldNames<dim>::initial_volume);
+      const auto         F = fields.find(FieldNames<dim>::deformation_gradient);
+      const auto  F_0 = fields.find(FieldNames<dim>::deformation_gradient_then);
+      const auto  v   = fields.find(FieldNames<dim>::velocity);
+      const auto  G   = fields.find(FieldNames<dim>::velocity_gradient);
+      const auto &u   = points.displacement_field();
       unsigned int next_id = points.next_id();
 
       std::vector<unsigned int> candidates(points.n_local());
@@ -326,15 +329,21 @@ namespace moraine
               const auto         become = [&](const unsigned int    p,
                                       const Tensor<1, dim> &offset,
                                       const double          share) {
+                double *values = points.values(p);
                 points.set_position(p, points.position(p) + offset);
                 // Of the half's own place.
                 if (F.exists())
-                  u.store(u(points.values(p)) + offset -
-                            invert(F(points.values(p))) * offset,
-                          points.values(p));
+                  {
+                    Tensor<1, dim> then = invert(F(values)) * offset;
+                    if (F_0.exists() && F_0(values).norm() > 0)
+                      then = F_0(values) * then;
+                    u.store(u(values) + offset - then, values);
+                  }
+                if (G.exists())
+                  v.store(v(values) + G(values) * offset, values);
                 points.set_volume(p, share * points.volume(p));
                 if (v_0.exists())
-                  v_0.store(share * v_0(points.values(p)), points.values(p));
+                  v_0.store(share * v_0(values), values);
               };
               become(lower, halves.lower, 1 - halves.upper_share);
               become(upper, halves.upper, halves.upper_share);

@@ -431,11 +431,15 @@ namespace moraine
   void
   PointSet<dim>::reset_displacements()
   {
-    double largest = 0;
+    const auto F      = layout.find(FieldNames<dim>::deformation_gradient);
+    const auto F_then = layout.find(FieldNames<dim>::deformation_gradient_then);
+    double     largest = 0;
     for (unsigned int p = 0; p < n_local(); ++p)
       {
         largest = std::max(largest, u_field(values(p)).norm());
         u_field.store(Tensor<1, dim>(), values(p));
+        if (F_then.exists())
+          F_then.store(F(values(p)), values(p));
       }
     forgotten +=
       Utilities::MPI::max(largest,

@@ -3,6 +3,7 @@
 
 #include <moraine/run/hold_watch.h>
 
+#include <moraine/assembly/load_terms.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
@@ -70,23 +71,6 @@ namespace moraine
 
 
   template <int dim>
-  unsigned int
-  n_faces_of(const SideTraction<dim> &traction,
-             const Model<dim>        &model,
-             const std::vector<bool> &counts)
-  {
-    unsigned int n = 0;
-    for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
-      if (cell->at_boundary() && model.space->is_active(cell) &&
-          (counts.empty() || counts[cell->active_cell_index()]))
-        for (const auto &face : cell->face_iterators())
-          n += face->at_boundary() && face->boundary_id() == traction.side;
-    return n;
-  }
-
-
-
-  template <int dim>
   HoldWatch<dim>::HoldWatch(const Scene<dim> &scene, const Model<dim> &model)
     : scene(scene)
     , model(model)
@@ -135,12 +119,14 @@ namespace moraine
         if (told.count(section) > 0)
           check_that_some_is_left(section, n_nodes[c], t, of_nodes);
       }
-    for (unsigned int l = 0; l < n_faces.size(); ++l)
-      if (const std::string &name = model.loads.side_tractions[l].name;
-          contains(stage.loads, name))
+    for (const auto &traction : model.loads.side_tractions)
+      if (contains(stage.loads, traction.name))
         {
-          found.push_back(fewer_faces("Loads/" + name, n_faces[l], t));
-          found.push_back(left_behind(model.loads.side_tractions[l], t));
+          const auto faces =
+            pushed_faces(traction, *model.space, *model.points);
+          found.push_back(
+            other_faces("Loads/" + traction.name, faces.size(), t));
+          found.push_back(left_behind(traction, t));
         }
     found.erase(std::remove(found.begin(), found.end(), ""), found.end());
     return found;
@@ -171,10 +157,6 @@ namespace moraine
           held[c] = now[c];
         largest = std::max(largest, n_nodes[c]);
       }
-    n_faces.clear();
-    for (const auto &traction : model.loads.side_tractions)
-      n_faces.push_back(
-        contains(stage.loads, traction.name) ? n_faces_of(traction, model) : 0);
     counted = true;
   }
 
@@ -298,18 +280,25 @@ namespace moraine
 
   template <int dim>
   std::string
-  HoldWatch<dim>::fewer_faces(const std::string &section,
+  HoldWatch<dim>::other_faces(const std::string &section,
                               const unsigned int n,
                               const double       t)
   {
-    const unsigned int largest =
-      check_that_some_is_left(section, n, t, of_sides);
-    if (n == largest || !told.insert(section).second)
+    const auto         known = most.find(section);
+    const unsigned int before =
+      known == most.end() ? n : std::max(known->second, 1u);
+    check_that_some_is_left(section, n, t, of_sides);
+    if (n == before || !told.insert(section).second)
       return "";
     std::ostringstream text;
-    text << "section '" << section << "': by t = " << t << " only " << n
-         << " of " << largest
-         << " faces of cells are beside material and pushed on; " << of_sides;
+    text << "section '" << section << "': by t = " << t;
+    if (n < before)
+      text << " only " << n << " of " << before
+           << " faces of cells are beside material and pushed on; ";
+    else
+      text << " material has come beside more of the side: it pushes on " << n
+           << " whole faces of cells, " << before << " before; ";
+    text << of_sides;
     return text.str();
   }
 
@@ -368,14 +357,6 @@ namespace moraine
 
 
 
-  template unsigned int
-  n_faces_of(const SideTraction<2> &,
-             const Model<2> &,
-             const std::vector<bool> &);
-  template unsigned int
-  n_faces_of(const SideTraction<3> &,
-             const Model<3> &,
-             const std::vector<bool> &);
   template class HoldWatch<2>;
   template class HoldWatch<3>;
 } // namespace moraine

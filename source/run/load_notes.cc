@@ -13,6 +13,7 @@
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -234,13 +235,19 @@ namespace moraine
       {
         if (!contains(stage.loads, traction.name))
           continue;
-        const unsigned int n_faces = n_faces_of(traction, model);
+        const auto faces = pushed_faces(traction, *model.space, *model.points);
+        const unsigned int n_faces = faces.size();
         if (n_faces == 0)
           throw InputError("section 'Loads/" + traction.name +
                            "': found a side of the mesh without a body beside "
                            "it, allowed: a side that a body touches");
-        const unsigned int n_partly =
-          n_faces_of(traction, model, partly_filled_cells(model));
+        const std::vector<bool> partly = partly_filled_cells(model);
+        const unsigned int      n_partly =
+          std::count_if(faces.begin(),
+                        faces.end(),
+                        [&partly](const CellFace<dim> &face) {
+                          return partly[face.cell->active_cell_index()];
+                        });
         if (n_partly > 0)
           notes.push_back(
             traction.name + ": " + std::to_string(n_partly) + " of the " +

@@ -427,6 +427,14 @@ namespace moraine
     if (scene.is_dynamic() && method.recovers_strains &&
         parameters.strain_measure() == StrainMeasure::small)
       fields.request(FieldNames<dim>::stress_of_recovery);
+    if (parameters.strain_measure() == StrainMeasure::finite &&
+        parameters.splits_domains() &&
+        std::any_of(scene.stages.begin(),
+                    scene.stages.end(),
+                    [](const auto &stage) {
+                      return stage.second.reset_displacements;
+                    }))
+      fields.request(FieldNames<dim>::deformation_gradient_then);
     request_columns(bodies, fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes =

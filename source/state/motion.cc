@@ -414,8 +414,9 @@ namespace moraine
   typename Motion<dim>::KineticProducts
   Motion<dim>::map_to_points(const Nodal &end)
   {
-    const double      share      = points_carry() ? transfer.flip_share : 0.;
-    const Basis<dim> &basis      = state.point_basis();
+    const double share       = points_carry() ? transfer.flip_share : 0.;
+    const bool   places_move = state.mesh_after_step() != MeshAfterStep::keep;
+    const Basis<dim> &basis  = state.point_basis();
     const NodeValues &increments = state.nodal_increments();
     StencilBlock<dim> block;
     BlockMass<dim>    matrix;
@@ -460,10 +461,17 @@ namespace moraine
               }
             if (gradient_field.exists())
               {
-                Tensor<2, dim> gradient;
+                Tensor<2, dim> gradient, dF = unit_symmetric_tensor<dim>();
                 for (unsigned int k = 0; k < block.n_nodes; ++k)
-                  gradient += outer_product(v_1[k], block.grad_N(p)[k]);
-                gradient_field.store(gradient, values);
+                  {
+                    gradient += outer_product(v_1[k], block.grad_N(p)[k]);
+                    if (places_move)
+                      dF += outer_product(du[k], block.grad_N(p)[k]);
+                  }
+                gradient_field.store(determinant(dF) > 0. ?
+                                       gradient * invert(dF) :
+                                       gradient,
+                                     values);
               }
             const double m = state.mass(block.points[p]);
             products.v_v += m * matrix.product(N, v_0, v_0);

@@ -76,6 +76,24 @@ namespace moraine
   dealii::Quadrature<dim - 1>
   side_quadrature(const unsigned int degree);
 
+  /** A face of a cell of the mesh. */
+  template <int dim>
+  struct CellFace
+  {
+    typename GridSpace<dim>::CellIterator cell;
+    unsigned int                          face;
+  };
+
+  /** The faces, of all ranks, on which a traction on a side of the mesh pushes:
+   * those of active cells that hold points, or have such a cell behind them
+   * where material has left the side. Into other active cells a domain only
+   * reaches, as where the rim of a body bulges along the side. Collective. */
+  template <int dim>
+  std::vector<CellFace<dim>>
+  pushed_faces(const SideTraction<dim> &load,
+               const GridSpace<dim>    &space,
+               const PointSet<dim>     &points);
+
   /** @f$\int N_a t\,d\Gamma@f$ over a side of the mesh. */
   template <int dim>
   class SideTractionTerm : public Term<dim>
@@ -85,6 +103,9 @@ namespace moraine
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
+
+    bool
+    begin_step(const StepContext<dim> &context) override;
 
     bool
     is_dead() const override
@@ -98,7 +119,8 @@ namespace moraine
         GlobalSystem<dim>      &system) const override;
 
   private:
-    const SideTraction<dim> &load;
+    const SideTraction<dim>   &load;
+    std::vector<CellFace<dim>> faces; ///< of this rank
   };
 
   /** @f$\sum_k w_k N_a(x_k)\, t@f$ over places that the material carries. */

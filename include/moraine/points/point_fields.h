@@ -266,6 +266,10 @@ namespace moraine
     /** @f$F@f$, at finite strain. */
     inline static const Tensor deformation_gradient{"deformation_gradient",
                                                     "-"};
+    /** What @f$F@f$ was when displacements became zero again; zero before. */
+    inline static const Tensor deformation_gradient_then{
+      "deformation_gradient_then",
+      "-"};
     /** @f$b^e@f$, at finite strain. */
     inline static const SymmetricTensor elastic_left_cauchy_green{
       "elastic_left_cauchy_green",

@@ -88,10 +88,10 @@ namespace moraine
                             const double       t,
                             const std::string &remedy);
 
-    /** The same of the faces that a load pushes on; that some are lost, or "".
-     */
+    /** The same of the faces that a load pushes on; that some are lost or new,
+     * or "". */
     std::string
-    fewer_faces(const std::string &section,
+    other_faces(const std::string &section,
                 const unsigned int n,
                 const double       t);
 
@@ -107,23 +107,11 @@ namespace moraine
      * step. */
     std::vector<std::vector<HeldPlace>> held;
     std::vector<unsigned int>           n_nodes; ///< of each, by now
-    std::vector<unsigned int>           n_faces; ///< of each side traction
     bool                                counted = false;
     std::map<std::string, unsigned int> most; ///< pieces, by section
     std::set<std::string>               told;
   };
 
-
-
-  /** Faces of active cells on the side of a traction, of all ranks.
-   * @param traction of which faces are counted
-   * @param model with the mesh
-   * @param counts which cells count, by active_cell_index(); all if empty */
-  template <int dim>
-  unsigned int
-  n_faces_of(const SideTraction<dim> &traction,
-             const Model<dim>        &model,
-             const std::vector<bool> &counts = {});
 } // namespace moraine
 
 #endif

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A block narrower than the mesh, pressed by a traction on a side of the mesh:
+its free edges lie on lines of the mesh and bulge into cells where nothing was.
+The supports must carry the traction times the block's width, no cell more."""
+
+SCENE = """
+set Dimension = {dim}
+subsection Mesh
+  set Lower corner = {lower}
+  set Upper corner = {end}
+  set Cell size = 0.25
+end
+subsection Method
+  set Method = {method}
+  set Strain = {strain}
+end
+subsection Materials
+  subsection clay
+    set Young modulus = 1e4
+    set Poisson ratio = {nu}
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = {lower}
+    set Upper corner = {upper}
+  end
+end
+subsection Grid conditions
+{rollers}end
+subsection Loads
+  subsection press
+    set Type = side traction
+    set Side = top
+    set Value = {value}*t
+  end
+end
+subsection Time
+  set Steps = 3
+end
+"""
+ROLLER = """  subsection {side}
+    set Side = {side}
+    set Components = {component}
+  end
+"""
+
+
+def press(dim, method, strain, pressure, nu=0.3, height=2):
+    scene = folder / "scene.prm"
+    sides = (("left", "x"), ("front", "y"))[:dim - 1] + (("bottom", "xyz"[dim - 1]),)
+    scene.write_text(SCENE.format(
+        dim=dim, method=method, strain=strain, nu=nu,
+        lower=", ".join("0" * dim), end="2, " * (dim - 1) + str(height),
+        upper="1, " * (dim - 1) + str(height),
+        rollers="".join(ROLLER.format(side=s, component=c) for s, c in sides),
+        value="0; " * (dim - 1) + f"-{pressure}"))
+    return run(scene)
+
+
+for dim, method, strain in ((2, "GIMP", "small"), (2, "CPDI1", "finite"),
+                            (2, "CPDI2", "finite"), (2, "material point", "small"),
+                            (3, "GIMP", "small")):
+    for pressure in (1, 100):
+        result = press(dim, method, strain, pressure)
+        last = result.history()[-1]
+        up = "y" if dim == 2 else "z"
+        bound(f"{dim}D, {method}, pressed by {pressure}: reaction over load - 1",
+              abs(last[f"reaction_{up} of bottom"] / pressure - 1), 1e-9)
+
+# Where points themselves come beside more of the side, it says so.
+result = press(2, "GIMP", "small", 1500, 0.45, 0.5)
+text("bulges by more than a point", next(
+    (line for line in result.summary["warnings"] if "beside more" in line), "-"))
