@@ -283,17 +283,25 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<std::string>
-  doubts_of_geometric_stiffness(const Model<dim> &model, const double share)
+  bool
+  is_of_slender_bodies(const Model<dim> &model, const double share)
   {
     if (!(share >= told_geometric_share))
-      return {};
+      return false;
     const auto strains = mean_strains(*model.points,
                                       model.mesh->cell_size(),
                                       model.body_names.size(),
                                       model.space->communicator());
-    if (share <
-        slender_share * *std::max_element(strains.begin(), strains.end()))
+    return share >=
+           slender_share * *std::max_element(strains.begin(), strains.end());
+  }
+
+
+
+  std::vector<std::string>
+  doubts_of_geometric_stiffness(const double share)
+  {
+    if (!(share >= told_geometric_share))
       return {};
     std::ostringstream text;
     text << "stress is " << std::setprecision(2) << share
@@ -308,12 +316,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                             \
-  template double                   geometric_share(const Model<dim> &,              \
-                                                    const LA::Vector &,              \
-                                                    const LinearSolverParameters &); \
-  template std::vector<std::string> doubts_of_geometric_stiffness(                   \
-    const Model<dim> &, const double);
+#define INSTANTIATE(dim)                                           \
+  template double geometric_share(const Model<dim> &,              \
+                                  const LA::Vector &,              \
+                                  const LinearSolverParameters &); \
+  template bool   is_of_slender_bodies(const Model<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

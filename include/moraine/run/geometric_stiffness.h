@@ -41,12 +41,16 @@ namespace moraine
                   const LA::Vector             &x,
                   const LinearSolverParameters &solver);
 
-  /** That small strain has too late what stress does to slender bodies, of
-   * which geometric_share() was @p share in the last step: 0.1 or more, and
-   * more than their strain explains. Collective. */
+  /** Whether geometric_share(), of the last step, is 0.1 or more, and more than
+   * the strain of the bodies explains. Collective. */
   template <int dim>
+  bool
+  is_of_slender_bodies(const Model<dim> &model, const double share);
+
+  /** That small strain has too late what stress does to slender bodies, by
+   * @p share, the largest of those in a run; 0 if there are none. */
   std::vector<std::string>
-  doubts_of_geometric_stiffness(const Model<dim> &model, const double share);
+  doubts_of_geometric_stiffness(const double share);
 } // namespace moraine
 
 #endif
