@@ -111,7 +111,8 @@ namespace moraine
         tractions.push_back(slope_traction(context, k, 1.));
         const Tensor<1, dim> force = boundary.points()[slope.point].JxW *
                                      slope_traction(context, k, share);
-        prepared.work_of_motion += force * slope.prescribed;
+        prepared.work_of_motion +=
+          work_of_motion(states.size() + k, force, slope.prescribed);
         prepared.moment += motion.moment(place + arm, force, context.t_end) -
                            motion.moment(place, force, context.t_end);
       }

@@ -176,6 +176,7 @@ namespace moraine
     const bool         symmetric = how.is_nitsche() && how.adjoint_sign > 0;
     const bool finite = context.state.strain_measure() == StrainMeasure::finite;
     depths_of_means.clear();
+    forces_at_start.clear();
     if (!symmetric && !(how.is_nitsche() && context.motion))
       return false;
     const std::vector<double> volumes = volumes_in_cells(context.state);
@@ -243,6 +244,37 @@ namespace moraine
   BoundaryTerm<dim>::move_trial(const StepContext<dim> &context)
   {
     boundary.move_target(context.t_end);
+  }
+
+
+
+  template <int dim>
+  void
+  BoundaryTerm<dim>::note_start(const StepContext<dim> &context)
+  {
+    if (context.share_of_step() < 1.)
+      return;
+    std::vector<ConstraintState<dim>> states;
+    evaluate(context, forces_at_start, states);
+    for (unsigned int q = 0; q < forces_at_start.size(); ++q)
+      forces_at_start[q] *= boundary.points()[q].JxW;
+    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
+      forces_at_start.push_back(
+        boundary.points()[boundary.slopes()[k].point].JxW *
+        slope_traction(context, k, 1.));
+  }
+
+
+
+  template <int dim>
+  double
+  BoundaryTerm<dim>::work_of_motion(const unsigned int    k,
+                                    const Tensor<1, dim> &force,
+                                    const Tensor<1, dim> &prescribed) const
+  {
+    if (forces_at_start.empty())
+      return force * prescribed;
+    return 0.5 * (forces_at_start[k] + force) * prescribed;
   }
 
 
@@ -476,7 +508,7 @@ namespace moraine
         const Tensor<1, dim> force = point.JxW * tractions[q];
         prepared.reaction += force;
         prepared.force_magnitude += force.norm();
-        prepared.work_of_motion += force * point.prescribed;
+        prepared.work_of_motion += work_of_motion(q, force, point.prescribed);
         prepared.moment +=
           boundary.rigid_motion().moment(states[q].place, force, context.t_end);
         prepared.violation =

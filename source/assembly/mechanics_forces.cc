@@ -138,6 +138,8 @@ namespace moraine
     state.set_step_time({context.t_start, context.t_end});
     state.reject();
     start_over();
+    for (const auto &term : terms)
+      term->note_start(context);
     add_point_forces_by_kind();
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {

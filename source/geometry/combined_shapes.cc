@@ -35,6 +35,18 @@ namespace moraine
         return shape->covers(motion.inverse(p), margin);
       }
 
+      double
+      distance(const Point<dim> &p, const double length) const override
+      {
+        return shape->distance(motion.inverse(p), length);
+      }
+
+      bool
+      estimates_distance() const override
+      {
+        return shape->estimates_distance();
+      }
+
       Overlap
       overlap(const ConvexPolytope<dim> &cell) const override
       {
@@ -126,9 +138,19 @@ namespace moraine
       double
       level(const Point<dim> &p) const override
       {
-        if (operation == Operation::unite)
-          return std::max(a->level(p), b->level(p));
-        return std::min(a->level(p), (takes_off ? -1. : 1.) * b->level(p));
+        return joined(a->level(p), b->level(p));
+      }
+
+      double
+      distance(const Point<dim> &p, const double length) const override
+      {
+        return joined(a->distance(p, length), b->distance(p, length));
+      }
+
+      bool
+      estimates_distance() const override
+      {
+        return a->estimates_distance() || b->estimates_distance();
       }
 
       bool
@@ -230,6 +252,15 @@ namespace moraine
       }
 
     private:
+      /** The level of the combination, or the distance. */
+      double
+      joined(const double of_a, const double of_b) const
+      {
+        if (operation == Operation::unite)
+          return std::max(of_a, of_b);
+        return std::min(of_a, takes_off ? -of_b : of_b);
+      }
+
       static std::string
       prefix_of(const std::string &name)
       {

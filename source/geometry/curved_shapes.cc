@@ -175,6 +175,34 @@ namespace moraine
         return phi > -margin * gradient(p, 1e3 * std::abs(margin)).norm();
       }
 
+      double
+      distance(const Point<dim> &p, const double length) const override
+      {
+        constexpr unsigned int most_steps = 8;
+        const double           phi        = level(p);
+        WayPlace               place{p, phi, 0.};
+        try
+          {
+            for (unsigned int k = 0; k < most_steps; ++k)
+              {
+                if (std::abs(place.value) <= 1e-4 * std::abs(phi))
+                  break;
+                if (!step_to_surface(place, length))
+                  return std::copysign(length, phi);
+              }
+          }
+        catch (const InputError &)
+          {} // φ need not have values there
+        return std::copysign(std::max(0., p.distance(place.x) + place.rest),
+                             phi);
+      }
+
+      bool
+      estimates_distance() const override
+      {
+        return true;
+      }
+
       Overlap
       overlap(const ConvexPolytope<dim> &cell) const override
       {
@@ -239,6 +267,63 @@ namespace moraine
       {}
 
     private:
+      /** On the way to φ = 0: a place, φ there, and how far it is from there by
+       * the last slope, negative beyond. */
+      struct WayPlace
+      {
+        Point<dim> x;
+        double     value;
+        double     rest;
+      };
+
+      /** A step of Newton's method, shortened until φ is smaller; from where φ
+       * is flat or least, one along an axis. @return whether there is one. */
+      bool
+      step_to_surface(WayPlace &place, const double length) const
+      {
+        const Tensor<1, dim> g     = gradient(place.x, length);
+        const double         slope = g.norm(), size = std::abs(place.value);
+        if (!(slope * length > 1e-3 * size))
+          return step_along_axis(place, length);
+        place.rest               = size / slope;
+        const Tensor<1, dim> way = -place.value / (slope * slope) * g;
+        for (double part = 1.; part == 1. || part * place.rest > length / 64.;
+             part *= 0.5)
+          {
+            const Point<dim> y     = place.x + part * way;
+            const double     value = level(y);
+            if (!(std::abs(value) < size))
+              continue;
+            const double rest = std::abs(value) / slope;
+            place = {y, value, value * place.value < 0. ? -rest : rest};
+            return true;
+          }
+        return step_along_axis(place, length);
+      }
+
+      /** The shortest to where φ is smaller or has changed its sign. */
+      bool
+      step_along_axis(WayPlace &place, const double length) const
+      {
+        const Point<dim> start = place.x;
+        const double     from  = place.value;
+        bool             found = false;
+        for (double step = length / 64.; step <= length && !found; step *= 2.)
+          for (unsigned int k = 0; k < 2 * dim; ++k)
+            {
+              const Point<dim> y = start + (k % 2 == 0 ? step : -step) *
+                                             Point<dim>::unit_vector(k / 2);
+              const double value = level(y);
+              const double size  = value * from > 0. ? std::abs(value) : 0.;
+              if (size < std::abs(place.value))
+                {
+                  place = {y, std::copysign(size, from), 0.};
+                  found = true;
+                }
+            }
+        return found;
+      }
+
       /** A place near φ = 0 by Newton's method, kept within the box with these
        * edges, outside of which φ need not have values. */
       Point<dim>

@@ -17,6 +17,10 @@ namespace moraine
     /** Levels that are zero but for round-off, over the cell size. */
     constexpr double on_surface = 1e-6;
 
+    /** Where distances are estimates, over the cell size: what is thinner may
+     * be missed. */
+    constexpr double longest_blind_step = 1. / 8;
+
     /** Gaps that are slips of drawing, over the cell size: bodies that share
      * nodes bear each other. */
     constexpr double smallest_gap = 1e-2;
@@ -131,19 +135,22 @@ namespace moraine
                              const double          length,
                              std::vector<Part>    &parts) const
   {
-    const auto level = [&](const double s) {
-      return bodies[b]->level(x + s * up);
+    const Shape<dim> &body     = *bodies[b];
+    const auto        distance = [&](const double s) {
+      return body.distance(x + s * up, cell_size);
     };
-    double s = 0, value = level(0.), begin = 0;
+    const double longest =
+      (body.estimates_distance() ? longest_blind_step : 1.) * cell_size;
+    double s = 0, value = distance(0.), begin = 0;
     bool   runs_along = false;
     while (s < length)
       {
         const double next =
           std::min(length,
-                   s + std::clamp(std::abs(value), cell_size / 32, cell_size));
+                   s + std::clamp(std::abs(value), cell_size / 32, longest));
         const bool was_inside = value > 0;
         const bool was_on_it  = std::abs(value) <= on_surface * cell_size;
-        value                 = level(next);
+        value                 = distance(next);
         runs_along            = runs_along ||
                      (was_on_it && std::abs(value) <= on_surface * cell_size);
         if ((value > 0) != was_inside)
@@ -152,7 +159,8 @@ namespace moraine
             for (unsigned int halving = 0; halving < 60; ++halving)
               {
                 const double middle = 0.5 * (lower + upper);
-                ((level(middle) > 0) == was_inside ? lower : upper) = middle;
+                (body.contains(x + middle * up) == was_inside ? lower : upper) =
+                  middle;
               }
             if (was_inside)
               parts.push_back({begin, upper, b});

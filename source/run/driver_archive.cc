@@ -121,7 +121,8 @@ namespace moraine
     archive.write("run/stage", stage);
     archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
     archive.write("run/stiffness_of_empty_parts", accepted_fraction);
-    archive.write("run/geometric_share", share_of_last_step);
+    archive.write("run/geometric_share", largest_geometric_share);
+    archive.write("run/motion_of_share", motion_of_share, "length");
     archive.write("run/strain_at_resets", largest_strain_at_resets);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
@@ -149,7 +150,8 @@ namespace moraine
       }
     lasting.read(archive);
     accepted_fraction        = archive.number("run/stiffness_of_empty_parts");
-    share_of_last_step       = archive.number("run/geometric_share");
+    largest_geometric_share  = archive.number("run/geometric_share");
+    motion_of_share          = archive.number("run/motion_of_share");
     largest_strain_at_resets = archive.number("run/strain_at_resets");
     if (archive.integer("run/empty_parts_have_stiffness") != 0)
       {

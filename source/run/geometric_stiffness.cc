@@ -283,17 +283,25 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<std::string>
-  doubts_of_geometric_stiffness(const Model<dim> &model,
-                                const double      share,
-                                const double      strain_at_resets)
+  bool
+  is_of_slender_bodies(const Model<dim> &model,
+                       const double      share,
+                       const double      strain_at_resets)
   {
     if (!(share >= told_geometric_share))
-      return {};
+      return false;
     double strain = strain_at_resets;
     for (const double of_body : mean_strains(model))
       strain = std::max(strain, of_body);
-    if (share < slender_share * strain)
+    return share >= slender_share * strain;
+  }
+
+
+
+  std::vector<std::string>
+  doubts_of_geometric_stiffness(const double share)
+  {
+    if (!(share >= told_geometric_share))
       return {};
     std::ostringstream text;
     text << "stress is " << std::setprecision(2) << share
@@ -308,12 +316,13 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                             \
-  template double                   geometric_share(const Model<dim> &,              \
-                                                    const LA::Vector &,              \
-                                                    const LinearSolverParameters &); \
-  template std::vector<std::string> doubts_of_geometric_stiffness(                   \
-    const Model<dim> &, const double, const double);
+#define INSTANTIATE(dim)                                           \
+  template double geometric_share(const Model<dim> &,              \
+                                  const LA::Vector &,              \
+                                  const LinearSolverParameters &); \
+  template bool   is_of_slender_bodies(const Model<dim> &,         \
+                                       const double,               \
+                                       const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -50,18 +50,36 @@ namespace moraine
 
 
 
-    /** That of a shape; within it where an expression is no number. */
+    /** How far inside of a shape a place is, estimated over @p h; infinitely
+     * where an expression is no number. */
     template <int dim>
     double
-    level_of(const Shape<dim> &shape, const Point<dim> &x)
+    distance_in(const Shape<dim> &shape, const Point<dim> &x, const double h)
     {
       try
         {
-          return shape.level(x);
+          return shape.distance(x, h);
         }
       catch (const InputError &)
         {
           return std::numeric_limits<double>::infinity();
+        }
+    }
+
+
+
+    /** Also where an expression is no number. */
+    template <int dim>
+    bool
+    is_in(const Shape<dim> &shape, const Point<dim> &x)
+    {
+      try
+        {
+          return shape.contains(x);
+        }
+      catch (const InputError &)
+        {
+          return true;
         }
     }
 
@@ -80,7 +98,7 @@ namespace moraine
       double       begin = 0; // of the gap, once it has begun
       for (double s = step; s < largest_narrow_gap * h + begin; s += step)
         {
-          const bool inside = level_of<dim>(shape, x + s * direction) > 0;
+          const bool inside = is_in<dim>(shape, x + s * direction);
           if (!inside && begin == 0)
             begin = s;
           else if (!inside && s - begin > largest_narrow_gap * h)
@@ -104,7 +122,7 @@ namespace moraine
     depth_around(const Shape<dim> &shape, Point<dim> x, const double h)
     {
       constexpr unsigned int most  = 100;
-      double                 depth = -level_of(shape, x);
+      double                 depth = -distance_in(shape, x, h);
       for (unsigned int i = 0; i < most && depth < h; ++i)
         {
           Point<dim>         best     = x;
@@ -115,9 +133,10 @@ namespace moraine
               Point<dim> y = x;
               for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 3)
                 y[d] += (int(rest % 3) - 1) * sample<dim> * h;
-              if (-level_of(shape, y) > deepest + 1e-3 * h)
+              const double deep = -distance_in(shape, y, h);
+              if (deep > deepest + 1e-3 * h)
                 {
-                  deepest = -level_of(shape, y);
+                  deepest = deep;
                   best    = y;
                 }
             }
@@ -160,8 +179,7 @@ namespace moraine
         return std::any_of(model.bodies.begin(),
                            model.bodies.end(),
                            [&](const Body<dim> &other) {
-                             return !other.shape ||
-                                    level_of(*other.shape, x) > 0;
+                             return !other.shape || is_in(*other.shape, x);
                            });
       };
       std::pair<double, Point<dim>> narrowest(
@@ -169,7 +187,7 @@ namespace moraine
       for (unsigned int p = 0; p < model.points->n_local(); ++p)
         {
           const Point<dim> x = model.points->position(p);
-          if (model.points->body(p) != body || level_of(shape, x) > h)
+          if (model.points->body(p) != body || distance_in(shape, x, h) > h)
             continue;
           for (unsigned int d = 0; d < dim; ++d)
             {

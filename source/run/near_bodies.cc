@@ -61,6 +61,7 @@ namespace moraine
     gaps_between(const Model<dim> &model)
     {
       const unsigned int  n       = model.bodies.size();
+      const double        h       = model.mesh->cell_size();
       const auto          touched = touched_nodes(model);
       std::vector<double> gaps(n * n, std::numeric_limits<double>::infinity());
       StencilBlock<dim>   block;
@@ -77,11 +78,11 @@ namespace moraine
                 continue;
               for (unsigned int k = 0; k < block.n_points; ++k)
                 {
-                  const unsigned int p    = block.points[k];
-                  const unsigned int a    = model.points->body(p);
-                  const Point<dim>  &x    = model.points->position(p);
-                  const double       away = -model.bodies[b].shape->level(x) -
-                                      model.bodies[a].shape->level(x);
+                  const unsigned int p = block.points[k];
+                  const unsigned int a = model.points->body(p);
+                  const Point<dim>  &x = model.points->position(p);
+                  const double away = -model.bodies[b].shape->distance(x, h) -
+                                      model.bodies[a].shape->distance(x, h);
                   double &gap = gaps[a * n + b];
                   gap         = std::min(gap, away);
                 }

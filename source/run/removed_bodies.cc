@@ -85,7 +85,8 @@ namespace moraine
         for (unsigned int b = 0; b < goes.size(); ++b)
           if (model.present[b] && model.bodies[b].shape)
             {
-              const double away = -model.bodies[b].shape->level(x);
+              const double away =
+                -model.bodies[b].shape->distance(x, model.mesh->cell_size());
               if (away < nearest)
                 {
                   nearest = away;

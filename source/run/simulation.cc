@@ -318,9 +318,7 @@ namespace moraine
         for (const auto &doubts :
              {doubts_of_stress(scene, model, summary.quality.stress_error),
               doubts_of_strain(model),
-              doubts_of_geometric_stiffness(model,
-                                            driver.geometric_share(),
-                                            driver.strain_at_resets())})
+              doubts_of_geometric_stiffness(driver.geometric_share())})
           for (const std::string &doubt : doubts)
             {
               summary.warnings.push_back(doubt);

@@ -35,6 +35,9 @@ namespace moraine
     /** A ghost term that takes more of the work is told of. */
     constexpr double told_ghost_share = 0.01;
 
+    /** Of motion since stress was last asked what it makes of the bodies. */
+    constexpr double growth_of_motion = 2;
+
     /** The user wants the step under way to be given up. */
     struct Interruption
     {};
@@ -330,6 +333,35 @@ namespace moraine
 
 
   template <int dim>
+  double
+  StepDriver<dim>::share_of_stress(const LA::Vector &x,
+                                   const bool        ends,
+                                   const double      largest_motion)
+  {
+    if (motion_of_share == 0)
+      motion_of_share = largest_motion;
+    const bool grows = largest_motion > growth_of_motion * motion_of_share &&
+                       !scene.stages[stage].second.time.integrator.dynamic();
+    if (!ends && !grows)
+      return 0.;
+    motion_of_share = largest_motion;
+    return moraine::geometric_share(model, x, scene.linear_solver);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::keep_share(const double share)
+  {
+    if (share > largest_geometric_share &&
+        is_of_slender_bodies(model, share, largest_strain_at_resets))
+      largest_geometric_share = share;
+  }
+
+
+
+  template <int dim>
   void
   StepDriver<dim>::accept(const NewtonReport &report,
                           const LA::Vector   &x,
@@ -342,13 +374,21 @@ namespace moraine
                                      time_control.trial_time());
       });
     const std::string leaves = point_that_leaves(model, time_control, x);
-    if (!leaves.empty() || time_control.trial_ends_run())
-      share_of_last_step =
-        moraine::geometric_share(model, x, scene.linear_solver);
-    if (!leaves.empty())
-      throw ComputationError(leaves);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
+    double largest = 0;
+    for (const auto &u : increments)
+      largest = std::max(largest, u.norm());
+    largest = Utilities::MPI::max(largest, communicator);
+    const double share =
+      share_of_stress(x,
+                      !leaves.empty() || time_control.trial_ends_run(),
+                      largest);
+    if (!leaves.empty())
+      {
+        keep_share(share);
+        throw ComputationError(leaves);
+      }
     typename Motion<dim>::Nodal motion;
     const bool dynamic = scene.stages[stage].second.time.integrator.dynamic() &&
                          model.probes->any_interpolated();
@@ -375,10 +415,7 @@ namespace moraine
     if (support)
       accepted_fraction = support->stiffness_fraction();
 
-    double largest = 0;
-    for (const auto &u : increments)
-      largest = std::max(largest, u.norm());
-    largest = Utilities::MPI::max(largest, communicator);
+    keep_share(share);
     for (const std::string &warning :
          checks.of_step(time_control,
                         scene.stages[stage].second.time.integrator,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A run whose energy explodes does not end well; Nitsche's method on walls that
-cut cells at an angle keeps it. The waves of oblique-inclined.prm, 100 steps. A
+cut cells at an angle keeps it, and where it shakes a column nothing is told. The waves of oblique-inclined.prm, 100 steps. A
 column that vibrates between walls keeps it by default, on mesh lines or not."""
 
 from math import cos, radians, sin
@@ -157,6 +157,64 @@ text("moving base: told of energy of boundaries",
      "It comes from boundaries that hold" in result.output)
 energy = result.summary["energy"]
 bound("moving base: out of balance, of the largest", energy["balance_error"], 0.03)
+
+# One that moves by a surface as well, where a step turns its force by much.
+shaken = folder / "shaken.prm"
+shaken.write_text("""
+subsection Mesh
+  set Cell size = 0.5
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection soil
+    set Young modulus = 2.6
+    set Poisson ratio = 0.3
+    set Density       = 1
+  end
+end
+subsection Bodies
+  subsection column
+    set Lower corner        = 0, 0
+    set Upper corner        = 2, 5
+    set Damping ratio       = 0.1
+    set Damping frequencies = 0.0125, 0.15
+  end
+end
+subsection Boundaries
+  subsection base
+    set Body        = column
+    set Part        = bottom
+    set Translation = 0.01*sin(0.15708*t); 0
+  end
+  subsection left
+    set Body       = column
+    set Part       = left
+    set Constraint = components
+    set Components = y
+  end
+  subsection right
+    set Body       = column
+    set Part       = right
+    set Constraint = components
+    set Components = y
+  end
+end
+subsection Time
+  set Integrator = Newmark
+  set End time   = 240
+  set Steps      = 240
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+""")
+for lower in (0, -0.1):
+    text(f"shaken column, mesh from {lower}: told", "energy grows" in run(
+        shaken, {"Mesh/Lower corner": f"-3, {lower}",
+                 "Mesh/Upper corner": f"5, {lower + 6}"}, on_ranks=1).output)
 
 # With forces in the middle of a step, walls are held by what does no work there.
 TURN = """

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Ground at rest: points straight below the joint of two bodies bear what stands on
-both sides of it, and a coordinate that was rounded is no gap."""
+both sides of it, and a coordinate that was rounded is no gap. A layer drawn by an
+expression bears down whatever number that is multiplied with."""
 
 GROUND = """
 set Dimension = {dim}
@@ -93,3 +94,20 @@ LAYERS = FLAT + body("below", {
               "Vertices": "-4 -3.5; 1 {y}; 4 -2.4; 4 0; -4 0"})
 at_rest("layers that meet", LAYERS.replace("{y}", "-2.8125"), 2e-3)
 at_rest("layers 0.5 mm apart", LAYERS.replace("{y}", "-2.812"), 2e-3)
+
+# Thinner than a cell: with points on both sides of it, next to a larger number it
+# would be stepped over.
+CRUST = FLAT + box("clay", "-4, -6", "4, -0.7")
+for name, expression in (
+        ("drawn as a distance", "min(-y, y + 0.7)"),
+        ("times 1000", "1e3*min(-y, y + 0.7)"), ("over 1000", "1e-3*min(-y, y + 0.7)"),
+        ("as a product", "-y*(y + 0.7)"), ("as a product times 1e5", "-1e5*y*(y + 0.7)")):
+    at_rest(f"crust {name}", CRUST + body(
+        "crust", {"Shape": "expression", "Expression": expression}), 1e-6,
+        {"Method/Method": "GIMP"})
+JOINED = "".join(body(name, {"Shape": "expression", "Expression": expression})
+                 for name, expression in (
+                     ("a", "1e3*min(min(-y, y + 3), 0.75 - x)"),
+                     ("b", "1e3*min(min(-y, y + 3), x - 0.75)")))
+at_rest("two fills drawn by expressions", FLAT + box("clay", "-4, -6", "4, -3")
+        + JOINED, 1e-6)

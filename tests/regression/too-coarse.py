@@ -78,6 +78,33 @@ for gap in (0, 0.05, 0.3, 0.55):
     show(f"columns {gap} apart", columns(gap))
 
 
+EXPRESSION = """subsection {name}
+    set Material   = firm
+    set Shape      = expression
+    set Expression = {expression}
+  end
+  """
+
+
+def show_drawn(title, bodies):
+    scene.write_text(SCENE.format(more="", bodies="".join(
+        EXPRESSION.format(name=name, expression=expression)
+        for name, expression in bodies)))
+    notes = [line.strip() for line in run(scene, command="check").output.splitlines()
+             if line.strip().startswith("note")]
+    for note in notes or ["nothing"]:
+        text(title, note)
+
+
+# Whatever number an expression is multiplied with, and where it is no distance.
+for gap in (0, 0.3):
+    for name, upper in (("over 1000", "1e-3*min(3.5 - y, y - {y})"),
+                        ("times 1000", "1e3*min(3.5 - y, y - {y})"),
+                        ("product", "(3.5 - y)*(y - {y})")):
+        show_drawn(f"layers {gap} apart, {name}",
+                   [("below", "1.1 - y"), ("above", upper.format(y=1.1 + gap))])
+
+
 def layers(top_of_seam):
     return [("below", "firm", "0, 0", "3, 1"),
             ("seam", "soft", "0, 1", f"3, {top_of_seam}"),
@@ -266,6 +293,15 @@ for radius in (0.06, 0.15, 0.6):
     show_without(f"hole of radius {radius}", DISC.format(r=radius))
 show_without("notch", """set Shape    = polygon
     set Vertices = 0.7, -0.1; 2.3, -0.1; 1.5, 1.2""")
+
+BLOCK = "min(min(x, 3 - x), 3 - y)"
+for title, hole in (("slot at 1.1", "max(abs(x - 1.275) - 0.175, y - 2)"),
+                    ("smooth slot at 1.1", "max((x - 1.275)^2 - 0.175^2, y - 2)"),
+                    ("smooth hole", "(x - 1.6)^2 + (y - 1.3)^2 - 0.15^2"),
+                    ("large hole", "(x - 1.6)^2 + (y - 1.3)^2 - 0.6^2")):
+    for scale in ("1", "1e3", "1e-3"):
+        show_drawn(f"{title} in a block drawn by an expression times {scale}",
+                   [("block", f"{scale}*min({BLOCK}, {hole})")])
 
 STAGES = """
 subsection Stages

@@ -67,6 +67,9 @@ namespace moraine
     move_trial(const StepContext<dim> &context) override;
 
     void
+    note_start(const StepContext<dim> &context) override;
+
+    void
     add(const StepContext<dim> &context,
         const bool              tangent,
         GlobalSystem<dim>      &system) const override;
@@ -179,6 +182,13 @@ namespace moraine
     prepare_slopes(const StepContext<dim>                  &context,
                    const std::vector<ConstraintState<dim>> &states);
 
+    /** Of the end of a step, or of the mean of both ends, as Motion counts
+     * work: of point @p k, or after them, of a slope. */
+    double
+    work_of_motion(const unsigned int            k,
+                   const dealii::Tensor<1, dim> &force,
+                   const dealii::Tensor<1, dim> &prescribed) const;
+
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,
@@ -209,6 +219,9 @@ namespace moraine
     ShapesOfBodies<dim>    shapes;
     BoundaryReport<dim>    prepared;
     std::vector<HeldPlace> held_places;
+    /** Of points, then of slopes; none if the work of a step has none of them.
+     */
+    std::vector<dealii::Tensor<1, dim>> forces_at_start;
     /** By active_cell_index(), of the cells g with one mean:
      * @f$\sum_g \lambda V / \sum_g \lambda A@f$ with the volume V of points
      * and the area A of the boundary. Empty where means are not penalised. */

@@ -105,6 +105,12 @@ namespace moraine
     move_trial(const StepContext<dim> &)
     {}
 
+    /** In dynamics: the trial state is that at the start of the step, whose
+     * forces count half in its work; see Motion. */
+    virtual void
+    note_start(const StepContext<dim> &)
+    {}
+
     /** Whether its forces depend on time alone, not on the trial state. */
     virtual bool
     is_dead() const

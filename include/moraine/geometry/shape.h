@@ -337,6 +337,22 @@ namespace moraine
       return level(p) > -margin;
     }
 
+    /** The level as a length: for expressions an estimate, up to a few times
+     * @p length, the scale over which they are seen (a cell's size). */
+    virtual double
+    distance(const dealii::Point<dim> &p, const double length) const
+    {
+      (void)length;
+      return level(p);
+    }
+
+    /** Whether distance() may exceed the distance to the boundary. */
+    virtual bool
+    estimates_distance() const
+    {
+      return false;
+    }
+
     /** Whether @p p is strictly inside. */
     bool
     contains(const dealii::Point<dim> &p) const

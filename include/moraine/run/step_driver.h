@@ -93,19 +93,13 @@ namespace moraine
       return stage_is_begun;
     }
 
-    /** Of the step that ended the run; 0 before. See
+    /** The largest of slender bodies, in the step that ended the run and in
+     * those before that moved much further than the ones before them; see
      * moraine::geometric_share(). */
     double
     geometric_share() const
     {
-      return share_of_last_step;
-    }
-
-    /** The largest mean strain of a body where displacements were reset. */
-    double
-    strain_at_resets() const
-    {
-      return largest_strain_at_resets;
+      return largest_geometric_share;
     }
 
   private:
@@ -216,6 +210,19 @@ namespace moraine
     std::string
     share_of_ghost_term();
 
+    /** What stress makes of slender bodies, in the trial state @p x that is to
+     * be accepted, if the run @p ends with it or it moves much further than
+     * the steps before, as what grows without bound: when it has, stress is
+     * another. Else 0. Collective. */
+    double
+    share_of_stress(const LA::Vector &x,
+                    const bool        ends,
+                    const double      largest_motion);
+
+    /** Of an accepted step, whose strain may explain it. Collective. */
+    void
+    keep_share(const double share);
+
     void
     accept(const NewtonReport &report,
            const LA::Vector   &x,
@@ -244,8 +251,10 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     StepChecks<dim>                       checks;
-    double                                share_of_last_step       = 0;
-    double                                largest_strain_at_resets = 0;
+    double                                largest_geometric_share = 0;
+    double largest_strain_at_resets = 0; ///< mean one of a body
+    /** In the step of the last geometric share, or in the first. */
+    double motion_of_share = 0;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
