@@ -8,6 +8,7 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <moraine/solver/multigrid_options.h>
+#include <moraine/solver/schwarz_preconditioner.h>
 #include <moraine/solver/solver_choice.h>
 
 #include <algorithm>
@@ -86,7 +87,9 @@ namespace moraine
         make_hierarchy();
         return true;
       }
-    renew_smoother(*multigrid);
+    if (!options.schwarz)
+      renew_smoother(
+        static_cast<TrilinosWrappers::PreconditionAMG &>(*preconditioner));
     is_new = false;
     return false;
   }
@@ -96,13 +99,23 @@ namespace moraine
   void
   IterativeSolver::make_hierarchy()
   {
-    multigrid.reset();
-    const MultigridOptions multigrid_options(matrix,
-                                             options.symmetric,
-                                             near_null_space,
-                                             options.dim);
-    multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    multigrid->initialize(matrix, multigrid_options.list);
+    preconditioner.reset();
+    if (options.schwarz)
+      preconditioner = std::make_unique<SchwarzPreconditioner>(
+        matrix,
+        near_null_space,
+        options.dim,
+        unknowns_come_by_node(near_null_space, options.dim) ? options.dim : 1);
+    else
+      {
+        const MultigridOptions multigrid_options(matrix,
+                                                 options.symmetric,
+                                                 near_null_space,
+                                                 options.dim);
+        auto multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+        multigrid->initialize(matrix, multigrid_options.list);
+        preconditioner = std::move(multigrid);
+      }
     is_new               = true;
     iterations_per_digit = extra_iterations = 0;
   }
@@ -177,7 +190,9 @@ namespace moraine
                          const unsigned int most) const
   {
     LinearReport report;
-    report.solver   = options.conjugate_gradients ? "amg-cg" : "gmres";
+    report.solver   = options.schwarz             ? "schwarz" :
+                      options.conjugate_gradients ? "amg-cg" :
+                                                    "gmres";
     const auto norm = [weights](LA::Vector r) {
       if (weights)
         r.scale(*weights);
@@ -196,16 +211,16 @@ namespace moraine
           {
             // W A W y = W b, x = W y, has the residual W r.
             const Scaled<LA::SparseMatrix> A(matrix, *weights, false);
-            const Scaled<TrilinosWrappers::PreconditionAMG> P(*multigrid,
-                                                              *weights,
-                                                              true);
-            LA::Vector                                      scaled_b(b);
+            const Scaled<TrilinosWrappers::PreconditionBase> P(*preconditioner,
+                                                               *weights,
+                                                               true);
+            LA::Vector                                       scaled_b(b);
             scaled_b.scale(*weights);
             iterate(control, A, P, x, scaled_b);
             x.scale(*weights);
           }
         else
-          iterate(control, matrix, *multigrid, x, b);
+          iterate(control, matrix, *preconditioner, x, b);
       }
     catch (const SolverControl::NoConvergence &)
       {

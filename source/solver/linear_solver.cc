@@ -48,7 +48,8 @@ namespace moraine
     {
       direct,
       amg_cg,
-      gmres
+      gmres,
+      schwarz
     };
 
     const LinearSolverParameters            parameters;
@@ -90,7 +91,8 @@ namespace moraine
     {
       return method == Method::direct ? "direct" :
              method == Method::amg_cg ? "amg-cg" :
-                                        "gmres";
+             method == Method::gmres  ? "gmres" :
+                                        "schwarz";
     }
 
     /** Build the preconditioner, or renew it. */
@@ -115,6 +117,8 @@ namespace moraine
         (parameters.solver == "auto" && choice.directly(matrix->m())))
       return Method::direct;
     fall_back_reason.clear();
+    if (parameters.solver == "schwarz")
+      return Method::schwarz;
     if (parameters.solver == "amg-cg" ||
         (parameters.solver == "auto" && symmetric))
       return Method::amg_cg;
@@ -150,7 +154,10 @@ namespace moraine
   {
     if (!iterative)
       iterative.emplace(*matrix,
-                        IterativeSolver::Options{method == Method::amg_cg,
+                        IterativeSolver::Options{method == Method::amg_cg ||
+                                                   (method == Method::schwarz &&
+                                                    is_symmetric),
+                                                 method == Method::schwarz,
                                                  is_symmetric,
                                                  dim,
                                                  parameters.relative_tolerance},
@@ -412,9 +419,11 @@ namespace moraine
     prm.add_parameter("Solver",
                       solver,
                       "direct factorises; amg-cg is for symmetric tangents, "
-                      "gmres for unsymmetric ones; auto chooses by size and "
-                      "falls back to direct where they fail",
-                      Patterns::Selection("auto|direct|amg-cg|gmres"));
+                      "gmres for unsymmetric ones, both with multigrid; "
+                      "schwarz is for large ones that keep their volume; auto "
+                      "chooses by size and falls back to direct where they "
+                      "fail",
+                      Patterns::Selection("auto|direct|amg-cg|gmres|schwarz"));
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,
                       "of iterative solvers: residual over right hand side",

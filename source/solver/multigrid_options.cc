@@ -19,31 +19,6 @@ namespace moraine
   namespace
   {
     /**
-     * Whether the unknowns of a node follow each other, component by
-     * component, on every rank. The first dim modes are the translations, so
-     * they tell the component of an unknown.
-     */
-    bool
-    unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
-                          const unsigned int             dim)
-    {
-      const auto         n_owned = near_null_space[0].locally_owned_size();
-      const unsigned int n_modes = near_null_space.size();
-      bool               by_node = n_modes >= dim && n_owned % dim == 0;
-      for (unsigned int c = 0; by_node && c < dim; ++c)
-        {
-          const double *values = near_null_space[c].trilinos_vector()[0];
-          for (unsigned int i = 0; by_node && i < n_owned; ++i)
-            by_node = (values[i] == 0. || i % dim == c);
-        }
-      return Utilities::MPI::min(by_node ? 1 : 0,
-                                 near_null_space[0].get_mpi_communicator()) ==
-             1;
-    }
-
-
-
-    /**
      * Whether inertia holds nearly every node: a rigid translation takes a
      * force of two hundredths of the diagonal or more, as it does for Courant
      * numbers below about twelve. Stiffness alone has none but beside held
@@ -80,6 +55,26 @@ namespace moraine
       return counts[1] >= most_nodes * counts[0];
     }
   } // namespace
+
+
+
+  bool
+  unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
+                        const unsigned int             dim)
+  {
+    if (near_null_space.size() < dim)
+      return false;
+    const auto n_owned = near_null_space[0].locally_owned_size();
+    bool       by_node = n_owned % dim == 0;
+    for (unsigned int c = 0; by_node && c < dim; ++c)
+      {
+        const double *values = near_null_space[c].trilinos_vector()[0];
+        for (unsigned int i = 0; by_node && i < n_owned; ++i)
+          by_node = (values[i] == 0. || i % dim == c);
+      }
+    return Utilities::MPI::min(by_node ? 1 : 0,
+                               near_null_space[0].get_mpi_communicator()) == 1;
+  }
 
 
 

@@ -33,6 +33,7 @@ namespace moraine::testing_solver
   /**
    * A linear elastic cube of n^dim bilinear cells under its weight, held at
    * x = 0 (or not at all); inertia is the factor of its mass of density one.
+   * Its volumetric strain is the cells' mean.
    */
   template <int dim>
   struct Elasticity
@@ -49,11 +50,14 @@ namespace moraine::testing_solver
     Elasticity(const unsigned int n,
                const bool         held       = true,
                const double       convection = 0.,
-               const double       inertia    = 0.);
+               const double       inertia    = 0.,
+               const double       poisson    = 0.3);
 
   private:
     void
-    assemble(const double convection, const double inertia);
+    assemble(const double convection,
+             const double inertia,
+             const double poisson);
 
     void
     make_modes();
@@ -65,7 +69,8 @@ namespace moraine::testing_solver
   Elasticity<dim>::Elasticity(const unsigned int n,
                               const bool         held,
                               const double       convection,
-                              const double       inertia)
+                              const double       inertia,
+                              const double       poisson)
     : triangulation(
         MPI_COMM_WORLD,
         dealii::Triangulation<dim>::none,
@@ -100,7 +105,7 @@ namespace moraine::testing_solver
                                                        relevant);
     matrix->reinit(owned, owned, pattern, MPI_COMM_WORLD);
     rhs.reinit(owned, MPI_COMM_WORLD);
-    assemble(convection, inertia);
+    assemble(convection, inertia, poisson);
     make_modes();
   }
 
@@ -108,7 +113,9 @@ namespace moraine::testing_solver
 
   template <int dim>
   void
-  Elasticity<dim>::assemble(const double convection, const double inertia)
+  Elasticity<dim>::assemble(const double convection,
+                            const double inertia,
+                            const double poisson)
   {
     using namespace dealii;
     const QGauss<dim>                    quadrature(2);
@@ -119,13 +126,22 @@ namespace moraine::testing_solver
     FullMatrix<double>                   local(n, n);
     Vector<double>                       load(n);
     std::vector<types::global_dof_index> dofs(n);
-    const double                         lambda = 0.5769, mu = 0.3846;
+    std::vector<Tensor<1, dim>>          means(n);
+    const double                         mu = 0.5 / (1 + poisson);
+    const double lambda = 2 * mu * poisson / (1 - 2 * poisson);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           values.reinit(cell);
           local = 0.;
           load  = 0.;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              means[i] = 0;
+              for (const unsigned int q : values.quadrature_point_indices())
+                means[i] += values.shape_grad(i, q) * values.JxW(q);
+              means[i] /= cell->measure();
+            }
           for (const unsigned int q : values.quadrature_point_indices())
             for (unsigned int i = 0; i < n; ++i)
               {
@@ -139,7 +155,8 @@ namespace moraine::testing_solver
                     const unsigned int cj =
                       fe.system_to_component_index(j).first;
                     const auto &gj = values.shape_grad(j, q);
-                    double k = lambda * gi[ci] * gj[cj] + mu * gi[cj] * gj[ci];
+                    double      k  = lambda * means[i][ci] * means[j][cj] +
+                               mu * gi[cj] * gj[ci];
                     if (ci == cj)
                       k += mu * (gi * gj) +
                            convection * values.shape_value(i, q) * gj[0] +

@@ -79,7 +79,7 @@ namespace
   {
     const Elasticity<dim> symmetric(n);
     const LA::Vector      direct = solve(symmetric, "direct");
-    for (const char *name : {"auto", "amg-cg", "gmres"})
+    for (const char *name : {"auto", "amg-cg", "gmres", "schwarz"})
       {
         LA::Vector difference(solve(symmetric, name));
         difference -= direct;
@@ -88,9 +88,31 @@ namespace
 
     const Elasticity<dim> convected(n, true, 1.);
     const LA::Vector      reference = solve(convected, "direct", false);
-    LA::Vector            difference(solve(convected, "gmres", false));
-    difference -= reference;
-    EXPECT_LT(difference.l2_norm(), 1e-8 * reference.l2_norm());
+    for (const char *name : {"gmres", "schwarz"})
+      {
+        LA::Vector difference(solve(convected, name, false));
+        difference -= reference;
+        EXPECT_LT(difference.l2_norm(), 1e-8 * reference.l2_norm()) << name;
+      }
+  }
+
+
+
+  /** Of CG with the Schwarz preconditioner at a Poisson ratio. */
+  template <int dim>
+  unsigned int
+  schwarz_iterations(const unsigned int n, const double poisson)
+  {
+    const Elasticity<dim> problem(n, true, 0., 0., poisson);
+    LinearSolver          solver(use("schwarz"), dim);
+    solver.set_up(problem.matrix, true, problem.modes);
+    LA::Vector         x(problem.rhs);
+    const LinearReport report = solver.solve(x, problem.rhs);
+    EXPECT_TRUE(report.converged) << report.message;
+    EXPECT_EQ(report.solver, "schwarz");
+    // Round-off, which grows with the condition number.
+    EXPECT_LT(true_residual(problem, x), 1e-8);
+    return report.iterations;
   }
 } // namespace
 
@@ -117,6 +139,25 @@ TEST(LinearSolver, RotationsInTheNearNullSpacePay)
   EXPECT_LT(multigrid_iterations<2>(48, 3),
             0.8 * multigrid_iterations<2>(48, 2));
   EXPECT_LT(multigrid_iterations<3>(8, 6), 0.8 * multigrid_iterations<3>(8, 3));
+}
+
+TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn2d)
+{
+  EXPECT_LE(schwarz_iterations<2>(48, 0.4999),
+            2 * schwarz_iterations<2>(48, 0.3));
+}
+
+TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn3d)
+{
+  EXPECT_LE(schwarz_iterations<3>(10, 0.4999),
+            2 * schwarz_iterations<3>(10, 0.3));
+}
+
+TEST(LinearSolver, SchwarzWithoutRigidBodyModes)
+{
+  Elasticity<2> problem(24);
+  problem.modes.clear();
+  solve(problem, "schwarz");
 }
 
 // Newmark's method, average acceleration: 4 / (time step)^2 times the mass.
@@ -159,7 +200,7 @@ TEST(LinearSolver, KeepsTheFactorisation)
 TEST(LinearSolver, NothingToSolve)
 {
   const Elasticity<2> problem(4);
-  for (const char *name : {"direct", "amg-cg", "gmres"})
+  for (const char *name : {"direct", "amg-cg", "gmres", "schwarz"})
     {
       LinearSolver solver(use(name), 2);
       solver.set_up(problem.matrix, true, problem.modes);
@@ -177,7 +218,7 @@ TEST(LinearSolver, SaysThatABodyIsNotHeld)
   // Under its weight a free body cannot be in equilibrium.
   const Elasticity<2> free_2d(24, false);
   const Elasticity<3> free_3d(5, false);
-  for (const char *name : {"direct", "amg-cg", "gmres", "auto"})
+  for (const char *name : {"direct", "amg-cg", "gmres", "schwarz", "auto"})
     {
       LinearSolver solver(use(name), 2);
       solver.set_up(free_2d.matrix, true, free_2d.modes);
@@ -187,10 +228,13 @@ TEST(LinearSolver, SaysThatABodyIsNotHeld)
       EXPECT_NE(report.message, "");
       EXPECT_EQ(x.l2_norm(), 0.);
     }
-  LinearSolver solver(use("direct"), 3);
-  solver.set_up(free_3d.matrix, true, free_3d.modes);
-  LA::Vector x(free_3d.rhs);
-  EXPECT_FALSE(solver.solve(x, free_3d.rhs).converged);
+  for (const char *name : {"direct", "schwarz"}) // of one subdomain
+    {
+      LinearSolver solver(use(name), 3);
+      solver.set_up(free_3d.matrix, true, free_3d.modes);
+      LA::Vector x(free_3d.rhs);
+      EXPECT_FALSE(solver.solve(x, free_3d.rhs).converged) << name;
+    }
 }
 
 TEST(LinearSolver, SaysThatABodyIsNotHeldEvenIfTheLoadBalances)
@@ -276,7 +320,7 @@ TEST(LinearSolver, ReportsANumberThatIsNone)
   // deal.II's debug mode lets no such entry in; overflow makes some.
   *problem.matrix *= 1e200;
   *problem.matrix *= 1e200;
-  for (const char *name : {"direct", "amg-cg", "gmres", "auto"})
+  for (const char *name : {"direct", "amg-cg", "gmres", "schwarz", "auto"})
     {
       LinearSolver solver(use(name), 2);
       solver.set_up(problem.matrix, true, problem.modes);
@@ -366,7 +410,7 @@ namespace
 
 TEST(LinearSolver, NewValuesInTheSamePattern)
 {
-  for (const char *name : {"direct", "amg-cg", "gmres"})
+  for (const char *name : {"direct", "amg-cg", "gmres", "schwarz"})
     {
       const Elasticity<2> problem(24);
       LinearSolver        solver(use(name), 2);

@@ -22,9 +22,9 @@ namespace dealii
 namespace moraine
 {
   /**
-   * CG or GMRES with algebraic multigrid, whose hierarchy is kept while later
-   * values of the matrix do not take many more iterations than those it was
-   * made of.
+   * CG or GMRES with algebraic multigrid or SchwarzPreconditioner, which is
+   * kept while later values of the matrix do not take many more iterations than
+   * those it was made of.
    */
   class IterativeSolver
   {
@@ -33,6 +33,7 @@ namespace moraine
     struct Options
     {
       bool         conjugate_gradients;
+      bool         schwarz;            ///< or multigrid
       bool         symmetric;          ///< the matrix
       unsigned int dim;                ///< 2 or 3
       double       relative_tolerance; ///< norm of b - A x over norm of b
@@ -98,11 +99,11 @@ namespace moraine
     LA::Vector
     round_off(const LA::Vector &x) const;
 
-    const LA::SparseMatrix                                    &matrix;
-    const Options                                              options;
-    std::vector<LA::Vector>                                    near_null_space;
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
-    bool                                                       is_new = false;
+    const LA::SparseMatrix                                     &matrix;
+    const Options                                               options;
+    std::vector<LA::Vector>                                     near_null_space;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
+    bool                                                        is_new = false;
     /** Iterations for a digit with the values of its set-up; 0: not known. */
     double iterations_per_digit = 0;
     /** Iterations that later values took on top of that. */

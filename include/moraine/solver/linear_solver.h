@@ -26,7 +26,7 @@ namespace moraine
    */
   struct LinearSolverParameters
   {
-    /** auto, direct, amg-cg or gmres. */
+    /** auto, direct, amg-cg, gmres or schwarz. */
     std::string solver = "auto";
 
     /** Of iterative solvers: norm of b - A x over norm of b. */
