@@ -3,6 +3,8 @@
 
 #include <moraine/geometry/overburden.h>
 
+#include <moraine/core/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,9 +19,10 @@ namespace moraine
     /** Levels that are zero but for round-off, over the cell size. */
     constexpr double on_surface = 1e-6;
 
-    /** Where distances are estimates, over the cell size: what is thinner may
-     * be missed. */
-    constexpr double longest_blind_step = 1. / 8;
+    /** Steps along a line, over the cell size: the shortest, and where a level
+     * is no length the longest; what is thinner may be missed. */
+    constexpr double shortest_step = 1. / 32;
+    constexpr double longest_blind = 1. / 4;
 
     /** Gaps that are slips of drawing, over the cell size: bodies that share
      * nodes bear each other. */
@@ -89,6 +92,103 @@ namespace moraine
         return {};
       return found[0];
     }
+
+
+
+    /** A way along a line, in steps that its surface is away: by the level, or
+     * where that is no length, by how it changes along the line. */
+    template <int dim>
+    class LineWalk
+    {
+    public:
+      LineWalk(const Shape<dim>     &shape,
+               const Point<dim>     &x,
+               const Tensor<1, dim> &up,
+               const double          cell_size)
+        : shape(shape)
+        , x(x)
+        , up(up)
+        , h(cell_size)
+        , is_length(!shape.estimates_distance())
+        , step(shortest_step * h)
+      {
+        if (!is_length)
+          look_beside();
+        look();
+        if (is_length)
+          step = std::clamp(std::abs(value), shortest_step * h, h);
+      }
+
+      void
+      go_on(const double length)
+      {
+        const double begin = at, before = value;
+        at = std::min(length, at + step);
+        look();
+        const double change = std::abs(value - before);
+        if (is_length)
+          step = std::clamp(std::abs(value), shortest_step * h, h);
+        else if (change > 0)
+          step = std::clamp(std::abs(value) * (at - begin) / change,
+                            shortest_step * h,
+                            longest_blind * h);
+        else
+          step = longest_blind * h;
+      }
+
+      double
+      s() const
+      {
+        return at;
+      }
+
+      bool
+      inside() const
+      {
+        return value > 0;
+      }
+
+      bool
+      on_edge() const
+      {
+        return is_on_edge;
+      }
+
+    private:
+      void
+      look_beside()
+      {
+        try
+          {
+            largest = std::abs(shape.level(x + h * sideways(up)[0]));
+          }
+        catch (const InputError &)
+          {} // an expression need not have values there
+      }
+
+      void
+      look()
+      {
+        const Point<dim> place = x + at * up;
+        value                  = shape.level(place);
+        largest                = std::max(largest, std::abs(value));
+        is_on_edge             = is_length ?
+                                   std::abs(value) <= on_surface * h :
+                                   std::abs(value) <= 100 * on_surface * largest &&
+                         std::abs(shape.distance(place, h)) <= on_surface * h;
+      }
+
+      const Shape<dim>    &shape;
+      const Point<dim>     x;
+      const Tensor<1, dim> up;
+      const double         h;
+      const bool           is_length;
+      double               largest = 0; ///< level, beside the line too
+      double               step;
+      double               at         = 0;
+      double               value      = 0;
+      bool                 is_on_edge = false;
+    };
   } // namespace
 
 
@@ -135,40 +235,31 @@ namespace moraine
                              const double          length,
                              std::vector<Part>    &parts) const
   {
-    const Shape<dim> &body     = *bodies[b];
-    const auto        distance = [&](const double s) {
-      return body.distance(x + s * up, cell_size);
-    };
-    const double longest =
-      (body.estimates_distance() ? longest_blind_step : 1.) * cell_size;
-    double s = 0, value = distance(0.), begin = 0;
-    bool   runs_along = false;
-    while (s < length)
+    LineWalk<dim> walk(*bodies[b], x, up, cell_size);
+    double        begin      = 0;
+    bool          runs_along = false;
+    while (walk.s() < length)
       {
-        const double next =
-          std::min(length,
-                   s + std::clamp(std::abs(value), cell_size / 32, longest));
-        const bool was_inside = value > 0;
-        const bool was_on_it  = std::abs(value) <= on_surface * cell_size;
-        value                 = distance(next);
-        runs_along            = runs_along ||
-                     (was_on_it && std::abs(value) <= on_surface * cell_size);
-        if ((value > 0) != was_inside)
+        const double s          = walk.s();
+        const bool   was_inside = walk.inside(), was_on_edge = walk.on_edge();
+        walk.go_on(length);
+        runs_along = runs_along || (was_on_edge && walk.on_edge());
+        if (walk.inside() != was_inside)
           {
-            double lower = s, upper = next;
+            double lower = s, upper = walk.s();
             for (unsigned int halving = 0; halving < 60; ++halving)
               {
                 const double middle = 0.5 * (lower + upper);
-                (body.contains(x + middle * up) == was_inside ? lower : upper) =
+                (bodies[b]->contains(x + middle * up) == was_inside ? lower :
+                                                                      upper) =
                   middle;
               }
             if (was_inside)
               parts.push_back({begin, upper, b});
             begin = upper;
           }
-        s = next;
       }
-    if (value > 0)
+    if (walk.inside())
       parts.push_back({begin, length, b});
     return runs_along;
   }

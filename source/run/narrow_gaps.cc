@@ -71,7 +71,7 @@ namespace moraine
     /** Also where an expression is no number. */
     template <int dim>
     bool
-    is_in(const Shape<dim> &shape, const Point<dim> &x)
+    is_in_shape(const Shape<dim> &shape, const Point<dim> &x)
     {
       try
         {
@@ -98,7 +98,7 @@ namespace moraine
       double       begin = 0; // of the gap, once it has begun
       for (double s = step; s < largest_narrow_gap * h + begin; s += step)
         {
-          const bool inside = is_in<dim>(shape, x + s * direction);
+          const bool inside = is_in_shape<dim>(shape, x + s * direction);
           if (!inside && begin == 0)
             begin = s;
           else if (!inside && s - begin > largest_narrow_gap * h)
@@ -179,7 +179,8 @@ namespace moraine
         return std::any_of(model.bodies.begin(),
                            model.bodies.end(),
                            [&](const Body<dim> &other) {
-                             return !other.shape || is_in(*other.shape, x);
+                             return !other.shape ||
+                                    is_in_shape(*other.shape, x);
                            });
       };
       std::pair<double, Point<dim>> narrowest(

@@ -29,6 +29,10 @@ namespace moraine
     /** Steps of a stage before one can be told to be faster. */
     constexpr unsigned int least_steps = 3;
 
+    /** Steps of a slide that rests but moves faster than all before it: one may
+     * be a jerk of a node that hardly any material has. */
+    constexpr unsigned int least_fast = 2;
+
     /** Steps that a slide takes at most. */
     constexpr unsigned int most_fast = 5;
   } // namespace
@@ -63,8 +67,11 @@ namespace moraine
     last              = t;
     if (!yields || !counts)
       return "";
+    const bool came_to_rest = n_fast > 0 && rate < rests_below * fast_rate;
+    // Beyond the limit what rests does not become as slow as before.
+    const bool rests_faster = came_to_rest && n_fast >= least_fast;
     if (n_steps++ >= least_steps && rate > told_ratio * fastest &&
-        fastest > next_to_none * rate && n_fast < most_fast)
+        fastest > next_to_none * rate && n_fast < most_fast && !rests_faster)
       {
         ++n_fast;
         slid_by += motion;
@@ -75,7 +82,6 @@ namespace moraine
           }
         return "";
       }
-    const bool came_to_rest = n_fast > 0 && rate < rests_below * fast_rate;
     std::ostringstream text;
     if (came_to_rest && !told && slid_by > least_slide * cell_size)
       {

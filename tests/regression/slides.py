@@ -70,6 +70,13 @@ def show(title, settings, expect=0):
 
 for method in ("GIMP", "material point"):
     show(method, {"Method/Method": method})
+# Few steps of a weight that goes on growing: it slides between two of them, and goes
+# on faster than before.
+show("few steps", {"Method/Method": "GIMP", "Method/Strain": "finite",
+                   "Mesh/Cell size": 0.5, "Materials/clay/Poisson ratio": 0.45,
+                   "Materials/clay/Shear yield stress": 20,
+                   "Materials/clay/Density": 1.8, "Loads/weight/Value": "0; -10*t/3.6",
+                   "Time/End time": 4.68, "Time/Steps": 13})
 show("points stay", {"Method/Method": "GIMP", "Method/Mesh after step": "keep"}, 1)
 show("half of the weight", {"Method/Method": "GIMP", "Time/End time": 2.4,
                             "Time/Steps": 6})

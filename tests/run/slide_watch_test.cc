@@ -34,6 +34,8 @@ namespace moraine
   {
     EXPECT_EQ(n_told({0.01, 0.01, 0.01, 0.02, 0.5, 0.01, 0.5, 0.01}), 1u);
     EXPECT_EQ(n_told({0.01, 0.01, 0.01, 0.02, 0.3, 0.5, 0.01}), 1u);
+    // While the load goes on, it does not become as slow as before.
+    EXPECT_EQ(n_told({0.01, 0.01, 0.01, 0.02, 0.3, 0.8, 0.2, 0.5, 0.5}), 1u);
     // It takes time to come to rest.
     EXPECT_EQ(n_told({0.01, 0.01, 0.01, 0.02, 0.5}), 0u);
   }
@@ -56,6 +58,7 @@ namespace moraine
     EXPECT_EQ(n_told({1e-13, 1e-13, 1e-13, 1e-13, 0.1, 0.01, 0.01}), 0u);
     EXPECT_EQ(n_told({0.01, 0.5, 0.01, 0.01}), 0u);
     EXPECT_EQ(n_told({1e-4, 1e-4, 1e-4, 1e-2, 1e-4}), 0u);
+    EXPECT_EQ(n_told({0.1, 0.1, 0.1, 0.2, 15, 1.3, 1.3}), 0u);
   }
 
 

@@ -29,7 +29,7 @@ namespace moraine
      * @param bodies their shapes; null for those that are not there
      * @param mesh_box bodies without limits end at its sides
      * @param cell_size bodies thinner than a 32nd of it may be missed, and if
-     * they are expressions, than an eighth; gaps below its hundredth are none:
+     * they are expressions, than a quarter; gaps below its hundredth are none:
      * such bodies bear each other
      * @param mesh_surface where bodies end, too, if the mesh is no box
      */
