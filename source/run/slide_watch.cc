@@ -69,11 +69,12 @@ namespace moraine
       return "";
     const bool came_to_rest = n_fast > 0 && rate < rests_below * fast_rate;
     // Beyond the limit what rests does not become as slow as before.
-    const bool rests_faster = came_to_rest && n_fast >= least_fast;
+    const bool rests_faster = came_to_rest && n_as_fast >= least_fast;
     if (n_steps++ >= least_steps && rate > told_ratio * fastest &&
         fastest > next_to_none * rate && n_fast < most_fast && !rests_faster)
       {
         ++n_fast;
+        n_as_fast += came_to_rest ? 0 : 1;
         slid_by += motion;
         if (rate > fast_rate)
           {
@@ -108,6 +109,7 @@ namespace moraine
   SlideWatch::forget_slide()
   {
     n_fast    = 0;
+    n_as_fast = 0;
     slid_by   = 0;
     fast_rate = 0;
     fast_time = 0;
@@ -123,6 +125,7 @@ namespace moraine
     archive.write("checks/slides/steps", n_steps);
     archive.write("checks/slides/told", told ? 1u : 0u);
     archive.write("checks/slides/fast_steps", n_fast);
+    archive.write("checks/slides/as_fast", n_as_fast);
     archive.write("checks/slides/slid_by", slid_by, "length");
     archive.write("checks/slides/fast_rate", fast_rate, "length/time");
     archive.write("checks/slides/fast_time", fast_time, "time");
@@ -138,6 +141,7 @@ namespace moraine
     n_steps   = archive.integer("checks/slides/steps");
     told      = archive.integer("checks/slides/told") != 0;
     n_fast    = archive.integer("checks/slides/fast_steps");
+    n_as_fast = archive.integer("checks/slides/as_fast");
     slid_by   = archive.number("checks/slides/slid_by");
     fast_rate = archive.number("checks/slides/fast_rate");
     fast_time = archive.number("checks/slides/fast_time");

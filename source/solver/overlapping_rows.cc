@@ -123,14 +123,6 @@ namespace moraine
 
 
 
-  types::global_dof_index
-  OverlappingRows::global_row(const unsigned int row) const
-  {
-    return map->GID(static_cast<int>(row));
-  }
-
-
-
   BlockFactors
   OverlappingRows::factorise(const std::vector<unsigned int> &unknowns) const
   {

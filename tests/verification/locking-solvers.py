@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Moraine authors
 """What a Poisson ratio near 0.5 costs with cell means: Newton iterations with the
 direct solver, iterations of multigrid, which 'auto' gives up in time, and of the
-Schwarz method, which hardly notices."""
+Schwarz method, which notices much less."""
 
 QUIET = {"Output/Points": "false", "Output/Mesh": "false",
          "Method/Volumetric strain": "cell mean"}

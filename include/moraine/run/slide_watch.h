@@ -57,6 +57,7 @@ namespace moraine
     bool         told    = false;
     /** Of the steps in a row that are much faster by now. */
     unsigned int n_fast    = 0;
+    unsigned int n_as_fast = 0; ///< about, as the fastest of these
     double       slid_by   = 0;
     double       fast_rate = 0; ///< the largest
     double       fast_time = 0; ///< end of that step

@@ -64,10 +64,6 @@ namespace moraine
       return values[entry];
     }
 
-    /** The number in the matrix. */
-    dealii::types::global_dof_index
-    global_row(const unsigned int row) const;
-
     /** The block of the matrix that has these rows and columns, in the order of
      * @p unknowns. If it is singular, as that of a body which nothing holds,
      * its diagonal gets a little larger. */
