@@ -121,9 +121,7 @@ namespace moraine
     archive.write("run/stage", stage);
     archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
     archive.write("run/stiffness_of_empty_parts", accepted_fraction);
-    archive.write("run/geometric_share", largest_geometric_share);
-    archive.write("run/motion_of_share", motion_of_share, "length");
-    archive.write("run/strain_at_resets", largest_strain_at_resets);
+    buckling.write(archive);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
     checks.write(archive);
@@ -149,10 +147,8 @@ namespace moraine
         model.state->begin_step();
       }
     lasting.read(archive);
-    accepted_fraction        = archive.number("run/stiffness_of_empty_parts");
-    largest_geometric_share  = archive.number("run/geometric_share");
-    motion_of_share          = archive.number("run/motion_of_share");
-    largest_strain_at_resets = archive.number("run/strain_at_resets");
+    accepted_fraction = archive.number("run/stiffness_of_empty_parts");
+    buckling.read(archive);
     if (archive.integer("run/empty_parts_have_stiffness") != 0)
       {
         auto term =

@@ -3,12 +3,8 @@
 
 #include <moraine/run/geometric_stiffness.h>
 
-#include <moraine/run/strain_signs.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace moraine
 {
@@ -16,13 +12,6 @@ namespace moraine
 
   namespace
   {
-    /** Deflections that are wrong by less are not told of. */
-    constexpr double told_geometric_share = 0.1;
-
-    /** Less than that of mean strain is not for being slender: bodies are
-     * strained so much that the note on strain is told. */
-    constexpr double slender_share = 10;
-
     constexpr unsigned int most_power_iterations = 8;
 
     /** Growth of the eigenvalue in an iteration that ends them. */
@@ -282,47 +271,10 @@ namespace moraine
 
 
 
-  template <int dim>
-  bool
-  is_of_slender_bodies(const Model<dim> &model,
-                       const double      share,
-                       const double      strain_at_resets)
-  {
-    if (!(share >= told_geometric_share))
-      return false;
-    double strain = strain_at_resets;
-    for (const double of_body : mean_strains(model))
-      strain = std::max(strain, of_body);
-    return share >= slender_share * strain;
-  }
-
-
-
-  std::vector<std::string>
-  doubts_of_geometric_stiffness(const double share)
-  {
-    if (!(share >= told_geometric_share))
-      return {};
-    std::ostringstream text;
-    text << "stress is " << std::setprecision(2) << share
-         << " of what makes the bodies buckle or, pulled, stiffens them as "
-            "much (the largest eigenvalue of their geometric stiffness): "
-            "'Strain = small' has that one step late at best, "
-            "deflections differ by up to about as much, and from 1 on they "
-            "grow without bound; 'Strain = finite' in section 'Method' knows "
-            "of it, 'Mesh after step = keep' is for a linear analysis";
-    return {text.str()};
-  }
-
-
-
-#define INSTANTIATE(dim)                                           \
-  template double geometric_share(const Model<dim> &,              \
-                                  const LA::Vector &,              \
-                                  const LinearSolverParameters &); \
-  template bool   is_of_slender_bodies(const Model<dim> &,         \
-                                       const double,               \
-                                       const double);
+#define INSTANTIATE(dim)                              \
+  template double geometric_share(const Model<dim> &, \
+                                  const LA::Vector &, \
+                                  const LinearSolverParameters &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

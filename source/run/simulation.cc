@@ -10,7 +10,6 @@
 #include <moraine/run/checkpoints.h>
 #include <moraine/run/command_line.h>
 #include <moraine/run/console_report.h>
-#include <moraine/run/geometric_stiffness.h>
 #include <moraine/run/located.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
@@ -318,7 +317,7 @@ namespace moraine
         for (const auto &doubts :
              {doubts_of_stress(scene, model, summary.quality.stress_error),
               doubts_of_strain(model),
-              doubts_of_geometric_stiffness(driver.geometric_share())})
+              driver.buckling_watch().doubts()})
           for (const std::string &doubt : doubts)
             {
               summary.warnings.push_back(doubt);

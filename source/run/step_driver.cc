@@ -8,7 +8,6 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/words.h>
 #include <moraine/output/grid_evaluation.h>
-#include <moraine/run/geometric_stiffness.h>
 #include <moraine/run/step_failure.h>
 #include <moraine/run/strain_signs.h>
 
@@ -34,9 +33,6 @@ namespace moraine
 
     /** A ghost term that takes more of the work is told of. */
     constexpr double told_ghost_share = 0.01;
-
-    /** Of motion since stress was last asked what it makes of the bodies. */
-    constexpr double growth_of_motion = 2;
 
     /** The user wants the step under way to be given up. */
     struct Interruption
@@ -66,6 +62,7 @@ namespace moraine
     , newton(scene.newton)
     , time_control(times_of(scene.stages))
     , checks(scene, model)
+    , buckling(model, scene.linear_solver)
   {
     if (model.mesh_motion.moves())
       lasting.add(*model.mesh);
@@ -217,25 +214,17 @@ namespace moraine
                         parameters.time.integrator.dynamic() &&
                           !before.time.integrator.dynamic());
     if (parameters.reset_displacements)
-      look_back_at_strain();
+      {
+        buckling.displacements_begin_anew();
+        for (const std::string &doubt : doubts_of_strain(model))
+          warn(doubt);
+      }
     const auto notes = begin_stage(scene, stage, model);
     if (support)
       add_support(accepted_fraction, false);
     for (const std::string &note : notes)
       tell(note);
     stage_is_begun = true;
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::look_back_at_strain()
-  {
-    for (const double strain : mean_strains(model))
-      largest_strain_at_resets = std::max(largest_strain_at_resets, strain);
-    for (const std::string &doubt : doubts_of_strain(model))
-      warn(doubt);
   }
 
 
@@ -333,35 +322,6 @@ namespace moraine
 
 
   template <int dim>
-  double
-  StepDriver<dim>::share_of_stress(const LA::Vector &x,
-                                   const bool        ends,
-                                   const double      largest_motion)
-  {
-    if (motion_of_share == 0)
-      motion_of_share = largest_motion;
-    const bool grows = largest_motion > growth_of_motion * motion_of_share &&
-                       !scene.stages[stage].second.time.integrator.dynamic();
-    if (!ends && !grows)
-      return 0.;
-    motion_of_share = largest_motion;
-    return moraine::geometric_share(model, x, scene.linear_solver);
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::keep_share(const double share)
-  {
-    if (share > largest_geometric_share &&
-        is_of_slender_bodies(model, share, largest_strain_at_resets))
-      largest_geometric_share = share;
-  }
-
-
-
-  template <int dim>
   void
   StepDriver<dim>::accept(const NewtonReport &report,
                           const LA::Vector   &x,
@@ -379,28 +339,28 @@ namespace moraine
     double largest = 0;
     for (const auto &u : increments)
       largest = std::max(largest, u.norm());
-    largest = Utilities::MPI::max(largest, communicator);
-    const double share =
-      share_of_stress(x,
+    largest            = Utilities::MPI::max(largest, communicator);
+    const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
+    buckling.try_step(x,
                       !leaves.empty() || time_control.trial_ends_run(),
+                      !dynamic,
                       largest);
     if (!leaves.empty())
       {
-        keep_share(share);
+        buckling.keep_step();
         throw ComputationError(leaves);
       }
     typename Motion<dim>::Nodal motion;
-    const bool dynamic = scene.stages[stage].second.time.integrator.dynamic() &&
-                         model.probes->any_interpolated();
-    if (dynamic)
+    const bool moves_probes = dynamic && model.probes->any_interpolated();
+    if (moves_probes)
       motion = model.motion->at_end();
     const auto at = [&](const std::vector<Tensor<1, dim>> &values) {
       return grid_evaluation<dim>(*model.space, values);
     };
     model.probes->try_step(at(increments),
                            *model.points,
-                           dynamic ? at(motion.v) : PlaceFunction<dim>(),
-                           dynamic ? at(motion.a) : PlaceFunction<dim>());
+                           moves_probes ? at(motion.v) : PlaceFunction<dim>(),
+                           moves_probes ? at(motion.a) : PlaceFunction<dim>());
     const std::string held    = share_of_ghost_term();
     const double      t_start = time_control.time();
     const double      growth  = allowed_growth(x);
@@ -415,7 +375,7 @@ namespace moraine
     if (support)
       accepted_fraction = support->stiffness_fraction();
 
-    keep_share(share);
+    buckling.keep_step();
     for (const std::string &warning :
          checks.of_step(time_control,
                         scene.stages[stage].second.time.integrator,

@@ -233,22 +233,21 @@ namespace moraine
   void
   CoarseSpace::make_matrix(const MPI_Comm &communicator)
   {
-    LA::SparsityPattern pattern(own_columns, communicator);
-    const auto          for_interface = [this](const auto &f) {
-      for (const InterfaceRow &row : interface)
-        if (row.row < rows.n_owned())
+    std::map<std::pair<unsigned int, unsigned int>, double> sums;
+    std::map<unsigned int, double> product; // a row of A P
+    for (const InterfaceRow &row : interface)
+      if (row.row < rows.n_owned())
+        {
+          product.clear();
           for (auto e = rows.begin(row.row); e < rows.begin(row.row + 1); ++e)
             if (const InterfaceRow *other = on_interface(rows.column(e)))
-              for (unsigned int r = 0; r < row.values.size(); ++r)
-                for (unsigned int c = 0; c < other->values.size(); ++c)
-                  f(row.first_column + r,
-                    other->first_column + c,
-                    row.values[r] * rows.value(e) * other->values[c]);
-    };
-    std::map<std::pair<unsigned int, unsigned int>, double> sums;
-    for_interface([&](unsigned int r, unsigned int c, double value) {
-      sums[{r, c}] += value;
-    });
+              for (unsigned int c = 0; c < other->values.size(); ++c)
+                product[other->first_column + c] +=
+                  rows.value(e) * other->values[c];
+          for (unsigned int r = 0; r < row.values.size(); ++r)
+            for (const auto &[column, value] : product)
+              sums[{row.first_column + r, column}] += row.values[r] * value;
+        }
     for (const Inside &inside : insides)
       {
         const FullMatrix<double> block = contribution(inside);
@@ -256,6 +255,7 @@ namespace moraine
           for (unsigned int c = 0; c < block.n(); ++c)
             sums[{inside.columns[r], inside.columns[c]}] += block(r, c);
       }
+    LA::SparsityPattern pattern(own_columns, communicator);
     for (const auto &[where, value] : sums)
       pattern.add(where.first, where.second);
     pattern.compress();

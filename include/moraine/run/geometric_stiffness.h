@@ -6,9 +6,6 @@
 
 #include <moraine/run/model.h>
 
-#include <string>
-#include <vector>
-
 namespace moraine
 {
   /**
@@ -40,20 +37,6 @@ namespace moraine
   geometric_share(const Model<dim>             &model,
                   const LA::Vector             &x,
                   const LinearSolverParameters &solver);
-
-  /** Whether geometric_share(), of the last step, is 0.1 or more, and more than
-   * the strain of the bodies explains, which was up to @p strain_at_resets
-   * where displacements were reset. Collective. */
-  template <int dim>
-  bool
-  is_of_slender_bodies(const Model<dim> &model,
-                       const double      share,
-                       const double      strain_at_resets);
-
-  /** That small strain has too late what stress does to slender bodies, by
-   * @p share, the largest of those in a run; 0 if there are none. */
-  std::vector<std::string>
-  doubts_of_geometric_stiffness(const double share);
 } // namespace moraine
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/core/simulation_state.h>
+#include <moraine/run/buckling_watch.h>
 #include <moraine/run/run_observer.h>
 #include <moraine/run/step_checks.h>
 #include <moraine/state/last_increment.h>
@@ -93,23 +94,16 @@ namespace moraine
       return stage_is_begun;
     }
 
-    /** The largest of slender bodies, in the step that ended the run and in
-     * those before that moved much further than the ones before them; see
-     * moraine::geometric_share(). */
-    double
-    geometric_share() const
+    const BucklingWatch<dim> &
+    buckling_watch() const
     {
-      return largest_geometric_share;
+      return buckling;
     }
 
   private:
     /** Go over to the next stage. */
     void
     begin_next_stage();
-
-    /** Tell of strain that displacements will not know of any more. */
-    void
-    look_back_at_strain();
 
     /** Whether the user wants the run to end, and it can: not between the two
      * parts of a step, nor in one that gives empty parts of cells another
@@ -210,19 +204,6 @@ namespace moraine
     std::string
     share_of_ghost_term();
 
-    /** What stress makes of slender bodies, in the trial state @p x that is to
-     * be accepted, if the run @p ends with it or it moves much further than
-     * the steps before, as what grows without bound: when it has, stress is
-     * another. Else 0. Collective. */
-    double
-    share_of_stress(const LA::Vector &x,
-                    const bool        ends,
-                    const double      largest_motion);
-
-    /** Of an accepted step, whose strain may explain it. Collective. */
-    void
-    keep_share(const double share);
-
     void
     accept(const NewtonReport &report,
            const LA::Vector   &x,
@@ -251,10 +232,7 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     StepChecks<dim>                       checks;
-    double                                largest_geometric_share = 0;
-    double largest_strain_at_resets = 0; ///< mean one of a body
-    /** In the step of the last geometric share, or in the first. */
-    double motion_of_share = 0;
+    BucklingWatch<dim>                    buckling;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step
