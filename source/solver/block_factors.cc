@@ -9,6 +9,12 @@ namespace moraine
 {
   namespace
   {
+    /** The smallest pivot over the largest, of scaled rows: what rounding
+     * leaves of 0. */
+    constexpr double no_pivot = 1e-13;
+
+
+
     struct Control
     {
       double values[UMFPACK_CONTROL];
@@ -30,6 +36,7 @@ namespace moraine
     // UMFPACK has columns: it factorises the transpose.
     const int     n = indices.size();
     const Control control;
+    double        info[UMFPACK_INFO];
     void         *symbolic = nullptr, *numeric = nullptr;
     const int    *begins = rows.begins.data(), *columns = rows.columns.data();
     const double *entries = rows.values.data();
@@ -37,9 +44,9 @@ namespace moraine
       n, n, begins, columns, entries, &symbolic, control.values, nullptr);
     if (status == UMFPACK_OK)
       status = umfpack_di_numeric(
-        begins, columns, entries, symbolic, &numeric, control.values, nullptr);
+        begins, columns, entries, symbolic, &numeric, control.values, info);
     umfpack_di_free_symbolic(&symbolic);
-    if (status == UMFPACK_OK)
+    if (status == UMFPACK_OK && info[UMFPACK_RCOND] > no_pivot)
       factors.reset(numeric, [](void *f) { umfpack_di_free_numeric(&f); });
     else
       umfpack_di_free_numeric(&numeric);

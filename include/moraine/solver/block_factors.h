@@ -26,7 +26,8 @@ namespace moraine
 
     explicit BlockFactors(const Rows &rows);
 
-    /** Whether the matrix is singular, and solve() cannot be called. */
+    /** Whether the matrix is singular to working precision, and solve() cannot
+     * be called. */
     bool
     is_singular() const
     {
