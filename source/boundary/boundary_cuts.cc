@@ -107,31 +107,6 @@ namespace moraine
         }
       return vertices;
     }
-
-
-
-    template <int dim>
-    BoundingBox<dim>
-    box_of(const CellVertices<dim> &vertices)
-    {
-      return BoundingBox<dim>(
-        std::vector<Point<dim>>(vertices.begin(), vertices.end()));
-    }
-
-
-
-    template <int dim>
-    bool
-    overlap(const BoundingBox<dim> &a,
-            const BoundingBox<dim> &b,
-            const double            by)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (a.lower_bound(d) > b.upper_bound(d) + by ||
-            b.lower_bound(d) > a.upper_bound(d) + by)
-          return false;
-      return true;
-    }
   } // namespace
 
 
@@ -321,9 +296,7 @@ namespace moraine
     if (!placed_at || (motion.moves() && *placed_at != t))
       place_at(t);
     const CellVertices<dim> vertices = vertices_of<dim>(cell);
-    if (!overlap(box_of<dim>(vertices),
-                 at_start.bounding_box(),
-                 1e-9 * cell->diameter()))
+    if (!at_start.may_touch(vertices))
       return false;
     std::vector<SurfacePoint<dim>> pieces;
     at_start.pieces(vertices, n_gauss_points_in<dim>(vertices), pieces);
@@ -341,9 +314,7 @@ namespace moraine
   {
     std::vector<CellIterator> owners;
     const CellVertices<dim>   vertices = vertices_of<dim>(cell);
-    if (!overlap(box_of<dim>(vertices),
-                 at_start.bounding_box(),
-                 1e-9 * cell->diameter()))
+    if (!at_start.may_touch(vertices))
       return owners;
     std::vector<SurfacePoint<dim>> pieces;
     at_start.pieces(vertices, n_gauss_points_in<dim>(vertices), pieces);
@@ -367,9 +338,7 @@ namespace moraine
                                     const CellIterator      &owner,
                                     const Owner             &owner_of)
   {
-    if (!overlap(box_of<dim>(vertices),
-                 at_start.bounding_box(),
-                 1e-9 * cell->diameter()))
+    if (!at_start.may_touch(vertices))
       return;
     const double h      = size_of(owner);
     const auto   is_own = [&](const SurfacePoint<dim> &piece) {

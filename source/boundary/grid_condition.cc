@@ -141,10 +141,9 @@ namespace moraine
           for (unsigned int node = 0; node < space.n_nodes(); ++node)
             {
               if ((condition.side && !on_side[node]) ||
-                  (condition.region &&
-                   !is_inside(*condition.region,
-                              space.built_position(node),
-                              1e-9 * space.mesh().cell_size())))
+                  (condition.region && !is_inside(*condition.region,
+                                                  space.built_position(node),
+                                                  space.mesh().round_off())))
                 continue;
               for (unsigned int d = 0; d < dim; ++d)
                 if (condition.component[d])

@@ -139,23 +139,6 @@ namespace moraine
         normal = cross_product_3d(edges[0], edges[1]);
       return normal / normal.norm();
     }
-
-
-
-    template <int dim>
-    bool
-    are_apart(const BoundingBox<dim>  &box,
-              const CellVertices<dim> &vertices,
-              const double             round_off)
-    {
-      const BoundingBox<dim> other(
-        std::vector<Point<dim>>(vertices.begin(), vertices.end()));
-      for (unsigned int d = 0; d < dim; ++d)
-        if (box.lower_bound(d) > other.upper_bound(d) + round_off ||
-            other.lower_bound(d) > box.upper_bound(d) + round_off)
-          return true;
-      return false;
-    }
   } // namespace
 
 
@@ -384,16 +367,15 @@ namespace moraine
                                                 n_points_through_mesh<dim> :
                                                 n_gauss_points_of_pieces;
     std::vector<SurfacePoint<dim>> pieces, beyond;
-    const double                   round_off = 1e-9 * mesh.cell_size();
-    double                         h         = 0;
-    const auto is_beside = [&](const SurfacePoint<dim> &piece) {
+    double                         h = 0;
+    const auto is_beside             = [&](const SurfacePoint<dim> &piece) {
       return !covers || is_beside_body(covers, piece, h);
     };
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
         const CellVertices<dim> vertices = vertices_of<dim>(cell);
         h                                = std::pow(cell->measure(), 1. / dim);
-        if (!are_apart(surface.bounding_box(), vertices, round_off))
+        if (surface.may_touch(vertices))
           add_kept_pieces<dim>(surface, vertices, n_points, is_beside, pieces);
         for (const unsigned int f : cell->face_indices())
           {
@@ -401,7 +383,7 @@ namespace moraine
               continue;
             const CellVertices<dim> layer =
               layer_beyond<dim>(f, vertices, reach_of_mesh * mesh.cell_size());
-            if (are_apart(surface.bounding_box(), layer, round_off))
+            if (!surface.may_touch(layer))
               continue;
             beyond.clear();
             add_kept_pieces<dim>(surface, layer, n_points, is_beside, beyond);

@@ -111,7 +111,10 @@ namespace moraine
   Surface<dim>::may_touch(const CellVertices<dim> &cell) const
   {
     const BoundingBox<dim> around(cell);
-    const double           slack = 1e-6 * cell_size<dim>(cell);
+    // Vertices have the round-off of their coordinates.
+    const double slack =
+      std::max(1e-6 * cell_size<dim>(cell),
+               std::ldexp(coordinate_magnitude<dim>(cell[0]), -43));
     for (unsigned int d = 0; d < dim; ++d)
       if (around.lower_bound(d) > box.upper_bound(d) + slack ||
           around.upper_bound(d) < box.lower_bound(d) - slack)

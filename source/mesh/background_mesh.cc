@@ -16,6 +16,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <limits>
@@ -78,7 +79,10 @@ namespace moraine
       {
         grid.cell_size[d] =
           (parameters.upper_corner[d] - parameters.lower_corner[d]) / n[d];
-        largest_edge = std::max(largest_edge, grid.cell_size[d]);
+        largest_edge       = std::max(largest_edge, grid.cell_size[d]);
+        largest_coordinate = std::max({largest_coordinate,
+                                       std::abs(parameters.lower_corner[d]),
+                                       std::abs(parameters.upper_corner[d])});
       }
     box = grid;
   }
@@ -153,7 +157,11 @@ namespace moraine
   void
   BackgroundMesh<dim>::measure_cells()
   {
-    largest_edge = 0;
+    largest_edge       = 0;
+    largest_coordinate = 0;
+    for (const Point<dim> &x : tria.get_vertices())
+      for (unsigned int d = 0; d < dim; ++d)
+        largest_coordinate = std::max(largest_coordinate, std::abs(x[d]));
     for (const auto &cell : tria.active_cell_iterators())
       for (unsigned int line = 0; line < cell->n_lines(); ++line)
         largest_edge = std::max(largest_edge,
@@ -260,6 +268,15 @@ namespace moraine
   {
     if (built.empty())
       built = tria.get_vertices();
+  }
+
+
+
+  template <int dim>
+  double
+  BackgroundMesh<dim>::round_off() const
+  {
+    return std::max(1e-9 * largest_edge, std::ldexp(largest_coordinate, -43));
   }
 
 

@@ -16,35 +16,28 @@ namespace moraine
 
   namespace
   {
-    /** How far outside a unit cell counts as inside. */
-    constexpr double tolerance_of_search = 1e-9;
-
-    template <int dim>
-    bool
-    may_contain(const typename Triangulation<dim>::active_cell_iterator &cell,
-                const Point<dim>                                        &place)
-    {
-      const auto box = cell->bounding_box();
-      return box.point_inside(place, tolerance_of_search);
-    }
-
     /** Unit cell coordinates of @p place, if it is in the cell. */
     template <int dim>
     bool
-    find_in_cell(const Mapping<dim> &mapping,
-                 const typename Triangulation<dim>::active_cell_iterator &cell,
-                 const Point<dim>                                        &place,
-                 Point<dim>                                              &unit)
+    find_in_cell(const BackgroundMesh<dim>                        &mesh,
+                 const typename BackgroundMesh<dim>::CellIterator &cell,
+                 const Point<dim>                                 &place,
+                 Point<dim>                                       &unit)
     {
+      BoundingBox<dim> box = cell->bounding_box();
+      box.extend(mesh.round_off());
+      if (!box.point_inside(place))
+        return false;
       try
         {
-          unit = mapping.transform_real_to_unit_cell(cell, place);
+          unit = mesh.mapping().transform_real_to_unit_cell(cell, place);
         }
       catch (const typename Mapping<dim>::ExcTransformationFailed &)
         {
           return false;
         }
-      return GeometryInfo<dim>::is_inside_unit_cell(unit, tolerance_of_search);
+      return GeometryInfo<dim>::is_inside_unit_cell(
+        unit, mesh.round_off() / cell->minimum_vertex_distance());
     }
   } // namespace
 
@@ -67,8 +60,7 @@ namespace moraine
       Point<dim>     unit;
       for (const auto &cell : mesh.triangulation().active_cell_iterators())
         if (cell->is_locally_owned() && space.is_active(cell) &&
-            may_contain<dim>(cell, place) &&
-            find_in_cell<dim>(mesh.mapping(), cell, place, unit))
+            find_in_cell<dim>(mesh, cell, place, unit))
           {
             const unsigned int *nodes = space.cell_nodes(cell);
             for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)

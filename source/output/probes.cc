@@ -181,7 +181,7 @@ namespace moraine
 
     probe.distance = smallest;
     // Round-off must not choose between points that are equally near.
-    const double limit = smallest + 1e-10 * cell_size;
+    const double limit = smallest + points.mesh().round_off();
     unsigned int id    = numbers::invalid_unsigned_int;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (distance(p) <= limit)

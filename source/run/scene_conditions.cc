@@ -270,7 +270,7 @@ namespace moraine
                                         return !is_inside(
                                           *region,
                                           place.x,
-                                          1e-9 * space.mesh().cell_size());
+                                          space.mesh().round_off());
                                       }),
                        places.end());
         return places;

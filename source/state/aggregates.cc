@@ -424,7 +424,7 @@ namespace moraine
       double nearest = std::numeric_limits<double>::max();
       for (const auto &[cell, distance] : found)
         nearest = std::min(nearest, distance);
-      nearest += 1e-9 * cut_cells.front()->diameter();
+      nearest += space.mesh().round_off();
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
                                  [nearest](const auto &one) {

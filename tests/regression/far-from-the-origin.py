@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Scenes in map coordinates: meshes that stretch, and bodies that nothing holds."""
+"""Scenes in map coordinates: what lies on faces of cells is found as it is at the origin."""
 
 BLOCK = """
 subsection Constants
@@ -102,3 +102,124 @@ for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
     text(f"held at a corner, at ({x:g}, {y:g})",
          "free to rotate" if "is free to rotate" in refused.output
          else refused.output)
+
+FAR = ((450000.3, 5300000.7), (3500123.1, 5812345.9))
+
+ON_FACES = BLOCK + """
+subsection Mesh
+  set Lower corner = $x, $y
+  set Upper corner = $x + 6, $y + 4.2
+  set Cells        = 20, 14
+end
+subsection Method
+  set Method = finite element
+  set Strain = small
+end
+subsection Bodies
+  subsection block
+    set Lower corner = $x + 0.3, $y + 0.3
+    set Upper corner = $x + 5.7, $y + 3.3
+  end
+end
+subsection Boundaries
+  subsection base
+    set Body = block
+    set Part = bottom
+  end
+  subsection left
+    set Body       = block
+    set Part       = left
+    set Constraint = roller
+  end
+end
+subsection Loads
+  subsection push
+    set Type  = surface traction
+    set Body  = block
+    set Part  = right
+    set Value = -2; 1
+    set Curve = t
+  end
+  subsection press
+    set Type  = surface traction
+    set Body  = block
+    set Part  = top
+    set Value = 0; -5
+    set Curve = t
+  end
+end
+subsection Time
+  set Steps = 4
+end
+subsection Probes
+  subsection corner
+    set Location = $x + 5.7, $y + 3.3
+    set Kind     = interpolated
+  end
+  subsection node
+    set Location = $x + 3, $y + 1.5
+  end
+end
+"""
+on_faces = folder / "on-faces.prm"
+on_faces.write_text(ON_FACES)
+
+
+def answers(x, y):
+    # Stiff, so that nodes move less than they are rounded.
+    row = run(on_faces, {"Constants/x": x, "Constants/y": y,
+                         "Materials/block/Young modulus": 1e6}).history()[-1]
+    return [row[name] for name in
+            ("reaction_x of base", "reaction_y of base", "reaction_x of left",
+             "u_x at corner", "u_y at corner", "u_y at node")]
+
+
+at_origin = answers(0, 0)
+number("boundaries: force of both", at_origin[0] + at_origin[2], 6)
+for x, y in FAR:
+    bound(f"  at ({x:.0f}, {y:.0f}) forces and displacements differ by",
+          max(abs(far / near - 1)
+              for far, near in zip(answers(x, y), at_origin)), 1e-4)
+
+HELD = BLOCK + """
+subsection Mesh
+  set Lower corner = $x, $y
+  set Upper corner = $x + 3, $y + 1.5
+  set Cells        = 10, 5
+end
+subsection Method
+  set Method = finite element
+end
+subsection Bodies
+  subsection block
+    set Lower corner = $x, $y
+    set Upper corner = $x + 3, $y + 1.5
+  end
+end
+subsection Grid conditions
+  subsection foot
+    set Lower corner = $x + 0.3, $y
+    set Upper corner = $x + 2.1, $y
+  end
+end
+subsection Loads
+  subsection weight
+    set Type  = surface traction
+    set Body  = block
+    set Part  = top
+    set Value = 1; -1
+  end
+end
+subsection Probes
+  subsection top
+    set Location = $x + 3, $y + 1.5
+    set Kind     = interpolated
+  end
+end
+"""
+held = folder / "held.prm"
+held.write_text(HELD)
+moved = [run(held, {"Constants/x": x, "Constants/y": y}
+             ).history()[-1]["u_y at top"] for x, y in ((0, 0), *FAR)]
+bound("box that holds nodes: displacements elsewhere differ by",
+      max(abs(u / moved[0] - 1) for u in moved), 1e-5)

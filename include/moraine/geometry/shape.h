@@ -133,6 +133,10 @@ namespace moraine
       return box;
     }
 
+    /** Whether a cell comes near the box at all; quick and on the safe side. */
+    bool
+    may_touch(const CellVertices<dim> &cell) const;
+
     /** Whether the normal changes along a smooth part of the surface. */
     bool
     curved() const
@@ -145,10 +149,6 @@ namespace moraine
       : box(box)
       , is_curved(is_curved)
     {}
-
-    /** Whether a cell comes near the box at all; quick and on the safe side. */
-    bool
-    may_touch(const CellVertices<dim> &cell) const;
 
     dealii::BoundingBox<dim> box;
 

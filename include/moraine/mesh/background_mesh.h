@@ -157,6 +157,11 @@ namespace moraine
       return largest_edge;
     }
 
+    /** How far round-off may part what is one place of the mesh: far from the
+     * origin that of the coordinates. */
+    double
+    round_off() const;
+
   private:
     /** Where vertices go. @throws ComputationError if that inverts a cell. */
     std::vector<dealii::Point<dim>>
@@ -176,7 +181,7 @@ namespace moraine
     void
     cut_curve(const std::function<double(const CellIterator &)> &work);
 
-    /** Find the largest edge. */
+    /** Find the largest edge and coordinate. */
     void
     measure_cells();
 
@@ -188,7 +193,7 @@ namespace moraine
     MeshSides                     sides;
     /** Cells in the order in which processes share them; empty on one. */
     std::vector<CellIterator> curve;
-    double                    largest_edge = 0;
+    double                    largest_edge = 0, largest_coordinate = 0;
     /** Empty if no vertex has moved. */
     std::vector<dealii::Point<dim>> built;
   };
