@@ -82,7 +82,9 @@ class Run:
                 n = re.search(r'NumberOfComponents="(\d)"', tag)
                 size = struct.unpack("<4I", base64.b64decode(data[:24]))[1]
                 raw = zlib.decompress(base64.b64decode(data[24:]))
-                found = struct.unpack(f"<{size // 4}f", raw)
+                letter = "d" if "Float64" in tag else "f"
+                found = struct.unpack(
+                    f"<{size // struct.calcsize(letter)}{letter}", raw)
                 values += zip(*[iter(found)] * int(n[1])) if n else found
             columns.append(values)
         return list(zip(*columns))

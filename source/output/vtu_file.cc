@@ -8,8 +8,12 @@
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <zlib.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -96,6 +100,54 @@ namespace moraine
                     "location=\"vtkDataArray\">" +
                       unit + "</InformationKey>\n");
     }
+
+
+
+    /** What VTK reads as an array in one compressed block. */
+    std::string
+    encode(const std::vector<double> &values)
+    {
+      const uLong size   = values.size() * sizeof(double);
+      uLongf      packed = compressBound(size);
+
+      std::vector<unsigned char> block(packed);
+      AssertThrow(compress2(block.data(),
+                            &packed,
+                            reinterpret_cast<const Bytef *>(values.data()),
+                            size,
+                            Z_BEST_SPEED) == Z_OK,
+                  ExcInternalError());
+      block.resize(packed);
+      const std::uint32_t sizes[4] = {1,
+                                      static_cast<std::uint32_t>(size),
+                                      static_cast<std::uint32_t>(size),
+                                      static_cast<std::uint32_t>(packed)};
+      const auto *begin = reinterpret_cast<const unsigned char *>(sizes);
+      return Utilities::encode_base64({begin, begin + sizeof(sizes)}) +
+             Utilities::encode_base64(block);
+    }
+
+
+
+    /** Give the positions of a piece all their digits: what deal.II writes
+     * tells places of a cell far from the origin no more apart. */
+    template <typename Patch>
+    void
+    refine_positions(std::string &text, const std::vector<Patch> &patches)
+    {
+      std::vector<double> positions;
+      for (const Patch &patch : patches)
+        for (const auto &x : patch.vertices)
+          for (unsigned int d = 0; d < 3; ++d)
+            positions.push_back(d < x.dimension ? x[d] : 0.);
+      const std::string open = "<Points>\n", close = "  </Points>";
+      const auto        begin = text.find(open) + open.size();
+      text.replace(begin,
+                   text.find(close, begin) - begin,
+                   "    <DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+                   "format=\"binary\">\n" +
+                     encode(positions) + "\n    </DataArray>\n");
+    }
   } // namespace
 
 
@@ -160,6 +212,7 @@ namespace moraine
     DataOutBase::write_vtu_main(
       patches, names, get_nonscalar_data_ranges(), flags, out);
     std::string text = out.str();
+    refine_positions(text, patches);
     for (const std::string &name :
          std::set<std::string>(names.begin(), names.end()))
       annotate(text, name, units.count(name) > 0 ? units.at(name) : "");

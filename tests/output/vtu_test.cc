@@ -49,6 +49,7 @@ namespace moraine
     }
 
     /** Compressed binary data as VTK defines it, in one block. */
+    template <typename Number>
     std::vector<float>
     decode(const std::string &text)
     {
@@ -59,15 +60,15 @@ namespace moraine
       std::memcpy(head, head_bytes.data(), sizeof(head));
       EXPECT_EQ(head[0], 1u);
       const auto packed = Utilities::decode_base64(text.substr(head_length));
-      std::vector<float> values(head[1] / sizeof(float));
-      uLongf             size = head[1];
+      std::vector<Number> values(head[1] / sizeof(Number));
+      uLongf              size = head[1];
       EXPECT_EQ(uncompress(reinterpret_cast<Bytef *>(values.data()),
                            &size,
                            packed.data(),
                            head[3]),
                 Z_OK);
       EXPECT_EQ(size, head[1]);
-      return values;
+      return {values.begin(), values.end()};
     }
 
     std::map<std::string, Array>
@@ -85,8 +86,9 @@ namespace moraine
           const std::string tag = text.substr(at, end - at);
           std::string       data =
             text.substr(end + 1, text.find("</DataArray", end) - end - 1);
-          at = text.find(open, end);
-          if (attribute(tag, "type") != "Float32" ||
+          at                     = text.find(open, end);
+          const std::string type = attribute(tag, "type");
+          if (type.substr(0, 5) != "Float" ||
               attribute(tag, "format") != "binary")
             continue;
           const std::string name  = attribute(tag, "Name");
@@ -114,7 +116,8 @@ namespace moraine
                      data.end());
           if (data.empty())
             continue;
-          const auto values = decode(data);
+          const auto values =
+            type == "Float64" ? decode<double>(data) : decode<float>(data);
           array.values.insert(array.values.end(), values.begin(), values.end());
         }
       return arrays;

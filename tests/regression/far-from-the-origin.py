@@ -184,8 +184,8 @@ for x, y in FAR:
 HELD = BLOCK + """
 subsection Mesh
   set Lower corner = $x, $y
-  set Upper corner = $x + 3, $y + 1.5
-  set Cells        = 10, 5
+  set Upper corner = $x + 3.3, $y + 1.5
+  set Cells        = 11, 5
 end
 subsection Method
   set Method = finite element
@@ -193,12 +193,12 @@ end
 subsection Bodies
   subsection block
     set Lower corner = $x, $y
-    set Upper corner = $x + 3, $y + 1.5
+    set Upper corner = $x + 3.3, $y + 1.5
   end
 end
 subsection Grid conditions
   subsection foot
-    set Lower corner = $x + 0.3, $y
+    set Lower corner = $x + 1.2, $y
     set Upper corner = $x + 2.1, $y
   end
 end
@@ -212,7 +212,7 @@ subsection Loads
 end
 subsection Probes
   subsection top
-    set Location = $x + 3, $y + 1.5
+    set Location = $x + 3.3, $y + 1.5
     set Kind     = interpolated
   end
 end
@@ -223,3 +223,9 @@ moved = [run(held, {"Constants/x": x, "Constants/y": y}
              ).history()[-1]["u_y at top"] for x, y in ((0, 0), *FAR)]
 bound("box that holds nodes: displacements elsewhere differ by",
       max(abs(u / moved[0] - 1) for u in moved), 1e-5)
+
+# Files for ParaView.
+places = run(held, {"Constants/x": FAR[0][0], "Constants/y": FAR[0][1]}
+             ).points("position")
+text("points that stand on places of their own",
+     f"{len(set(places))} of {len(places)}")

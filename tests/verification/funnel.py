@@ -12,14 +12,16 @@ def positions(folder, number):
     """x of all points by their id, from the binary arrays of a VTU file."""
     data = (folder / "points" / f"{number:05d}.vtu").read_text()
 
-    def arrays(name, stride):
-        for text in re.findall(rf'<DataArray type="Float32" {name}'
+    def arrays(name, stride, letter="f"):
+        size = struct.calcsize(letter)
+        for text in re.findall(rf'<DataArray type="Float{8 * size}" {name}'
                                r'[^>]*format="binary">\s*([^<]*?)\s*<', data):
             # a header of four numbers (16 bytes, 24 letters), then one block
             values = zlib.decompress(base64.b64decode(text[24:]))
-            yield from struct.unpack(f"<{len(values) // 4}f", values)[::stride]
+            yield from struct.unpack(f"<{len(values) // size}{letter}",
+                                     values)[::stride]
 
-    x = list(arrays('NumberOfComponents="3"', 3))
+    x = list(arrays('NumberOfComponents="3"', 3, "d"))
     return dict(zip(arrays('Name="id"', 1), x))
 
 

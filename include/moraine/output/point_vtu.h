@@ -26,8 +26,9 @@ namespace moraine
    * | mean_stress      | @f$(\sigma_{xx}+\sigma_{yy}+\sigma_{zz})/3@f$      |
    * | smoothed_mean_stress | that of smoothed_mean_stress()                 |
    *
-   * Points are ordered by id within the part of each rank. Numbers are stored
-   * in single precision; ids above 16 777 216 are rounded.
+   * Points are ordered by id within the part of each rank. Positions are
+   * stored in double, other numbers in single precision; ids above 16 777 216
+   * are rounded.
    *
    * @throws InputError naming the file if it cannot be written.
    */
