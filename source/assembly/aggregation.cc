@@ -174,7 +174,7 @@ namespace moraine
             sum += points.volume(p) * of_point(state, p);
             volume += points.volume(p);
           }
-        scales[c] = sum / volume * of_volume(in_cell.cell->measure());
+        scales[c] = sum / volume * of_volume(volume_of_cell(in_cell.cell));
       }
     Utilities::MPI::sum(scales, all_ranks, scales);
     return scales;

@@ -97,7 +97,7 @@ namespace moraine
       if (cell->is_locally_owned() && space.is_active(cell))
         {
           const double empty =
-            1 - filled[cell->active_cell_index()] / cell->measure();
+            1 - filled[cell->active_cell_index()] / volume_of_cell(cell);
           // Round-off in a full cell is not a part of it.
           if (empty > 1e-12)
             empty_cells.emplace_back(cell, empty);

@@ -85,7 +85,7 @@ namespace moraine
     size_of(const CellIterator &cell)
     {
       constexpr int dim = CellIterator::AccessorType::dimension;
-      return std::pow(cell->measure(), 1. / dim);
+      return std::pow(volume_of_cell(cell), 1. / dim);
     }
 
 

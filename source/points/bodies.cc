@@ -110,7 +110,7 @@ namespace moraine
                 overlap_in_cell<dim>(bodies[other].filled(),
                                      bodies[b].filled(),
                                      vertices,
-                                     cell->measure()))
+                                     volume_of_cell(cell)))
               {
                 std::ostringstream message;
                 message << "'" << bodies[other].name << "' and '"

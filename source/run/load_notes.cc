@@ -34,7 +34,7 @@ namespace moraine
       for (const auto &cell :
            model.mesh->triangulation().active_cell_iterators())
         partly[cell->active_cell_index()] =
-          filled[cell->active_cell_index()] < 0.9 * cell->measure();
+          filled[cell->active_cell_index()] < 0.9 * volume_of_cell(cell);
       return partly;
     }
 

@@ -50,7 +50,7 @@ namespace moraine
         {
           const double volume = volumes[cell->active_cell_index()];
           all += volume;
-          too_much += std::max(0., volume - cell->measure());
+          too_much += std::max(0., volume - volume_of_cell(cell));
         }
       if (too_much > told_excess<dim> * all)
         notes.push_back("points: cells have no room for " +
@@ -95,9 +95,9 @@ namespace moraine
               }))
             continue;
           const double filled =
-            volumes[cell->active_cell_index()] / cell->measure();
-          all += cell->measure();
-          squares += cell->measure() * (filled - 1) * (filled - 1);
+            volumes[cell->active_cell_index()] / volume_of_cell(cell);
+          all += volume_of_cell(cell);
+          squares += volume_of_cell(cell) * (filled - 1) * (filled - 1);
           least = std::min(least, filled);
           most  = std::max(most, filled);
         }
@@ -157,8 +157,8 @@ namespace moraine
         const double comes    = volumes[n + cell->active_cell_index()];
         of_new += comes;
         if (of_known > 0 && comes > 0 &&
-            of_known + comes > told_fill * cell->measure())
-          twice += of_known + comes - cell->measure();
+            of_known + comes > told_fill * volume_of_cell(cell))
+          twice += of_known + comes - volume_of_cell(cell);
       }
     if (!(twice > told_share_of_volume * of_new))
       return;

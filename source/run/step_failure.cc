@@ -61,7 +61,7 @@ namespace moraine
           for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
             if (space.node_dof(space.cell_nodes(cell)[a]) == node_dof)
               {
-                volume += cell->measure();
+                volume += volume_of_cell(cell);
                 sum += filled[cell->active_cell_index()];
               }
       volume = Utilities::MPI::sum(volume, space.communicator());

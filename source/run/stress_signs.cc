@@ -180,7 +180,7 @@ namespace moraine
             largest = std::max(largest, stress.norm());
           }
         volume += filled;
-        filled /= in_cell.cell->measure();
+        filled /= volume_of_cell(in_cell.cell);
         double &of_kind =
           filled < filled_half ? signs.in_cuts : signs.elsewhere;
         of_kind = std::max(of_kind, largest);

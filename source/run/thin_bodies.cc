@@ -53,7 +53,7 @@ namespace moraine
           parts[b].assign(volumes.begin() + b * n,
                           volumes.begin() + (b + 1) * n);
           for (const auto &cell : tria.active_cell_iterators())
-            parts[b][cell->active_cell_index()] /= cell->measure();
+            parts[b][cell->active_cell_index()] /= volume_of_cell(cell);
         }
       return parts;
     }
@@ -224,7 +224,7 @@ namespace moraine
     const std::vector<bool> all_in_bulk = vertices_in_bulk(*model.space, all);
     std::vector<double>     volumes;
     for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
-      volumes.push_back(cell->measure());
+      volumes.push_back(volume_of_cell(cell));
     for (unsigned int b = 0; b < parts.size(); ++b)
       {
         if (!model.present[b])

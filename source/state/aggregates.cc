@@ -236,7 +236,7 @@ namespace moraine
     fill_without_points(space, filled, fill);
     for (const auto &cell : tria.active_cell_iterators())
       if (space.is_active(cell))
-        filled[cell->active_cell_index()] /= cell->measure();
+        filled[cell->active_cell_index()] /= volume_of_cell(cell);
     const auto &cells_at_vertex =
       space.mesh().search_cache().get_vertex_to_cell_map();
     enum class Held : unsigned char

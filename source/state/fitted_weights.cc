@@ -156,7 +156,7 @@ namespace moraine
         for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
           volume += points.volume(p);
         full_at_start[in_cell.cell->active_cell_index()] =
-          volume >= (1 - round_off) * in_cell.cell->measure();
+          volume >= (1 - round_off) * volume_of_cell(in_cell.cell);
       }
   }
 

@@ -224,6 +224,10 @@ moved = [run(held, {"Constants/x": x, "Constants/y": y}
 bound("box that holds nodes: displacements elsewhere differ by",
       max(abs(u / moved[0] - 1) for u in moved), 1e-5)
 
+small = run(held, {"Constants/x": FAR[1][0], "Constants/y": FAR[1][1],
+                   "Mesh/Cells": "55, 25"})
+number("  small cells: force", small.reactions["foot"][1], 6)
+
 # Files for ParaView.
 places = run(held, {"Constants/x": FAR[0][0], "Constants/y": FAR[0][1]}
              ).points("position")

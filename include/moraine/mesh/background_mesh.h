@@ -14,6 +14,7 @@
 
 #include <deal.II/distributed/shared_tria.h>
 
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/grid_tools_cache.h>
 
 #include <array>
@@ -207,6 +208,23 @@ namespace moraine
     for (unsigned int v = 0; v < vertices.size(); ++v)
       vertices[v] = cell->vertex(v);
     return vertices;
+  }
+
+  /** The volume of a cell. That of deal.II, from products of coordinates, is
+   * lost far from the origin. */
+  template <class CellIterator>
+  double
+  volume_of_cell(const CellIterator &cell)
+  {
+    constexpr int                   dim = CellIterator::AccessorType::dimension;
+    std::vector<dealii::Point<dim>> corners;
+    std::vector<unsigned int>       numbers;
+    for (const unsigned int v : cell->vertex_indices())
+      {
+        corners.emplace_back(cell->vertex(v) - cell->vertex(0));
+        numbers.push_back(v);
+      }
+    return dealii::GridTools::cell_measure<dim>(corners, numbers);
   }
 } // namespace moraine
 
