@@ -24,8 +24,8 @@ namespace moraine
 
 
 
-    /** Around the places where a boundary is beside cells, on all ranks, with a
-     * @p margin; nothing if there are none. Collective. */
+    /** Around the places where a boundary is beside cells during a step, on all
+     * ranks, with a @p margin; nothing if there are none. Collective. */
     template <int dim>
     std::optional<BoundingBox<dim>>
     box_around(const ImplicitBoundary<dim> &boundary,
@@ -35,11 +35,12 @@ namespace moraine
       // Lower bounds, and upper ones with the other sign.
       std::vector<double> bounds(2 * dim, std::numeric_limits<double>::max());
       for (const auto &place : boundary.points())
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            bounds[d]       = std::min(bounds[d], place.x[d]);
-            bounds[dim + d] = std::min(bounds[dim + d], -place.x[d]);
-          }
+        for (const Point<dim> &x : {place.x, place.x + place.prescribed})
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              bounds[d]       = std::min(bounds[d], x[d]);
+              bounds[dim + d] = std::min(bounds[dim + d], -x[d]);
+            }
       Utilities::MPI::min(bounds, communicator, bounds);
       if (bounds[0] == std::numeric_limits<double>::max())
         return {};
@@ -64,7 +65,8 @@ namespace moraine
 
   template <int dim>
   typename EndWatch<dim>::PastEnds
-  EndWatch<dim>::past_ends(const ImplicitBoundary<dim> &boundary) const
+  EndWatch<dim>::past_ends(const ImplicitBoundary<dim> &boundary,
+                           const When                   when) const
   {
     const MPI_Comm       communicator = model.space->communicator();
     const double         h            = model.mesh->cell_size();
@@ -74,7 +76,10 @@ namespace moraine
     for (unsigned int p = 0; box && p < points.n_local(); ++p)
       if (box->point_inside(points.position(p)))
         {
-          const auto nearest = boundary.nearest_at_start(points.position(p));
+          const Point<dim> &x       = points.position(p);
+          const auto        nearest = when == When::start ?
+                                        boundary.nearest_at_start(x) :
+                                        boundary.nearest_at_end(x);
           if (nearest.in_extent || std::abs(nearest.level) > h)
             continue;
           found.beside = true;
@@ -88,25 +93,38 @@ namespace moraine
 
 
   template <int dim>
+  void
+  EndWatch<dim>::step_begins(const StageParameters &stage)
+  {
+    if (model.state->mesh_after_step() == MeshAfterStep::keep)
+      return;
+    for (const auto &boundary : model.boundaries)
+      if (contains(stage.boundaries, boundary.name()) &&
+          known.insert(boundary.name()).second &&
+          !past_ends(boundary, When::start).beside)
+        watched.insert(boundary.name());
+  }
+
+
+
+  template <int dim>
   std::vector<std::string>
-  EndWatch<dim>::look(const StageParameters &stage, const double t)
+  EndWatch<dim>::look(const std::vector<BoundaryReport<dim>> &reports,
+                      const double                            t)
   {
     std::vector<std::string> notes;
-    if (model.state->mesh_after_step() == MeshAfterStep::keep)
-      return notes;
     for (const auto &boundary : model.boundaries)
       {
         const std::string &name = boundary.name();
-        if (!contains(stage.boundaries, name))
+        if (watched.count(name) == 0 ||
+            std::none_of(reports.begin(),
+                         reports.end(),
+                         [&name](const auto &report) {
+                           return report.name == name;
+                         }))
           continue;
-        const bool begins = known.insert(name).second;
-        if (!begins && watched.count(name) == 0)
-          continue;
-        const PastEnds past = past_ends(boundary);
-        if (begins && !past.beside)
-          watched.insert(name);
-        if (begins ||
-            !(past.depth > told_behind_ends * model.mesh->cell_size()))
+        const PastEnds past = past_ends(boundary, When::end);
+        if (!(past.depth > told_behind_ends * model.mesh->cell_size()))
           continue;
         watched.erase(name);
         std::ostringstream text;

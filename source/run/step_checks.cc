@@ -187,8 +187,7 @@ namespace moraine
          {apart, crossings.look(stage, t), passes.look(stage, t)})
       if (!text.empty())
         found.push_back(text);
-    for (const std::string &text : ends.look(stage, t))
-      found.push_back(text);
+    ends.step_begins(stage);
     return found;
   }
 
@@ -235,6 +234,8 @@ namespace moraine
     std::vector<std::string> found;
     for (const BoundaryReport<dim> &report : reports)
       found.push_back(missed_boundary(t, report, largest_motion));
+    for (const std::string &text : ends.look(reports, t))
+      found.push_back(text);
     found.push_back(points_apart(t));
     found.push_back(moved_far(t));
     found.push_back(turns.look(t, reports));

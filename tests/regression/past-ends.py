@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Material that grows past the end of what holds it is told of: a block that spreads
-on its own 'Part'; not on a longer line, nor beside a footing."""
+on its own 'Part'; not on a longer line, nor beside a footing. In the last step as in
+others."""
+
+import re
 
 SCENE = """
 subsection Mesh
@@ -69,3 +72,60 @@ for name, low, more, modulus, methods in (
         text(f"{name}, {method}",
              [note.split(":")[0] for note in result.summary.get("warnings", [])
               if "past its end" in note] or "nothing")
+
+# Between rollers that are its own sides; the first time to be told of, and the end.
+PRESSED = """
+subsection Mesh
+  set Lower corner = -1.3, -0.3
+  set Upper corner = 3.7, 1.7
+  set Cell size    = 0.25
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+end
+subsection Materials
+  subsection gel
+    set Model         = neo-Hookean
+    set Young modulus = 100
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 2, 1
+  end
+end
+subsection Grid conditions
+  subsection middle
+    set Lower corner = 0.94, -1
+    set Upper corner = 0.96, 2
+    set Components   = x
+  end
+end
+subsection Boundaries
+  subsection low
+    set Body       = block
+    set Part       = bottom
+    set Constraint = roller
+  end
+  subsection top
+    set Body        = block
+    set Part        = top
+    set Constraint  = roller
+    set Translation = 0; -0.5*t
+  end
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+pressed = folder / "pressed.prm"
+pressed.write_text(PRESSED)
+for end, steps in ((0.65, 13), (0.7, 14)):
+    result = run(pressed, {"Time/End time": end, "Time/Steps": steps})
+    text(f"pressed to t = {end}", re.findall(
+        r"boundary '(\w+)': by t = (\S+) material has come past its end",
+        " ".join(result.summary.get("warnings", []))))

@@ -355,6 +355,13 @@ namespace moraine
       return at_start.nearest(x);
     }
 
+    /** The same at its end. */
+    NearestPoint<dim>
+    nearest_at_end(const dealii::Point<dim> &x) const
+    {
+      return at_end.nearest(x);
+    }
+
     const std::string &
     name() const
     {

@@ -24,10 +24,15 @@ namespace moraine
   public:
     explicit EndWatch(const Model<dim> &model);
 
-    /** As a step of @p stage begins at @p t: what is to be told, of each
-     * boundary once. Collective. */
+    /** As a step of @p stage begins: notes which of its boundaries it will
+     * look at. Collective. */
+    void
+    step_begins(const StageParameters &stage);
+
+    /** After a step to @p t with @p reports of the boundaries that act: what is
+     * to be told, of each boundary once. Collective. */
     std::vector<std::string>
-    look(const StageParameters &stage, const double t);
+    look(const std::vector<BoundaryReport<dim>> &reports, const double t);
 
     /** Data sets "checks/ends/...". */
     void
@@ -37,6 +42,12 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
+    enum class When
+    {
+      start, ///< of the step
+      end
+    };
+
     /** Of the points past the ends of a boundary, but by no more than a cell.
      */
     struct PastEnds
@@ -47,7 +58,7 @@ namespace moraine
 
     /** Collective. */
     PastEnds
-    past_ends(const ImplicitBoundary<dim> &boundary) const;
+    past_ends(const ImplicitBoundary<dim> &boundary, const When when) const;
 
     const Model<dim>     &model;
     std::set<std::string> known; ///< boundaries that have acted

@@ -38,8 +38,8 @@ namespace moraine
 
     /**
      * What is to be told of the step of @p stage that has begun at @p t: that a
-     * body came apart before, and what HoldWatch, CrossingWatch, PassWatch and
-     * EndWatch find.
+     * body came apart before, and what HoldWatch, CrossingWatch and PassWatch
+     * find.
      * @throws ComputationError if the run cannot go on or should not.
      */
     std::vector<std::string>
@@ -48,7 +48,8 @@ namespace moraine
     /**
      * What is to be told of the step that @p time has accepted, with the
      * boundaries' @p reports: that the material misses one of them, with @p
-     * largest_motion of a node in the step; that points of a body drift apart;
+     * largest_motion of a node in the step; what EndWatch finds; that points of
+     * a body drift apart;
      * that a body moves far or is turned at small strain; that material that
      * yields slides; that energy grows without work.
      */
