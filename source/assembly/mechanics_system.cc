@@ -37,6 +37,19 @@ namespace moraine
 
 
 
+    /** All entries are no numbers: where every node of a point without stress
+     * is prescribed, condensed forces say nothing of it. */
+    void
+    make_invalid(LA::Vector &residual)
+    {
+      double *values = residual.trilinos_vector()[0];
+      std::fill_n(values,
+                  residual.locally_owned_size(),
+                  std::numeric_limits<double>::quiet_NaN());
+    }
+
+
+
     /** The first text of any rank that is not empty. Collective. */
     std::string
     first_of_ranks(const std::string &text, const MPI_Comm &communicator)
@@ -418,6 +431,8 @@ namespace moraine
       unbalanced += forces.at_start;
     residual_vector = unbalanced;
     constraints.condense(residual_vector);
+    if (!failure().empty())
+      make_invalid(residual_vector);
     scale.of_bodies.resize(body_names.size());
     Utilities::MPI::sum(sums.squares_of_bodies(),
                         state.grid().communicator(),

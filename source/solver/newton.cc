@@ -145,6 +145,9 @@ namespace moraine
       cause(const std::string &otherwise) const;
 
       bool
+      is_number_at_start();
+
+      bool
       correct(const bool   line_search,
               const double enough = goal_of_linear_solver);
 
@@ -428,6 +431,17 @@ namespace moraine
 
 
 
+    bool
+    Iteration::is_number_at_start()
+    {
+      return measure.finite() ||
+             stop(NewtonStatus::not_a_number,
+                  cause(
+                    "the residual is not a number at the start of the step"));
+    }
+
+
+
     NewtonReport
     Iteration::run()
     {
@@ -435,12 +449,8 @@ namespace moraine
       evaluate(true);
       measure.start();
       record();
-      if (!measure.finite())
-        {
-          stop(NewtonStatus::not_a_number,
-               cause("the residual is not a number at the start of the step"));
-          return report;
-        }
+      if (!is_number_at_start())
+        return report;
       const std::string not_held = system.why_not_held();
       if (!not_held.empty())
         {
@@ -450,6 +460,8 @@ namespace moraine
       // The first residual may be a linearised one.
       if (system.linearised() && small())
         evaluate(false);
+      if (!is_number_at_start())
+        return report;
       const bool balanced   = iterate();
       report.observed_order = observed_order(report.residuals);
       if (balanced)

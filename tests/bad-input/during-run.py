@@ -63,6 +63,67 @@ show("the same, written at the end only", run(
     scene, {"Boundaries/left/Translation": "0; -0.8*t",
             "Loads/weight/Value": "0; 0", "Output/Write": "end"}, expect=1))
 
+# A point without stress, all nodes of which are prescribed: their forces say nothing
+# of it. Above it is a body that moves freely, or that is prescribed as well.
+softening = folder / "softening.prm"
+softening.write_text("""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 1, 3
+  set Cell size    = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Materials
+  subsection brittle
+    set Model                = von Mises
+    set Young modulus        = 50000
+    set Poisson ratio        = 0.3
+    set Uniaxial yield stress = 0: 100, 0.001: 55, 0.01: 50
+  end
+  subsection elastic
+    set Young modulus = 10000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection low
+    set Material     = brittle
+    set Lower corner = 0, 0
+    set Upper corner = 1, 1
+  end
+  subsection up
+    set Material     = elastic
+    set Lower corner = 0, 1
+    set Upper corner = 1, 3
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+  subsection middle
+    set Lower corner = 0, 1
+    set Upper corner = 1, 1
+    set Displacement = 0.02*t; 0
+  end
+end
+subsection Strength reduction
+  set Factor = 0.3
+end
+subsection Time
+  set Steps         = 2
+  set Smallest step = 0.9
+end
+""")
+for method in ("finite element", "GIMP"):
+    for up_to in (1, 3):
+        result = run(softening, {"Method/Method": method,
+                                 "Grid conditions/middle/Upper corner":
+                                 f"1, {up_to}"}, expect=1, on_ranks=ranks)
+        show(f"no stress, {method}, prescribed up to {up_to}", result)
+
 # Iterations that do not suffice, in full cells and in cells that the block cuts.
 few = {"Solver/Solver": "amg-cg", "Solver/Maximum linear iterations": 2,
        "Loads/weight/Value": "0; -1e-3*t", "Mesh/Cell size": 0.125,

@@ -148,3 +148,10 @@ show("corners of CPDI2 that would be turned inside out", run(stretch, {
     "Grid conditions/right/Displacement": "-0.0125*t^5; 0",
     "Time/End time": 4, "Time/Steps": 2, "Time/Smallest step": 0.9},
     expect=1))
+show("the same where all nodes are prescribed", run(
+    "prm/wang-2018/stretch-fe.prm", {
+        "Mesh/Cells": "1, 1", "Grid conditions/left/Components": "x, y",
+        "Grid conditions/right/Components": "x, y",
+        "Grid conditions/right/Displacement": "-2.4*t^2; 0",
+        "Time/End time": 1, "Time/Steps": 2, "Time/Smallest step": 0.9},
+    expect=1))
