@@ -10,6 +10,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace moraine
 {
@@ -92,6 +94,21 @@ namespace moraine
              boundary.holds_mean_in(context.state.grid(),
                                     cell,
                                     context.t_start);
+    }
+
+
+
+    /** Of a place without functions, see evaluate_shapes(). */
+    template <int dim>
+    std::string
+    why_no_place(const std::string &boundary, const Point<dim> &x)
+    {
+      std::ostringstream text;
+      text << "boundary '" << boundary << "': the cell at (" << x
+           << ") has folded there; where too little of it is filled to hold "
+              "its nodes, a larger 'Aggregate below' in section 'Method' ties "
+              "them";
+      return text.str();
     }
 
 
@@ -334,6 +351,8 @@ namespace moraine
         for (; q < piece.end(); ++q)
           {
             piece.set_place(boundary, q);
+            if (!std::isfinite(piece.N[0]) && local.failure.empty())
+              local.failure = why_no_place(boundary.name(), points[q].x);
             add_boundary_point(points[q],
                                piece.constraint(q),
                                how,

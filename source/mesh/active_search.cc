@@ -5,6 +5,7 @@
 #include <moraine/mesh/cell_shapes.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace moraine
 {
@@ -59,6 +60,48 @@ namespace moraine
 
 
 
+    /** Whether @p x is at @p xi of the cell with nodes @p X. */
+    template <int dim, int degree>
+    bool
+    is_at(const Point<dim> &x, const Point<dim> &xi, const Point<dim> *X)
+    {
+      constexpr double       round_off = 1e-6; ///< of the cell
+      constexpr unsigned int n         = CellShapes<dim, degree>::n_nodes;
+      double                 N[n];
+      CellShapes<dim, degree>::values(xi, N);
+      Tensor<1, dim> gap = x;
+      for (unsigned int a = 0; a < n; ++a)
+        gap -= N[a] * X[a];
+      return gap.norm() <= round_off * X[0].distance(X[n - 1]);
+    }
+
+
+
+    /** The unit cell's place of @p x: of one that is folded where it holds no
+     * material from the node nearest to @p x; not a number if it is nowhere. */
+    template <int dim, int degree>
+    Point<dim>
+    place_in_cell(const Point<dim> &x, const Point<dim> *X)
+    {
+      const Point<dim> xi = CellShapes<dim, degree>::inverse(x, X);
+      if (is_at<dim, degree>(x, xi, X))
+        return xi;
+      constexpr unsigned int n       = CellShapes<dim, degree>::n_nodes;
+      unsigned int           nearest = 0;
+      for (unsigned int a = 1; a < n; ++a)
+        if (X[a].distance_square(x) < X[nearest].distance_square(x))
+          nearest = a;
+      Point<dim> start;
+      for (unsigned int d = 0; d < dim; ++d, nearest /= degree + 1)
+        start[d] = double(nearest % (degree + 1)) / degree;
+      Point<dim> other = CellShapes<dim, degree>::inverse(x, X, start);
+      if (!is_at<dim, degree>(x, other, X))
+        other[0] = std::numeric_limits<double>::quiet_NaN();
+      return other;
+    }
+
+
+
     template <int dim, int degree>
     void
     evaluate_at(const GridSpace<dim> &space,
@@ -72,7 +115,7 @@ namespace moraine
       Point<dim>             X[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = space.node_position(nodes[a]);
-      CellShapes<dim, degree>::evaluate(CellShapes<dim, degree>::inverse(x, X),
+      CellShapes<dim, degree>::evaluate(place_in_cell<dim, degree>(x, X),
                                         X,
                                         N,
                                         grad_N);
@@ -92,8 +135,7 @@ namespace moraine
       for (unsigned int a = 0; a < n; ++a)
         X[a] = space.node_position(nodes[a]) - space.node_move(nodes[a]);
       double N[n];
-      CellShapes<dim, degree>::values(CellShapes<dim, degree>::inverse(x, X),
-                                      N);
+      CellShapes<dim, degree>::values(place_in_cell<dim, degree>(x, X), N);
       Tensor<1, dim> move;
       for (unsigned int a = 0; a < n; ++a)
         move += N[a] * space.node_move(nodes[a]);

@@ -37,7 +37,8 @@ namespace moraine
 
   /**
    * Shape functions of an active cell this rank knows at the place @p x, also
-   * outside of the cell. Arrays hold space.nodes_per_cell() entries.
+   * outside of the cell. Arrays hold space.nodes_per_cell() entries, which are
+   * not numbers where the cell has folded and @p x is nowhere in it.
    */
   template <int dim>
   void

@@ -42,11 +42,23 @@ namespace moraine
 
     /**
      * The place @f$\xi@f$ with @f$x(\xi) = x@f$, also outside the cell, by
-     * Newton's method. For many places of one cell and degree 1 there is
-     * CellInverse.
+     * Newton's method from the middle, or from @p start. For many places of
+     * one cell and degree 1 there is CellInverse.
      */
     static dealii::Point<dim>
-    inverse(const dealii::Point<dim> &x, const dealii::Point<dim> *X);
+    inverse(const dealii::Point<dim> &x,
+            const dealii::Point<dim> *X,
+            const dealii::Point<dim> &start = middle());
+
+    /** Of the unit cell. */
+    static dealii::Point<dim>
+    middle()
+    {
+      dealii::Point<dim> xi;
+      for (unsigned int d = 0; d < dim; ++d)
+        xi[d] = 0.5;
+      return xi;
+    }
 
   private:
     /** Values and derivatives of the 1D Lagrange functions on [0,1]. */
@@ -132,11 +144,10 @@ namespace moraine
   template <int dim, int degree>
   inline dealii::Point<dim>
   CellShapes<dim, degree>::inverse(const dealii::Point<dim> &x,
-                                   const dealii::Point<dim> *X)
+                                   const dealii::Point<dim> *X,
+                                   const dealii::Point<dim> &start)
   {
-    dealii::Point<dim> xi;
-    for (unsigned int d = 0; d < dim; ++d)
-      xi[d] = 0.5;
+    dealii::Point<dim>     xi = start;
     double                 N[n_nodes];
     dealii::Tensor<1, dim> unit_gradients[n_nodes];
     for (unsigned int iteration = 0; iteration < 20; ++iteration)
