@@ -100,8 +100,9 @@ namespace moraine
       const bool turns = rotation > 1e-6 * std::abs(translation);
 
       std::ostringstream message;
-      message << "the scene is not held: body '" << body_names.at(body)
-              << "' around (" << centre << ") is ";
+      message << "the scene is not held" << (first_step ? "" : " any more")
+              << ": body '" << body_names.at(body) << "' around (" << centre
+              << ") is ";
       if (free_motions.size() == motion.size())
         message << "free to move and rotate";
       else if (free_motions.size() > 1)
@@ -117,10 +118,12 @@ namespace moraine
                     << std::round(1e3 * motion[d] / translation) / 1e3 + 0.;
           message << ")";
         }
-      message << "; hold it by a boundary or a grid condition";
       if (first_step)
-        throw InputError(message.str());
-      throw ComputationError(message.str());
+        throw InputError(message.str() +
+                         "; hold it by a boundary or a grid condition");
+      throw ComputationError(message.str() +
+                             "; what held it has lost the material, or next "
+                             "to nothing of its stiffness is left");
     }
   } // namespace
 
