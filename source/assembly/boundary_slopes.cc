@@ -97,24 +97,23 @@ namespace moraine
     const StepContext<dim>                  &context,
     const std::vector<ConstraintState<dim>> &states)
   {
-    const double                share  = context.share_of_step();
-    const RigidMotion<dim>     &motion = boundary.rigid_motion();
+    const double                share = context.share_of_step();
     std::vector<Tensor<1, dim>> tractions;
     for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
       {
         const BoundarySlope<dim> &slope = boundary.slopes()[k];
         const Point<dim>         &place = states[slope.point].place;
-        // Where it moved to, as the place.
-        const Tensor<1, dim> arm =
-          slope.offset +
-          share * (slope.prescribed + slope_violation(context, k));
+        // Where it moved to, if the place did.
+        Tensor<1, dim> arm = slope.offset;
+        if (context.balances_at_end())
+          arm += share * (slope.prescribed + slope_violation(context, k));
         tractions.push_back(slope_traction(context, k, 1.));
         const Tensor<1, dim> force = boundary.points()[slope.point].JxW *
                                      slope_traction(context, k, share);
         prepared.work_of_motion +=
           work_of_motion(states.size() + k, force, slope.prescribed);
-        prepared.moment += motion.moment(place + arm, force, context.t_end) -
-                           motion.moment(place, force, context.t_end);
+        prepared.moment +=
+          moment(context, place + arm, force) - moment(context, place, force);
       }
     return tractions;
   }

@@ -519,6 +519,9 @@ namespace moraine
     std::vector<Tensor<1, dim>>       tractions, violations;
     std::vector<ConstraintState<dim>> states;
     evaluate(context, tractions, states);
+    for (unsigned int q = 0; !context.balances_at_end() && q < states.size();
+         ++q)
+      states[q].place = boundary.points()[q].x;
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
     held_places.clear();
     for (unsigned int q = 0; q < tractions.size(); ++q)
@@ -528,8 +531,7 @@ namespace moraine
         prepared.reaction += force;
         prepared.force_magnitude += force.norm();
         prepared.work_of_motion += work_of_motion(q, force, point.prescribed);
-        prepared.moment +=
-          boundary.rigid_motion().moment(states[q].place, force, context.t_end);
+        prepared.moment += moment(context, states[q].place, force);
         prepared.violation =
           std::max(prepared.violation, states[q].violation.norm());
         violations.push_back(states[q].violation);
@@ -546,6 +548,22 @@ namespace moraine
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
     boundary.prepare(tractions, violations, of_slopes);
+  }
+
+
+
+  template <int dim>
+  double
+  BoundaryTerm<dim>::moment(const StepContext<dim> &context,
+                            const Point<dim>       &x,
+                            const Tensor<1, dim>   &force) const
+  {
+    const RigidMotion<dim> &motion = boundary.rigid_motion();
+    return motion.moment(x,
+                         force,
+                         context.balances_at_end() ?
+                           motion.pose(context.t_end) :
+                           boundary.pose_at_start());
   }
 
 

@@ -173,10 +173,10 @@ namespace moraine
         auto &report = prepared[entries[first].condition];
         report.reaction += force;
         report.force_magnitude += force.norm();
-        report.moment += conditions[entries[first].condition].motion.moment(
-          space.node_position(node) + context.increments()[node],
-          force,
-          context.t_end);
+        report.moment += moment_on_nodes(conditions[entries[first].condition],
+                                         context,
+                                         place_in_balance(context, node),
+                                         force);
       }
     for (auto &report : prepared)
       sum_over_ranks(report, space.communicator());

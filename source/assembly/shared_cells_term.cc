@@ -228,7 +228,7 @@ namespace moraine
                   place.force += part;
                   changes[c].reaction -= part;
                   changes[c].moment -=
-                    all[c].motion.moment(place.x, part, context.t_end);
+                    moment_on_nodes(all[c], context, place.x, part);
                 }
         }
     return changes;
@@ -309,7 +309,7 @@ namespace moraine
             const Tensor<1, dim> change = held[b][q].force - before.force;
             of.reaction += change;
             of.force_magnitude += held[b][q].force.norm() - before.force.norm();
-            of.moment += boundary.moment(before.x, change, context.t_end);
+            of.moment += boundary.moment(context, before.x, change);
           }
         changes.push_back(of);
       }

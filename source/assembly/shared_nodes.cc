@@ -51,6 +51,33 @@ namespace moraine
 
 
   template <int dim>
+  Point<dim>
+  place_in_balance(const StepContext<dim> &context, const unsigned int node)
+  {
+    const Point<dim> &x = context.state.grid().node_position(node);
+    return context.balances_at_end() ? x + context.increments()[node] : x;
+  }
+
+
+
+  template <int dim>
+  double
+  moment_on_nodes(const GridCondition<dim> &condition,
+                  const StepContext<dim>   &context,
+                  const Point<dim>         &x,
+                  const Tensor<1, dim>     &force)
+  {
+    // Nodes that nothing moves are where they were with the axis.
+    const double t = context.balances_at_end() ? context.t_end :
+                     context.state.mesh_after_step() == MeshAfterStep::keep ?
+                                                 condition.start :
+                                                 context.t_start;
+    return condition.motion.moment(x, force, condition.motion.pose(t));
+  }
+
+
+
+  template <int dim>
   SharedNodes<dim>::SharedNodes(const PrescribedNodes<dim> &prescribed,
                                 const unsigned int          n_conditions,
                                 const GridSpace<dim>       &space)
@@ -181,8 +208,7 @@ namespace moraine
         const auto dof = space.node_dof(unknown.node) + unknown.component;
         unknown.force =
           space.locally_owned().is_element(dof) ? factor * unbalanced(dof) : 0.;
-        unknown.x = space.node_position(unknown.node) +
-                    context.increments()[unknown.node];
+        unknown.x = place_in_balance(context, unknown.node);
       }
   }
 
@@ -256,7 +282,7 @@ namespace moraine
             changes[c].reaction += change;
             changes[c].force_magnitude += std::abs(share) - std::abs(before);
             changes[c].moment +=
-              conditions[c].motion.moment(unknown.x, change, context.t_end);
+              moment_on_nodes(conditions[c], context, unknown.x, change);
           }
       }
     for (unsigned int c = 0; c < changes.size(); ++c)
@@ -270,6 +296,15 @@ namespace moraine
 
 
 
-  template class SharedNodes<2>;
-  template class SharedNodes<3>;
+#define INSTANTIATE(dim)                                          \
+  template Point<dim> place_in_balance(const StepContext<dim> &,  \
+                                       const unsigned int);       \
+  template double     moment_on_nodes(const GridCondition<dim> &, \
+                                      const StepContext<dim> &,   \
+                                      const Point<dim> &,         \
+                                      const Tensor<1, dim> &);    \
+  template class SharedNodes<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -180,9 +180,9 @@ namespace moraine
   double
   RigidMotion<dim>::moment(const Point<dim>     &x,
                            const Tensor<1, dim> &f,
-                           const double          t) const
+                           const Placement<dim> &pose) const
   {
-    const Tensor<1, dim> arm = x - pose(t).map(centre);
+    const Tensor<1, dim> arm = x - pose.map(centre);
     if constexpr (dim == 2)
       return arm[0] * f[1] - arm[1] * f[0];
     else

@@ -43,7 +43,8 @@ namespace moraine
                       "Rotation of " + what +
                         " (degrees), an expression in t or a table; a change "
                         "moves the material. history.csv then has the moment "
-                        "about the axis.");
+                        "about the axis, at small strain in the places at the "
+                        "start of the step, where forces balance.");
     prm.add_parameter("Rotation centre",
                       rotation_centre,
                       "Point of the axis of rotation; the origin if left out.",

@@ -20,7 +20,8 @@ namespace moraine
     double                 violation;   ///< largest |M(u - g)| of the step
     double                 penetration; ///< largest depth of a point behind it
     /** Moment on the body about the axis its motion turns about, else about the
-     * origin; in 3D the component along the axis. */
+     * origin; in 3D the component along the axis. Places and axis are those in
+     * which forces balance, see StepContext::balances_at_end(). */
     double moment;
     /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
      */

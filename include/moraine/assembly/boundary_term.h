@@ -23,7 +23,7 @@ namespace moraine
     {
       unsigned int                    cell;   ///< active_cell_index()
       unsigned int                    number; ///< of the boundary's points
-      dealii::Point<dim>              x;      ///< where the force acts
+      dealii::Point<dim>              x;      ///< where the force has a moment
       dealii::Tensor<1, dim>          force;
       dealii::Tensor<1, dim>          normal;
       dealii::SymmetricTensor<2, dim> M;
@@ -128,12 +128,9 @@ namespace moraine
 
     /** See BoundaryReport::moment. */
     double
-    moment(const dealii::Point<dim>     &x,
-           const dealii::Tensor<1, dim> &force,
-           const double                  t) const
-    {
-      return boundary.rigid_motion().moment(x, force, t);
-    }
+    moment(const StepContext<dim>       &context,
+           const dealii::Point<dim>     &x,
+           const dealii::Tensor<1, dim> &force) const;
 
     /** Of this rank, cell by cell; places that let go are not among them. */
     const std::vector<HeldPlace> &

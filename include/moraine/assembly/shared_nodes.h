@@ -14,6 +14,19 @@
 
 namespace moraine
 {
+  /** Where a force on a node has its moment: where forces balance. */
+  template <int dim>
+  dealii::Point<dim>
+  place_in_balance(const StepContext<dim> &context, const unsigned int node);
+
+  /** See BoundaryReport::moment. */
+  template <int dim>
+  double
+  moment_on_nodes(const GridCondition<dim>     &condition,
+                  const StepContext<dim>       &context,
+                  const dealii::Point<dim>     &x,
+                  const dealii::Tensor<1, dim> &force);
+
   /**
    * Forces of unknowns that several grid conditions prescribe, as where a wall
    * and a base meet. Only their sum r is known. It is shared out by the stress
@@ -58,7 +71,7 @@ namespace moraine
       unsigned int              component;
       std::vector<unsigned int> conditions;
       double                    force = 0; ///< if this rank owns it
-      dealii::Point<dim>        x;         ///< at the end of the step
+      dealii::Point<dim>        x;         ///< see place_in_balance()
     };
 
     /** A face on which @p condition prescribes @p component of all nodes. */

@@ -57,6 +57,15 @@ namespace moraine
       return motion && motion->integrator().forces_in_the_middle() ? 0.5 : 1.;
     }
 
+    /** Whether forces balance in the places at the end of the step, as at
+     * finite strain; else in those at its start, about which they have moments.
+     */
+    bool
+    balances_at_end() const
+    {
+      return state.strain_measure() == StrainMeasure::finite;
+    }
+
     /** Trial increments @f$\Delta u_a@f$ of the nodes. */
     const std::vector<dealii::Tensor<1, dim>> &
     increments() const

@@ -386,6 +386,13 @@ namespace moraine
       return motion;
     }
 
+    /** Of the surface, at the start of the step. */
+    const Placement<dim> &
+    pose_at_start() const
+    {
+      return at_start.pose();
+    }
+
     const Enforcement &
     enforcement() const
     {

@@ -140,13 +140,13 @@ namespace moraine
     }
 
     /**
-     * The moment of a force @p f at @p x about the axis of rotation where it is
-     * at @p t [force length].
+     * The moment of a force @p f at @p x about the axis of rotation where @p
+     * pose puts it [force length].
      */
     double
     moment(const dealii::Point<dim>     &x,
            const dealii::Tensor<1, dim> &f,
-           const double                  t) const;
+           const Placement<dim>         &pose) const;
 
   private:
     std::array<Curve, dim> translation;
