@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -15,7 +16,7 @@ namespace moraine
 
   namespace
   {
-    /** Of the largest elastic strain. */
+    /** Of the largest elastic strain, in the norm of energy. */
     constexpr double told_share_of_turns = 0.2;
 
     /** A turn by a quarter of a degree: less is no stress to speak of. */
@@ -80,15 +81,15 @@ namespace moraine
       count(condition.name, condition.motion);
     if (worst.empty())
       return "";
-    const double strain = largest_elastic_strain();
-    if (!(largest > told_share_of_turns * strain))
+    const double share = largest / largest_strain_by_energy();
+    if (!(share > told_share_of_turns))
       return "";
     told = true;
     std::ostringstream text;
     text << "'" << worst << "': by t = " << t
          << " it has turned what it holds, which small strain takes for a "
             "strain of "
-         << std::setprecision(2) << largest << ", " << largest / strain
+         << std::setprecision(2) << largest << ", by its energy " << share
          << " times the largest that stress stands for; 'Strain = finite' "
             "knows of turns"
          << (moves ? ", and more 'Steps' make less of it" : "");
@@ -99,7 +100,7 @@ namespace moraine
 
   template <int dim>
   double
-  TurnWatch<dim>::largest_elastic_strain() const
+  TurnWatch<dim>::largest_strain_by_energy() const
   {
     const PointSet<dim> &points  = *model.points;
     double               largest = 0;
@@ -107,11 +108,12 @@ namespace moraine
       {
         const LameConstants C =
           model.materials[points.body(p)]->elastic_stiffness();
+        const auto sigma = points.stress_field()(points.values(p));
         largest =
           std::max(largest,
-                   C.strain_of(points.stress_field()(points.values(p))).norm());
+                   sigma * C.strain_of(sigma) / (4 * (C.lambda + C.mu)));
       }
-    return Utilities::MPI::max(largest, model.space->communicator());
+    return std::sqrt(Utilities::MPI::max(largest, model.space->communicator()));
   }
 
 

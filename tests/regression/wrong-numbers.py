@@ -237,6 +237,15 @@ for name, settings in (
     result = run(scene, {"Output/Write": "end", **settings})
     text(f"shaft, {name}: told of", "it has turned what it holds" in result.output)
 
+# Where volume is kept the bulk modulus meets that strain.
+for nu, angle in (0.4999, 1), (0.49, 1), (0.3, 1), (0.4999, 0.1):
+    result = run(scene, {"Output/Write": "end", **HELD, "Time/Steps": 1,
+                         "Method/Mesh after step": "keep",
+                         "Materials/steel/Poisson ratio": nu,
+                         "Boundaries/bore/Rotation angle": f"{angle}*t"})
+    text(f"shaft held outside, nu = {nu}, {angle} degrees: told of",
+         "it has turned what it holds" in result.output)
+
 # A step that turns by whole turns does nothing.
 for angle, steps in ("360*t", 1), ("360*t", 2), ("360*t", 3), ("100*t", 1):
     result = run(scene, {"Boundaries/bore/Rotation angle": angle, "Time/Steps": steps,

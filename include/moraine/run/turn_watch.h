@@ -29,7 +29,8 @@ namespace moraine
     /**
      * After a step to @p t, in which what @p reports name held: what is to be
      * told, once, when that strain exceeds a fifth of the largest one that
-     * elastic stress stands for; or "". Collective.
+     * elastic stress stands for, in the norm of energy: where volume is kept
+     * the bulk modulus meets it; or "". Collective.
      */
     std::string
     look(const double t, const std::vector<BoundaryReport<dim>> &reports);
@@ -49,10 +50,11 @@ namespace moraine
       double strain = 0; ///< that is none
     };
 
-    /** The largest norm of the strain @f$C^{-1} \sigma@f$ of points of all
-     * ranks. */
+    /** The largest strain @f$e@f$ of a turn, @f$e\,1@f$ across its axis, that
+     * would have the energy of the stress of a point: @f$4(\lambda + \mu) e^2 =
+     * \sigma : C^{-1} : \sigma@f$. */
     double
-    largest_elastic_strain() const;
+    largest_strain_by_energy() const;
 
     const Model<dim>           &model;
     double                      last; ///< end of the step before
