@@ -70,7 +70,14 @@ class Run:
     def points(self, *names):
         """Fields of the points in the last VTU file, a tuple for each point;
         'position' is where they are, vectors have three numbers."""
-        text = sorted((self.folder / "points").glob("*.vtu"))[-1].read_text()
+        return self._fields("points", names)
+
+    def nodes(self, *names):
+        """The same of the mesh, for the nodes of each cell."""
+        return self._fields("mesh", names)
+
+    def _fields(self, kind, names):
+        text = sorted((self.folder / kind).glob("*.vtu"))[-1].read_text()
         columns = []
         for name in names:
             label = r"<Points>\s*<DataArray" if name == "position" else \

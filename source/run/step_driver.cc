@@ -390,14 +390,36 @@ namespace moraine
         ++sums.n_pseudo_transient;
         distance = largest;
       }
-    const AcceptedStep<dim> step{
-      time_control, t_start, report, last_reports, increments, distance};
-    if (!time_control.between_parts())
-      for (RunObserver<dim> *observer : observers)
-        observer->step_accepted(step);
+    tell_of_step(
+      {time_control, t_start, report, last_reports, increments, distance});
     const std::string failure = checks.failure();
     if (!failure.empty())
       throw ComputationError(failure);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::tell_of_step(AcceptedStep<dim> step)
+  {
+    if (time_control.between_parts())
+      {
+        first_part.emplace(
+          FirstPart{step.t_start, LastIncrement<dim>(*model.space)});
+        first_part->increment.keep(step.increments);
+        return;
+      }
+    if (first_part)
+      {
+        const auto before = first_part->increment.of_nodes();
+        for (unsigned int node = 0; node < before.size(); ++node)
+          step.increments[node] += before[node];
+        step.t_start = first_part->t_start;
+        first_part.reset();
+      }
+    for (RunObserver<dim> *observer : observers)
+      observer->step_accepted(step);
   }
 
 

@@ -35,11 +35,21 @@ namespace moraine
 
 
   template <int dim>
-  LA::Vector
-  LastIncrement<dim>::values() const
+  std::vector<Tensor<1, dim>>
+  LastIncrement<dim>::of_nodes() const
   {
     std::vector<Tensor<1, dim>> increments;
     space.read_node_values(stored, group, increments);
+    return increments;
+  }
+
+
+
+  template <int dim>
+  LA::Vector
+  LastIncrement<dim>::values() const
+  {
+    const std::vector<Tensor<1, dim>> increments = of_nodes();
     return increments.empty() ? space.vector() : space.vector_of(increments);
   }
 

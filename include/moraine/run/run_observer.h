@@ -38,11 +38,10 @@ namespace moraine
   struct AcceptedStep
   {
     const TimeControl                      &time;
-    const double                            t_start;
+    double                                  t_start;
     const NewtonReport                     &newton;
     const std::vector<BoundaryReport<dim>> &reports;
-    /** Of the nodes. */
-    const std::vector<dealii::Tensor<1, dim>> &increments;
+    std::vector<dealii::Tensor<1, dim>>     increments; ///< of the nodes
     /** Largest increment of a step that ended by Newton::pseudo_transient(). */
     std::optional<double> pseudo_transient;
   };

@@ -220,6 +220,18 @@ namespace moraine
            const std::string  &reason,
            unsigned int       &n_rejections);
 
+    /** Let observers know of the step that @p step, all of it or its second
+     * part, ends; of a first part they do not. Collective. */
+    void
+    tell_of_step(AcceptedStep<dim> step);
+
+    /** The first of two parts of a step. */
+    struct FirstPart
+    {
+      double             t_start;
+      LastIncrement<dim> increment;
+    };
+
     const Scene<dim>                     &scene;
     const MethodParameters<dim>          &method;
     Model<dim>                           &model;
@@ -228,6 +240,7 @@ namespace moraine
     Newton                                newton;
     TimeControl                           time_control;
     std::optional<LastIncrement<dim>>     last_increment; ///< along a path
+    std::optional<FirstPart>              first_part;     ///< if accepted
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;

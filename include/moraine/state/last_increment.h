@@ -25,8 +25,12 @@ namespace moraine
     void
     keep(const std::vector<dealii::Tensor<1, dim>> &increments);
 
-    /** For the unknowns as they are now; zero where nodes are new. Collective.
-     */
+    /** For the nodes as they are now, zero where these are new; none if none
+     * were kept. Collective. */
+    std::vector<dealii::Tensor<1, dim>>
+    of_nodes() const;
+
+    /** The same for the unknowns. Collective. */
     LA::Vector
     values() const;
 
