@@ -23,26 +23,6 @@ namespace moraine
 
   namespace
   {
-    /** Bodies may come to a condition later, so that none need be there now. */
-    template <int dim>
-    void
-    note_idle_conditions(const std::vector<GridCondition<dim>> &active,
-                         const GridSpace<dim>                  &space,
-                         const double                           t,
-                         std::vector<std::string>              &notes)
-    {
-      std::vector<unsigned int> n(active.size(), 0);
-      for (const auto &entry : find_prescribed_nodes(active, space, t).entries)
-        ++n[entry.condition];
-      Utilities::MPI::sum(n, space.communicator(), n);
-      for (unsigned int c = 0; c < active.size(); ++c)
-        if (n[c] == 0)
-          notes.push_back(active[c].name +
-                          ": holds no node of a body at the start");
-    }
-
-
-
     /** The change of a displacement acts: what it is at the start would be lost
      * without a word.
      * @param largest component where the part acts
@@ -93,6 +73,28 @@ namespace moraine
 
 
   template <int dim>
+  std::vector<std::string>
+  idle_conditions(const StageParameters &stage, const Model<dim> &model)
+  {
+    const std::vector<GridCondition<dim>> active =
+      acting_conditions(model.grid_conditions, stage);
+    std::vector<unsigned int> n(active.size(), 0);
+    for (const auto &entry :
+         find_prescribed_nodes(active, *model.space, stage.time.start_time)
+           .entries)
+      ++n[entry.condition];
+    Utilities::MPI::sum(n, model.space->communicator(), n);
+    std::vector<std::string> notes;
+    for (unsigned int c = 0; c < active.size(); ++c)
+      if (n[c] == 0)
+        notes.push_back(active[c].name +
+                        ": holds no node of a body at the start");
+    return notes;
+  }
+
+
+
+  template <int dim>
   void
   check_prescribed_motion(const StageParameters    &stage,
                           const bool                first,
@@ -112,7 +114,8 @@ namespace moraine
                     time.n_steps,
                     model.state->mesh_after_step() ==
                       MeshAfterStep::follow_material);
-    note_idle_conditions(active, *model.space, time.start_time, notes);
+    for (const std::string &note : idle_conditions(stage, model))
+      notes.push_back(note);
     if (first)
       tell_of_held_off_bodies(active, model, time.start_time, notes);
     for (const auto &boundary : model.boundaries)
@@ -175,15 +178,17 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template void check_prescribed_motion(const StageParameters &,      \
-                                        const bool,                   \
-                                        Model<dim> &,                 \
-                                        std::vector<std::string> &);  \
-  template void check_displacements_at_start(const Scene<dim> &,      \
-                                             const StageParameters &, \
-                                             const StageParameters *, \
-                                             const Model<dim> &,      \
+#define INSTANTIATE(dim)                                                     \
+  template std::vector<std::string> idle_conditions(const StageParameters &, \
+                                                    const Model<dim> &);     \
+  template void check_prescribed_motion(const StageParameters &,             \
+                                        const bool,                          \
+                                        Model<dim> &,                        \
+                                        std::vector<std::string> &);         \
+  template void check_displacements_at_start(const Scene<dim> &,             \
+                                             const StageParameters &,        \
+                                             const StageParameters *,        \
+                                             const Model<dim> &,             \
                                              std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -213,11 +213,22 @@ namespace moraine
 
     template <int dim>
     void
-    check_that_it_is_held(const double t, Model<dim> &model)
+    check_that_it_is_held(const StageParameters &stage, Model<dim> &model)
     {
-      model.system->set_target(t);
+      model.system->set_target(stage.time.start_time);
       model.system->assemble(model.space->vector(), true);
-      model.system->check_that_it_is_held(true);
+      try
+        {
+          model.system->check_that_it_is_held(true);
+        }
+      catch (const InputError &error)
+        {
+          // What was to hold it may miss it.
+          std::string text = error.what();
+          for (const std::string &note : idle_conditions(stage, model))
+            text += "; " + note;
+          throw InputError(text);
+        }
     }
 
 
@@ -348,7 +359,7 @@ namespace moraine
     if (stage.time.integrator.dynamic())
       start_motion(scene, stage, model);
     else
-      check_that_it_is_held(scene.start_time(), model);
+      check_that_it_is_held(stage, model);
     return notes;
   }
 
@@ -442,7 +453,7 @@ namespace moraine
       {
         if (before.time.integrator.dynamic())
           model.motion->rest();
-        check_that_it_is_held(t, model);
+        check_that_it_is_held(stage, model);
       }
     else if (forces_jump(before, stage))
       {

@@ -75,6 +75,10 @@ refused("the same of nodes", {
     "Grid conditions/foot/Upper corner": "4, 0.5",
     "Grid conditions/foot/Displacement": "0.1*t; -0.01-t"})
 refused("free to move", {"Boundaries/left/Constraint": "roller"})
+refused("free to move, by nodes that are not there", {
+    "Boundaries/left/Constraint": "roller",
+    "Grid conditions/pin/Lower corner": "2.4, 2.4",
+    "Grid conditions/pin/Upper corner": "2.6, 2.6"})
 refused("free to move, both ways", {
     "Boundaries/left/Constraint": "components",
     "Boundaries/left/Components": "y"})

@@ -12,6 +12,12 @@
 
 namespace moraine
 {
+  /** That grid conditions of a @p stage that begins hold no node of a body.
+   * Bodies may come to them later. Collective. */
+  template <int dim>
+  std::vector<std::string>
+  idle_conditions(const StageParameters &stage, const Model<dim> &model);
+
   /**
    * A motion without a value at the end of a step is found here, before
    * anything is computed or written; so are conditions that contradict each
