@@ -24,13 +24,21 @@ namespace moraine
 
   namespace
   {
-    /** Which cells material fills to less than nine tenths, on all ranks. */
+    /** Which cells material fills to less than nine tenths, on all ranks. Those
+     * that go with their points are filled as at the start. */
     template <int dim>
     std::vector<bool>
     partly_filled_cells(const Model<dim> &model)
     {
-      const std::vector<double> filled = model.points->volumes_in_cells();
-      std::vector<bool>         partly(filled.size());
+      const bool resets =
+        model.state->mesh_after_step() == MeshAfterStep::reset;
+      std::vector<double> filled(model.mesh->triangulation().n_active_cells());
+      for (const auto &in_cell : model.points->cells())
+        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
+          filled[in_cell.cell->active_cell_index()] +=
+            resets ? model.points->volume(p) : model.state->initial_volume(p);
+      Utilities::MPI::sum(filled, model.space->communicator(), filled);
+      std::vector<bool> partly(filled.size());
       for (const auto &cell :
            model.mesh->triangulation().active_cell_iterators())
         partly[cell->active_cell_index()] =

@@ -6,8 +6,10 @@
 #include <moraine/core/words.h>
 #include <moraine/state/aggregates.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -26,6 +28,10 @@ namespace moraine
 
     /** Of shear moduli: a stiff body makes cells stiff beside a soft one. */
     constexpr double contrast = 10;
+
+    /** Of cells side by side: what fills as much of both, but for round-off, is
+     * one and a half cells thick there. */
+    constexpr double least_of_pair = 1.5 - 1e-9;
 
     /** Of the compression of a soft body: what is held back is told of. */
     constexpr double told_share_of_soft = 0.05;
@@ -91,6 +97,35 @@ namespace moraine
 
 
 
+    /** Vertices within what fills @p parts of cells: of the cells around one
+     * all but a quarter is filled, or it is thick in each direction. */
+    template <int dim>
+    std::vector<bool>
+    thick_vertices(const Model<dim> &model, const std::vector<double> &parts)
+    {
+      std::vector<bool> thick = vertices_in_bulk(*model.space, parts);
+      for (const auto &cell :
+           model.mesh->triangulation().active_cell_iterators())
+        if (const double part = parts[cell->active_cell_index()];
+            part > most_share)
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              const auto &faces = GeometryInfo<dim>::vertex_to_face[v];
+              if (std::all_of(faces.begin(),
+                              faces.end(),
+                              [&](const unsigned int f) {
+                                return cell->at_boundary(f) ||
+                                       part + parts[cell->neighbor(f)
+                                                      ->active_cell_index()] >=
+                                         least_of_pair;
+                              }))
+                thick[cell->vertex_index(v)] = true;
+            }
+      return thick;
+    }
+
+
+
     /** Whether a body, of which @p parts fill the cells, is nowhere as thick as
      * one and a half cells, or as a cell if the mesh is as thick, hardly any of
      * its vertices are @p held and nothing hangs on it: @p all_in_bulk says
@@ -103,7 +138,7 @@ namespace moraine
             const std::vector<double> &held)
     {
       const auto             &tria    = model.mesh->triangulation();
-      const std::vector<bool> in_bulk = vertices_in_bulk(*model.space, parts);
+      const std::vector<bool> in_bulk = thick_vertices(model, parts);
       std::vector<bool>       at_edge(in_bulk.size(), false),
         is_its(in_bulk.size(), false);
       for (const auto &cell : tria.active_cell_iterators())
@@ -221,7 +256,7 @@ namespace moraine
     for (const auto &of_body : parts)
       for (unsigned int c = 0; c < all.size(); ++c)
         all[c] += of_body[c];
-    const std::vector<bool> all_in_bulk = vertices_in_bulk(*model.space, all);
+    const std::vector<bool> all_in_bulk = thick_vertices(model, all);
     std::vector<double>     volumes;
     for (const auto &cell : model.mesh->triangulation().active_cell_iterators())
       volumes.push_back(volume_of_cell(cell));

@@ -127,6 +127,61 @@ for height in (2, 2.1):
     show(f"pulled side of a block {height} high",
          [("block", "firm", "0, 0", f"4, {height}")], LOAD)
 
+# A block that is pressed with its mesh, and one through whose mesh it goes, before a
+# load comes.
+for method in "finite element", "GIMP":
+    scene.write_text(f"""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 2, 2
+  set Cell size    = 0.5
+end
+subsection Method
+  set Method = {method}
+  set Strain = finite
+end
+subsection Materials
+  subsection soft
+    set Young modulus = 1e3
+    set Poisson ratio = 0
+  end
+end
+subsection Bodies
+  subsection block
+    set Lower corner = 0, 0
+    set Upper corner = 2, 2
+  end
+end
+subsection Boundaries
+  subsection base
+    set Body = block
+    set Part = bottom
+  end
+  subsection top
+    set Body        = block
+    set Part        = top
+    set Translation = 0; -0.4*min(t, 1)
+  end
+end
+{LOAD.replace("right", "left")}
+subsection Stages
+  subsection press
+    set Loads = none
+    subsection Time
+      set Steps = 2
+    end
+  end
+  subsection pull
+    set Loads = pull
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+""")
+    text(f"pulled side of a pressed block, {method}: told",
+         "material fills in part" in run(scene).output)
+
 FLOOR = """
 subsection Boundaries
   subsection floor
@@ -216,6 +271,39 @@ for title, size, held in (
                 "  subsection base\n    set Side = bottom\n  end\n", "".join(
                     SIDE.format(side=side, components=components)
                     for side, components in held)))
+    text(title + ": told", "nowhere as thick" in run(scene, command="check").output)
+
+# Two cells thick across, wherever the mesh cuts; one cell thick across one way.
+for title, begin, top in (("bar two cells thick, on mesh lines", 0, 1),
+                          ("bar two cells thick, by halves", -0.25, 1),
+                          ("bar two cells thick, by 0.6 and 0.4", -0.3, 1),
+                          ("plate one cell thick, by halves", -0.25, 0.5)):
+    scene.write_text(f"""
+set Dimension = 3
+subsection Mesh
+  set Lower corner = {begin}, {begin}, {begin}
+  set Upper corner = {begin + 3}, {begin + 3}, {begin + 3}
+  set Cell size    = 0.5
+end
+subsection Materials
+  subsection firm
+    set Young modulus = 1e5
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection bar
+    set Lower corner = 0, 0, 0
+    set Upper corner = 2, 1, {top}
+  end
+end
+subsection Boundaries
+  subsection end
+    set Body = bar
+    set Part = left
+  end
+end
+""")
     text(title + ": told", "nowhere as thick" in run(scene, command="check").output)
 
 # One that hangs on thick ground does not bend by itself.
