@@ -22,7 +22,8 @@ namespace moraine
       Control()
       {
         umfpack_di_defaults(values);
-        values[UMFPACK_IRSTEP] = 0;
+        values[UMFPACK_IRSTEP]   = 0;
+        values[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
       }
     };
   } // namespace

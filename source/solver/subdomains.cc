@@ -19,7 +19,7 @@ namespace moraine
   {
     /** Unknowns of a subdomain before it overlaps others. Larger ones take
      * longer to factorise, smaller ones are nearly all overlap. */
-    constexpr unsigned int size_2d = 400, size_3d = 1500;
+    constexpr unsigned int size_2d = 1000, size_3d = 3000;
 
 
 

@@ -149,8 +149,9 @@ TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn2d)
 
 TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn3d)
 {
-  EXPECT_LE(schwarz_iterations<3>(10, 0.4999),
-            2 * schwarz_iterations<3>(10, 0.3));
+  const unsigned int n = 14, few = schwarz_iterations<3>(n, 0.3);
+  EXPECT_GT(few, 10u) << "several subdomains";
+  EXPECT_LE(schwarz_iterations<3>(n, 0.4999), 2 * few);
 }
 
 TEST(LinearSolver, SchwarzWithoutRigidBodyModes)
