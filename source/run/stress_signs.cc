@@ -256,6 +256,21 @@ namespace moraine
         mu = std::min(mu, material->elastic_stiffness().mu);
       return !(signs.deviatoric > no_stress * mu) || has_no_energy(model);
     }
+
+
+
+    /** Stress is a mean over cells, and volumetric strain cannot be one. */
+    template <int dim>
+    bool
+    may_lock_unseen(const Scene<dim> &scene)
+    {
+      return scene.method.chosen().has_own_internal_force &&
+             std::any_of(scene.materials.begin(),
+                         scene.materials.end(),
+                         [](const auto &named) {
+                           return named.second.hardly_changes_volume();
+                         });
+    }
   } // namespace
 
 
@@ -329,6 +344,13 @@ namespace moraine
         text << "; smaller cells help, but where bands form";
         doubts.push_back(text.str());
       }
+    if (doubts.empty() && may_lock_unseen(scene))
+      doubts.push_back(
+        "method '" + method.method +
+        "' keeps the volume of every point and smooths stress, which does not "
+        "show where that makes a body much too stiff, as with a Poisson ratio "
+        "near 0.5 or in plastic flow: compare with 'Method = GIMP', whose "
+        "cells have means of the volumetric strain");
     return doubts;
   }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace moraine
@@ -208,6 +209,41 @@ namespace moraine
 
 
 
+    /** The number of cells in which the stiff body has next to nothing beside
+     * the soft one. */
+    unsigned int
+    n_slivers(const std::vector<double> &stiff, const std::vector<double> &soft)
+    {
+      unsigned int n = 0;
+      for (unsigned int c = 0; c < stiff.size(); ++c)
+        n += stiff[c] > 0 && stiff[c] <= least_share && soft[c] > least_share;
+      return n;
+    }
+
+
+
+    /** That a stiff body has a sliver in @p n cells of a soft one. */
+    void
+    tell_of_slivers(const std::string        &stiff,
+                    const std::string        &soft,
+                    const unsigned int        n,
+                    const double              ratio,
+                    std::vector<std::string> &notes)
+    {
+      if (n == 0)
+        return;
+      std::ostringstream text;
+      text
+        << std::setprecision(3) << stiff << ": fills " << n
+        << " cells by less than a hundredth, which are else of '" << soft
+        << "', softer: with the strain of that, its stress is up to " << ratio
+        << " times too large there, at these points only; let it end on mesh "
+           "lines";
+      notes.push_back(text.str());
+    }
+
+
+
     /** That a stiff body fills @p n cells by less than half beside a soft one,
      * and that cells of both hold back @p share of the compression of that. */
     void
@@ -283,6 +319,12 @@ namespace moraine
               modulus(b) > modulus(a))
             {
               const double ratio = modulus(b) / modulus(a);
+              if (ratio > contrast)
+                tell_of_slivers(name,
+                                model.body_names[a],
+                                n_slivers(parts[b], parts[a]),
+                                ratio,
+                                notes);
               tell_of_shared_cells(
                 name,
                 model.body_names[a],

@@ -111,7 +111,7 @@ def layers(top_of_seam):
             ("above", "firm", f"0, {top_of_seam}", "3, 3.5")]
 
 
-for top in (2, 1.9, 2.35):
+for top in (2, 1.9, 1.9995, 2.35):
     show(f"seam up to {top}", layers(top))
 
 LOAD = """
