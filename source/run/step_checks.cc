@@ -228,12 +228,13 @@ namespace moraine
   StepChecks<dim>::of_step(const TimeControl                      &time,
                            const IntegratorParameters             &integrator,
                            const std::vector<BoundaryReport<dim>> &reports,
-                           const double largest_motion)
+                           const double largest_motion,
+                           const double of_points)
   {
     const double             t = time.time();
     std::vector<std::string> found;
     for (const BoundaryReport<dim> &report : reports)
-      found.push_back(missed_boundary(t, report, largest_motion));
+      found.push_back(missed_boundary(t, report, of_points));
     for (const std::string &text : ends.look(reports, t))
       found.push_back(text);
     found.push_back(points_apart(t));

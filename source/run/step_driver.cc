@@ -321,6 +321,23 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Of all ranks. */
+    template <int dim>
+    double
+    largest_norm(const std::vector<Tensor<1, dim>> &vectors,
+                 const MPI_Comm                    &communicator)
+    {
+      double largest = 0;
+      for (const auto &v : vectors)
+        largest = std::max(largest, v.norm());
+      return Utilities::MPI::max(largest, communicator);
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   StepDriver<dim>::accept(const NewtonReport &report,
@@ -336,10 +353,12 @@ namespace moraine
     const std::string leaves = point_that_leaves(model, time_control, x);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
-    double largest = 0;
-    for (const auto &u : increments)
-      largest = std::max(largest, u.norm());
-    largest            = Utilities::MPI::max(largest, communicator);
+    const double largest = largest_norm(increments, communicator);
+    // Nodes with next to no material can be flung further than any of it.
+    const double of_points =
+      model.boundaries.empty() ?
+        largest :
+        largest_norm(model.state->point_increments(), communicator);
     const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
     buckling.try_step(x,
                       !leaves.empty() || time_control.trial_ends_run(),
@@ -380,7 +399,8 @@ namespace moraine
          checks.of_step(time_control,
                         scene.stages[stage].second.time.integrator,
                         last_reports,
-                        largest))
+                        largest,
+                        of_points))
       warn(warning);
     if (!held.empty())
       warn(held);

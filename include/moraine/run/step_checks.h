@@ -47,17 +47,18 @@ namespace moraine
 
     /**
      * What is to be told of the step that @p time has accepted, with the
-     * boundaries' @p reports: that the material misses one of them, with @p
-     * largest_motion of a node in the step; what EndWatch finds; that points of
-     * a body drift apart;
-     * that a body moves far or is turned at small strain; that material that
-     * yields slides; that energy grows without work.
+     * boundaries' @p reports: that the material misses one of them, with
+     * @p largest_motion of a node in the step and that @p of_points; what
+     * EndWatch finds; that points of a body drift apart; that a body moves far
+     * or is turned at small strain; that material that yields slides; that
+     * energy grows without work.
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
             const IntegratorParameters             &integrator,
             const std::vector<BoundaryReport<dim>> &reports,
-            const double                            largest_motion);
+            const double                            largest_motion,
+            const double                            of_points);
 
     /** Why the run cannot be believed any more; see EnergyWatch::failure(). */
     std::string
