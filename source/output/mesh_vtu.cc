@@ -106,7 +106,7 @@ namespace moraine
         patch.vertices[v] =
           space.node_position(nodes[corner_node<dim>(v, space.degree())]);
 
-      // After these come the coordinates of the nodes.
+      // After these come the places of the nodes, from the first vertex.
       patch.data.reinit(n_rows + dim, n_nodes);
       add_stress(space, cell, stress, dim * fields.size(), patch.data);
       for (unsigned int a = 0; a < n_nodes; ++a)
@@ -116,7 +116,8 @@ namespace moraine
             for (unsigned int c = 0; c < dim; ++c)
               patch.data(row++, a) = field.values[nodes[a]][c];
           for (unsigned int c = 0; c < dim; ++c)
-            patch.data(n_rows + c, a) = space.node_position(nodes[a])[c];
+            patch.data(n_rows + c, a) =
+              (space.node_position(nodes[a]) - patch.vertices[0])[c];
         }
       return patch;
     }

@@ -129,6 +129,32 @@ namespace moraine
 
 
 
+    /** Of what a patch draws; if it has places of its own, they are from its
+     * first vertex. */
+    template <typename Patch>
+    void
+    append_positions(const Patch &patch, std::vector<double> &positions)
+    {
+      constexpr unsigned int dim    = Patch::space_dim;
+      const auto             append = [&positions](const Point<dim> &x) {
+        for (unsigned int d = 0; d < 3; ++d)
+          positions.push_back(d < dim ? x[d] : 0.);
+      };
+      if (!patch.points_are_available)
+        for (const auto &x : patch.vertices)
+          append(x);
+      else
+        for (unsigned int a = 0; a < patch.data.n_cols(); ++a)
+          {
+            Point<dim> x = patch.vertices[0];
+            for (unsigned int d = 0; d < dim; ++d)
+              x[d] += patch.data(patch.data.n_rows() - dim + d, a);
+            append(x);
+          }
+    }
+
+
+
     /** Give the positions of a piece all their digits: what deal.II writes
      * tells places of a cell far from the origin no more apart. */
     template <typename Patch>
@@ -137,9 +163,7 @@ namespace moraine
     {
       std::vector<double> positions;
       for (const Patch &patch : patches)
-        for (const auto &x : patch.vertices)
-          for (unsigned int d = 0; d < 3; ++d)
-            positions.push_back(d < x.dimension ? x[d] : 0.);
+        append_positions(patch, positions);
       const std::string open = "<Points>\n", close = "  </Points>";
       const auto        begin = text.find(open) + open.size();
       text.replace(begin,

@@ -233,3 +233,11 @@ places = run(held, {"Constants/x": FAR[0][0], "Constants/y": FAR[0][1]}
              ).points("position")
 text("points that stand on places of their own",
      f"{len(set(places))} of {len(places)}")
+for degree in (1, 2):
+    near, far = (
+        {tuple(round(a - b, 5) for a, b in zip(place, (x, y, 0)))
+         for place, in run(held, {"Constants/x": x, "Constants/y": y,
+                                  "Method/Degree": degree}).nodes("position")}
+        for x, y in ((0, 0), FAR[0]))
+    text(f"degree {degree}: {len(far)} nodes, places as at the origin",
+         near == far)
