@@ -271,6 +271,84 @@ namespace moraine
                            return named.second.hardly_changes_volume();
                          });
     }
+
+
+
+    /** That mean stress is a saw tooth, or "". */
+    template <int dim>
+    std::string
+    doubt_of_saw(const MethodParameters<dim> &method, const StressSigns &signs)
+    {
+      if (!(signs.jump > told_jump * signs.deviatoric) ||
+          !(signs.jump > told_saw * signs.step))
+        return "";
+      std::ostringstream text;
+      text << std::setprecision(3) << "mean stress jumps from cell to cell by "
+           << signs.jump << " (root of the mean square), "
+           << signs.jump / signs.deviatoric
+           << " times the deviatoric stress: do not trust it, nor forces and "
+              "displacements if material flows or hardly changes its volume";
+      if (method.volumetric() == VolumetricStrain::pointwise &&
+          method.can_average_volume())
+        text << "; there 'Volumetric strain = cell mean' in section 'Method' "
+                "helps";
+      if (method.method == "material point")
+        text << "; where points cross cells 'Method = GIMP' does";
+      return text.str();
+    }
+
+
+
+    /** That stress is largest where little of a cell is filled, or "". Where
+     * all cells are filled that little there is nothing to compare with. */
+    template <int dim>
+    std::string
+    doubt_of_cuts(const MethodParameters<dim> &method, const StressSigns &signs)
+    {
+      if (!(signs.elsewhere > 0) ||
+          !(signs.in_cuts > told_cut * signs.elsewhere))
+        return "";
+      std::ostringstream text;
+      text
+        << std::setprecision(3)
+        << "stress of points in cells that are filled by less than a half is "
+           "up to "
+        << signs.in_cuts / signs.elsewhere
+        << " times that of all others: it depends on where the mesh cuts";
+      if (method.aggregate_below < 0.5)
+        text << "; 'Aggregate below = "
+             << (method.aggregate_below < 0.1 ? 0.1 : 0.5)
+             << "' in section 'Method' helps";
+      return text.str();
+    }
+
+
+
+    /** That the estimated @p error of stress is large, or "". */
+    template <int dim>
+    std::string
+    doubt_of_error(const MethodParameters<dim> &method,
+                   const Model<dim>            &model,
+                   const std::optional<double> &error)
+    {
+      if (!error || !(*error > told_error))
+        return "";
+      const bool pointwise = method.volumetric() == VolumetricStrain::pointwise;
+      std::ostringstream text;
+      text << "cells do not resolve the stress: its error is estimated at "
+           << per_cent(*error) << " in the energy norm";
+      // Means over cells make bending too soft, not too stiff.
+      if (*error < 1 && pointwise)
+        text << ", of an elastic body by forces " << per_cent(*error * *error)
+             << " of the deflection";
+      text << "; smaller cells help, but where bands form";
+      if (!pointwise && model.basis->has_domains() &&
+          model.state->strain_measure() == StrainMeasure::finite)
+        text << " and where a body is stretched to twice its length and more "
+                "with means over cells: compare with 'Volumetric strain = "
+                "pointwise' in section 'Method' there";
+      return text.str();
+    }
   } // namespace
 
 
@@ -301,52 +379,17 @@ namespace moraine
     const StressSigns signs = stress_signs(*model.space, *model.points);
     if (is_at_rest(model, signs))
       return {};
-    const MethodParameters<dim> &method = scene.method;
-    std::vector<std::string>     doubts;
-    std::ostringstream           text;
-    text << std::setprecision(3);
-    if (signs.jump > told_jump * signs.deviatoric &&
-        signs.jump > told_saw * signs.step)
-      {
-        text << "mean stress jumps from cell to cell by " << signs.jump
-             << " (root of the mean square), " << signs.jump / signs.deviatoric
-             << " times the deviatoric stress: do not trust it, nor forces and "
-                "displacements if material flows or hardly changes its volume";
-        if (method.volumetric() == VolumetricStrain::pointwise &&
-            method.can_average_volume())
-          text << "; there 'Volumetric strain = cell mean' in section 'Method' "
-                  "helps";
-        if (method.method == "material point")
-          text << "; where points cross cells 'Method = GIMP' does";
-        doubts.push_back(text.str());
-      }
-    // Where all cells are filled that little there is nothing to compare with.
-    else if (signs.elsewhere > 0 && signs.in_cuts > told_cut * signs.elsewhere)
-      {
-        text << "stress of points in cells that are filled by less than a half "
-                "is up to "
-             << signs.in_cuts / signs.elsewhere
-             << " times that of all others: it depends on where the mesh cuts";
-        if (method.aggregate_below < 0.5)
-          text << "; 'Aggregate below = "
-               << (method.aggregate_below < 0.1 ? 0.1 : 0.5)
-               << "' in section 'Method' helps";
-        doubts.push_back(text.str());
-      }
-    else if (error && *error > told_error)
-      {
-        text << "cells do not resolve the stress: its error is estimated at "
-             << per_cent(*error) << " in the energy norm";
-        // Means over cells make bending too soft, not too stiff.
-        if (*error < 1 && method.volumetric() == VolumetricStrain::pointwise)
-          text << ", of an elastic body by forces " << per_cent(*error * *error)
-               << " of the deflection";
-        text << "; smaller cells help, but where bands form";
-        doubts.push_back(text.str());
-      }
+    if (const std::string saw = doubt_of_saw(scene.method, signs); !saw.empty())
+      return {saw};
+    std::vector<std::string> doubts;
+    for (const std::string &doubt :
+         {doubt_of_cuts(scene.method, signs),
+          doubt_of_error(scene.method, model, error)})
+      if (!doubt.empty())
+        doubts.push_back(doubt);
     if (doubts.empty() && may_lock_unseen(scene))
       doubts.push_back(
-        "method '" + method.method +
+        "method '" + scene.method.method +
         "' keeps the volume of every point and smooths stress, which does not "
         "show where that makes a body much too stiff, as with a Poisson ratio "
         "near 0.5 or in plastic flow: compare with 'Method = GIMP', whose "
