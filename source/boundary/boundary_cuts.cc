@@ -79,17 +79,6 @@ namespace moraine
 
 
 
-    /** The edge of a cube of the same volume. */
-    template <typename CellIterator>
-    double
-    size_of(const CellIterator &cell)
-    {
-      constexpr int dim = CellIterator::AccessorType::dimension;
-      return std::pow(volume_of_cell(cell), 1. / dim);
-    }
-
-
-
     /** The vertices of an active cell where its nodes are now. */
     template <int dim>
     CellVertices<dim>
@@ -340,7 +329,7 @@ namespace moraine
   {
     if (!at_start.may_touch(vertices))
       return;
-    const double h      = size_of(owner);
+    const double h      = edge_of_cell(owner);
     const auto   is_own = [&](const SurfacePoint<dim> &piece) {
       return owner_of(cell, piece.x) == owner;
     };

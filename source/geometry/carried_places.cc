@@ -374,7 +374,7 @@ namespace moraine
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
         const CellVertices<dim> vertices = vertices_of<dim>(cell);
-        h = std::pow(volume_of_cell(cell), 1. / dim);
+        h = edge_of_cell(cell);
         if (surface.may_touch(vertices))
           add_kept_pieces<dim>(surface, vertices, n_points, is_beside, pieces);
         for (const unsigned int f : cell->face_indices())
@@ -487,7 +487,7 @@ namespace moraine
         if (cell->face(f)->at_boundary() &&
             cell->face(f)->boundary_id() == side)
           {
-            const double h = std::pow(volume_of_cell(cell), 1. / dim);
+            const double h = edge_of_cell(cell);
             whole.reinit(cell, f);
             const std::size_t n = add_places(whole, h);
             if (n == 0 || n == whole.n_quadrature_points)

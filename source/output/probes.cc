@@ -31,7 +31,8 @@ namespace moraine
     prm.add_parameter(
       "Kind",
       kind,
-      "'nearest point' follows the material point nearest to the location; "
+      "'nearest point' follows the material point nearest to the location, and "
+      "where that is halved ('Split domains') one half, a part of a cell away; "
       "'interpolated' follows the place itself, which the displacement of the "
       "mesh carries along (out of the cells with material: the point nearest to "
       "it there; the run says so).",
@@ -75,6 +76,10 @@ namespace moraine
       throw InputError(place(section, "Quantities") +
                        ": found nothing; allowed are displacement, position, "
                        "stress, velocity and acceleration");
+    for (const std::string &quantity : quantities)
+      if (std::count(quantities.begin(), quantities.end(), quantity) > 1)
+        throw InputError(place(section, "Quantities") + ": found '" + quantity +
+                         "' twice, allowed: each once");
     if (kind == "interpolated" && wants("stress"))
       throw InputError(place(section, "Quantities") +
                        ": found 'stress', but stress is known at points only; "

@@ -57,6 +57,9 @@ refused("traction on a surface outside the mesh", {
 refused("traction on a surface away from the body", {
     "Loads/weight/Type": "surface traction", "Loads/weight/Points": "7 1; 7 4"})
 refused("probe away from the body", {"Probes/tip/Location": "7.5, 7.5"})
+refused("probe with a quantity twice",
+        {"Probes/tip/Location": "2, 1",
+         "Probes/tip/Quantities": "displacement, stress, displacement"})
 refused("interpolated probe beside the body", {
     "Probes/tip/Location": "6, 1", "Probes/tip/Kind": "interpolated",
     "Probes/tip/Quantities": "displacement"})

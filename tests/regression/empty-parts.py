@@ -47,7 +47,7 @@ turning = run(scene, {**free, "Boundaries/slope/Rotation angle": "25+5*t",
 text("a slope that tilts", turning.summary["status"])
 text("note before step", next(
     line.split()[1] for line in turning.output[
-        turning.output.index("note:"):].splitlines() if " t = " in line))
+        turning.output.index("singular to"):].splitlines() if line.split()[:1] == ["step"]))
 
 # One row of cells with one point each does not resist bending.
 ROW = {"Method/Points per direction": 1,

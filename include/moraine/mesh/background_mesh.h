@@ -18,6 +18,7 @@
 #include <deal.II/grid/grid_tools_cache.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -225,6 +226,17 @@ namespace moraine
         numbers.push_back(v);
       }
     return dealii::GridTools::cell_measure<dim>(corners, numbers);
+  }
+
+  /** The edge of a square or cube of its volume. pow() would round lengths
+   * in other units differently. */
+  template <class CellIterator>
+  double
+  edge_of_cell(const CellIterator &cell)
+  {
+    const double volume = volume_of_cell(cell);
+    return CellIterator::AccessorType::dimension == 2 ? std::sqrt(volume) :
+                                                        std::cbrt(volume);
   }
 } // namespace moraine
 
