@@ -360,7 +360,9 @@ namespace moraine
       }
     for (const SurfacePoint<dim> &piece : pieces)
       {
-        if (!is_own(piece))
+        // Where a cell has folded it has no material, and areas can be
+        // negative.
+        if (!is_own(piece) || piece.JxW <= 0)
           continue;
         BoundaryPoint<dim> point;
         point.x      = piece.x;
