@@ -42,10 +42,9 @@ namespace moraine
     void
     make_invalid(LA::Vector &residual)
     {
-      double *values = residual.trilinos_vector()[0];
-      std::fill_n(values,
-                  residual.locally_owned_size(),
-                  std::numeric_limits<double>::quiet_NaN());
+      std::fill(residual.begin(),
+                residual.end(),
+                std::numeric_limits<double>::quiet_NaN());
     }
 
 

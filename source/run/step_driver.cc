@@ -46,6 +46,20 @@ namespace moraine
         times.push_back(stage.time);
       return times;
     }
+
+
+
+    /** Of all ranks. */
+    template <int dim>
+    double
+    largest_norm(const std::vector<Tensor<1, dim>> &vectors,
+                 const MPI_Comm                    &communicator)
+    {
+      double largest = 0;
+      for (const auto &v : vectors)
+        largest = std::max(largest, v.norm());
+      return Utilities::MPI::max(largest, communicator);
+    }
   } // namespace
 
 
@@ -318,23 +332,6 @@ namespace moraine
     sums.linear_iterations += report.linear_iterations;
     sums.linear_solver = report.linear_solver;
   }
-
-
-
-  namespace
-  {
-    /** Of all ranks. */
-    template <int dim>
-    double
-    largest_norm(const std::vector<Tensor<1, dim>> &vectors,
-                 const MPI_Comm                    &communicator)
-    {
-      double largest = 0;
-      for (const auto &v : vectors)
-        largest = std::max(largest, v.norm());
-      return Utilities::MPI::max(largest, communicator);
-    }
-  } // namespace
 
 
 
