@@ -542,7 +542,7 @@ namespace moraine
                                  force,
                                  states[q].normal,
                                  states[q].M,
-                                 point.JxW});
+                                 point.body_area});
       }
     const auto of_slopes = prepare_slopes(context, states);
     sum_over_ranks(prepared, communicator);

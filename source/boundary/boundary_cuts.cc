@@ -38,6 +38,11 @@ namespace moraine
 
 
 
+    /** What counts of a place that no body is at. */
+    constexpr double area_without_body = 1e-6;
+
+
+
     /** How far normals of one plane are apart at most. */
     constexpr double same_normal = 1e-6;
 
@@ -199,6 +204,7 @@ namespace moraine
             continue;
           }
         same->JxW += point.JxW;
+        same->body_area += point.body_area;
         const double share = point.JxW / same->JxW;
         same->x += share * (point.x - same->x);
         same->normal += share * (point.normal - same->normal);
@@ -321,6 +327,62 @@ namespace moraine
 
 
   template <int dim>
+  bool
+  ImplicitBoundary<dim>::holds_beyond_bodies(const CellVertices<dim> &vertices,
+                                             const Tensor<1, dim> &normal) const
+  {
+    return how.w_free == 0. && motion.moves() &&
+           (!kind.holds_means || is_along_faces(vertices, normal));
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  ImplicitBoundary<dim>::areas_at_bodies(
+    const CellVertices<dim>                              &vertices,
+    const unsigned int                                    n_gauss,
+    const std::vector<SurfacePoint<dim>>                 &pieces,
+    const std::function<bool(const SurfacePoint<dim> &)> &is_own,
+    const std::function<bool(const SurfacePoint<dim> &)> &is_at_body,
+    const std::function<bool(const SurfacePoint<dim> &)> &is_near_body) const
+  {
+    std::vector<double> areas;
+    for (const auto &piece : pieces)
+      areas.push_back(piece.JxW);
+    if (std::none_of(pieces.begin(), pieces.end(), [&](const auto &piece) {
+          return holds_beyond_bodies(vertices, piece.normal);
+        }))
+      return areas;
+    std::vector<SurfacePoint<dim>> cut;
+    add_kept_pieces<dim>(
+      at_start,
+      vertices,
+      n_gauss,
+      [&](const auto &piece) { return !is_own(piece) || is_at_body(piece); },
+      cut);
+    double at_bodies = 0, of_places = 0;
+    for (const auto &piece : cut)
+      if (is_own(piece))
+        at_bodies += piece.JxW;
+    std::vector<bool> has_body;
+    for (const auto &piece : pieces)
+      {
+        has_body.push_back(is_own(piece) && is_at_body(piece));
+        if (has_body.back())
+          of_places += piece.JxW;
+      }
+    const bool is_gap =
+      of_places == 0 && std::any_of(pieces.begin(), pieces.end(), is_near_body);
+    for (unsigned int k = 0; k < areas.size(); ++k)
+      if (!is_gap)
+        areas[k] *= has_body[k] ? at_bodies / of_places : area_without_body;
+    return areas;
+  }
+
+
+
+  template <int dim>
   void
   ImplicitBoundary<dim>::add_pieces(const CellIterator      &cell,
                                     const CellVertices<dim> &vertices,
@@ -333,14 +395,15 @@ namespace moraine
     const auto   is_own = [&](const SurfacePoint<dim> &piece) {
       return owner_of(cell, piece.x) == owner;
     };
+    const auto is_at_body = [&](const SurfacePoint<dim> &piece) {
+      return body.at(owner->active_cell_index(), piece.x, piece.normal, h);
+    };
+    const auto is_near_body = [&](const SurfacePoint<dim> &piece) {
+      return body.near(owner->active_cell_index(), piece.x, piece.normal, h);
+    };
     const auto is_held = [&](const SurfacePoint<dim> &piece) {
-      // A place of its own that no body is at takes no force; where it is
-      // pushed through material, fewer of them would lose hold of it.
-      if (how.w_free == 0. && motion.moves() &&
-          (!kind.holds_means || is_along_faces(vertices, piece.normal)))
-        return true;
-      return !is_own(piece) ||
-             body.at(owner->active_cell_index(), piece.x, piece.normal, h);
+      return holds_beyond_bodies(vertices, piece.normal) || !is_own(piece) ||
+             is_at_body(piece);
     };
     // The mesh as it was built decides, so that the points stay the same ones.
     const unsigned int n = n_gauss_points_in<dim>(vertices_of<dim>(cell));
@@ -351,26 +414,27 @@ namespace moraine
         pieces.clear();
         at_start.pieces(vertices, n, pieces);
         if (std::none_of(pieces.begin(), pieces.end(), [&](const auto &piece) {
-              return is_own(piece) && body.near(owner->active_cell_index(),
-                                                piece.x,
-                                                piece.normal,
-                                                h);
+              return is_own(piece) && is_near_body(piece);
             }))
           return;
       }
-    for (const SurfacePoint<dim> &piece : pieces)
+    const std::vector<double> of_bodies =
+      areas_at_bodies(vertices, n, pieces, is_own, is_at_body, is_near_body);
+    for (unsigned int k = 0; k < pieces.size(); ++k)
       {
+        const SurfacePoint<dim> &piece = pieces[k];
         // Where a cell has folded it has no material, and areas can be
         // negative.
         if (!is_own(piece) || piece.JxW <= 0)
           continue;
         BoundaryPoint<dim> point;
-        point.x      = piece.x;
-        point.normal = piece.normal;
-        point.JxW    = piece.JxW;
-        point.cell   = owner->active_cell_index();
-        point.h      = h;
-        point.depth  = h;
+        point.x         = piece.x;
+        point.normal    = piece.normal;
+        point.JxW       = piece.JxW;
+        point.body_area = of_bodies[k];
+        point.cell      = owner->active_cell_index();
+        point.h         = h;
+        point.depth     = h;
         boundary_points.push_back(point);
       }
   }

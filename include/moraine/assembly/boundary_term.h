@@ -27,7 +27,7 @@ namespace moraine
       dealii::Tensor<1, dim>          force;
       dealii::Tensor<1, dim>          normal;
       dealii::SymmetricTensor<2, dim> M;
-      double                          area;
+      double                          area; ///< that a body is at
     };
 
     /** @p shapes of the bodies, null where the points are given: the boundary

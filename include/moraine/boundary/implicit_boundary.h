@@ -54,6 +54,7 @@ namespace moraine
      * for means. */
     double                 level = 0;
     double                 JxW;        ///< length or area
+    double                 body_area;  ///< the part of it that a body is at
     unsigned int           cell;       ///< active_cell_index()
     unsigned int           number;     ///< among the points of the cell
     double                 h;          ///< size of that cell
@@ -541,6 +542,26 @@ namespace moraine
                const CellVertices<dim> &vertices,
                const CellIterator      &owner,
                const Owner             &owner_of);
+
+    /** Whether a piece in a cell with these @p vertices holds also where no
+     * body is: one that is pushed through material would else lose hold of it.
+     */
+    bool
+    holds_beyond_bodies(const CellVertices<dim>      &vertices,
+                        const dealii::Tensor<1, dim> &normal) const;
+
+    /** The parts of the areas of @p pieces, all in a cell with these @p
+     * vertices, that a body is at, by what @p is_at_body says of places; or
+     * behind as @p is_near_body says, if none is at any of them. Never quite
+     * zero, so that what such places alone hold has a place. */
+    std::vector<double>
+    areas_at_bodies(
+      const CellVertices<dim>                              &vertices,
+      const unsigned int                                    n_gauss,
+      const std::vector<SurfacePoint<dim>>                 &pieces,
+      const std::function<bool(const SurfacePoint<dim> &)> &is_own,
+      const std::function<bool(const SurfacePoint<dim> &)> &is_at_body,
+      const std::function<bool(const SurfacePoint<dim> &)> &is_near_body) const;
 
     /** Let the points of a cell be one, with the means of their functions; on
      * each side of a corner one. Those of a piece parallel to faces of the cell
