@@ -5,6 +5,8 @@
 #include <moraine/mesh/cell_shapes.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace moraine
@@ -60,13 +62,16 @@ namespace moraine
 
 
 
-    /** Whether @p x is at @p xi of the cell with nodes @p X. */
+    /** Whether @p x is at @p xi of the cell with nodes @p X, but for
+     * @p round_off times the size of the cell. */
     template <int dim, int degree>
     bool
-    is_at(const Point<dim> &x, const Point<dim> &xi, const Point<dim> *X)
+    is_at(const Point<dim> &x,
+          const Point<dim> &xi,
+          const Point<dim> *X,
+          const double      round_off = 1e-6)
     {
-      constexpr double       round_off = 1e-6; ///< of the cell
-      constexpr unsigned int n         = CellShapes<dim, degree>::n_nodes;
+      constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
       double                 N[n];
       CellShapes<dim, degree>::values(xi, N);
       Tensor<1, dim> gap = x;
@@ -102,6 +107,20 @@ namespace moraine
 
 
 
+    /** Where the nodes of an active cell are now. */
+    template <int dim, int degree>
+    std::array<Point<dim>, CellShapes<dim, degree>::n_nodes>
+    present_nodes(const GridSpace<dim> &space, const unsigned int cell)
+    {
+      const unsigned int *nodes = space.cell_nodes(cell);
+      std::array<Point<dim>, CellShapes<dim, degree>::n_nodes> X;
+      for (unsigned int a = 0; a < X.size(); ++a)
+        X[a] = space.node_position(nodes[a]);
+      return X;
+    }
+
+
+
     template <int dim, int degree>
     void
     evaluate_at(const GridSpace<dim> &space,
@@ -110,15 +129,67 @@ namespace moraine
                 double               *N,
                 Tensor<1, dim>       *grad_N)
     {
-      constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
-      const unsigned int    *nodes = space.cell_nodes(cell);
-      Point<dim>             X[n];
-      for (unsigned int a = 0; a < n; ++a)
-        X[a] = space.node_position(nodes[a]);
-      CellShapes<dim, degree>::evaluate(place_in_cell<dim, degree>(x, X),
-                                        X,
+      const auto X = present_nodes<dim, degree>(space, cell);
+      CellShapes<dim, degree>::evaluate(place_in_cell<dim, degree>(x, X.data()),
+                                        X.data(),
                                         N,
                                         grad_N);
+    }
+
+
+
+    /**
+     * Whether the map of a cell with nodes @p X takes @p xi to @p x, clear of
+     * folds: the volume is not much less than in the middle of the cell, where
+     * the Jacobian is @p J, and @p xi is not much further from there than
+     * @p distance, by which J alone takes it there.
+     */
+    template <int dim, int degree>
+    bool
+    is_clear_of_folds(const Point<dim>     &x,
+                      const Point<dim>     &xi,
+                      const Point<dim>     *X,
+                      const Tensor<2, dim> &J,
+                      const double          distance)
+    {
+      constexpr double least_volume = 0.25;
+      constexpr double much_further = 1.5;
+      using Shapes                  = CellShapes<dim, degree>;
+
+      // Far from the origin places have few digits.
+      const double round_off =
+        1e-9 + 1e-11 * x.norm() / X[0].distance(X[Shapes::n_nodes - 1]);
+      return is_at<dim, degree>(x, xi, X, round_off) &&
+             determinant(Shapes::jacobian(xi, X)) >=
+               least_volume * std::abs(determinant(J)) &&
+             xi.distance(Shapes::middle()) <= much_further * distance;
+    }
+
+
+
+    template <int dim, int degree>
+    void
+    continue_to(const GridSpace<dim> &space,
+                const unsigned int    cell,
+                const Point<dim>     &x,
+                double               *N)
+    {
+      using Shapes            = CellShapes<dim, degree>;
+      const auto       X      = present_nodes<dim, degree>(space, cell);
+      const Point<dim> middle = Shapes::middle();
+      Tensor<1, dim>   grad_N[Shapes::n_nodes];
+      Shapes::evaluate(middle, X.data(), N, grad_N);
+      Tensor<1, dim> from_middle = x;
+      for (unsigned int a = 0; a < X.size(); ++a)
+        from_middle -= N[a] * X[a];
+      const Tensor<2, dim> J  = Shapes::jacobian(middle, X.data());
+      const Point<dim>     xi = Shapes::inverse(x, X.data());
+      if (is_clear_of_folds<dim, degree>(
+            x, xi, X.data(), J, (invert(J) * from_middle).norm()))
+        Shapes::values(xi, N);
+      else
+        for (unsigned int a = 0; a < X.size(); ++a)
+          N[a] += grad_N[a] * from_middle;
     }
 
 
@@ -224,6 +295,21 @@ namespace moraine
 
 
   template <int dim>
+  void
+  continue_shapes(const GridSpace<dim> &space,
+                  const unsigned int    active_cell_index,
+                  const Point<dim>     &x,
+                  double               *N)
+  {
+    if (space.degree() == 1)
+      continue_to<dim, 1>(space, active_cell_index, x, N);
+    else
+      continue_to<dim, 2>(space, active_cell_index, x, N);
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   move_of_nodes_at(const GridSpace<dim> &space,
                    const unsigned int    active_cell_index,
@@ -251,6 +337,10 @@ namespace moraine
                                   const Point<dim> &,                         \
                                   double *,                                   \
                                   Tensor<1, dim> *);                          \
+  template void   continue_shapes(const GridSpace<dim> &,                     \
+                                  const unsigned int,                         \
+                                  const Point<dim> &,                         \
+                                  double *);                                  \
   template Tensor<1, dim> move_of_nodes_at(const GridSpace<dim> &,            \
                                            const unsigned int,                \
                                            const Point<dim> &);

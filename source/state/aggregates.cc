@@ -334,14 +334,12 @@ namespace moraine
   void
   Aggregates<dim>::find_weights(const GridSpace<dim> &space, Tie &tie) const
   {
-    const unsigned int          n = space.nodes_per_cell();
-    std::vector<double>         N(n);
-    std::vector<Tensor<1, dim>> grad_N(n);
+    const unsigned int  n = space.nodes_per_cell();
+    std::vector<double> N(n);
     for (const unsigned int root : tie.roots)
       {
         // Nodes that move with the material keep their place in the root.
-        evaluate_shapes(
-          space, root, space.node_position(tie.node), N.data(), grad_N.data());
+        continue_shapes(space, root, space.node_position(tie.node), N.data());
         for (unsigned int a = 0; a < n; ++a)
           {
             const unsigned int node = space.cell_nodes(root)[a];

@@ -3,12 +3,14 @@
 
 // Nodes of cut cells that follow filled ones.
 
+#include <moraine/mesh/active_search.h>
 #include <moraine/state/aggregates.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -181,6 +183,136 @@ namespace
   {
     roots_are_the_nearest_and_continue_linear_functions<2>();
     roots_are_the_nearest_and_continue_linear_functions<3>();
+  }
+
+
+
+  /** A number from -1 to 1 for a place, which looks random. */
+  double
+  any_number(const double x, const double y, const double z)
+  {
+    const double much = std::sin(12.9898 * x + 78.233 * y + 37.719 * z) * 43758;
+    return 2 * (much - std::floor(much)) - 1;
+  }
+
+
+
+  /** Move nodes any way, by @p much at most in each direction. */
+  template <int dim>
+  void
+  distort(GridSpace<dim> &space, const double much, const unsigned int number)
+  {
+    std::vector<Tensor<1, dim>> moves(space.n_nodes());
+    for (unsigned int node = 0; node < moves.size(); ++node)
+      {
+        const Point<dim> x = space.node_position(node) - space.node_move(node);
+        for (unsigned int d = 0; d < dim; ++d)
+          moves[node][d] =
+            much * any_number(x[0] + 3 * d, x[1] + number, x[dim - 1]);
+      }
+    space.move_nodes(moves);
+  }
+
+
+
+  /** What sums of weights miss of 1, and of the place they belong to. */
+  template <int dim>
+  std::pair<double, double>
+  misses(const GridSpace<dim>            &space,
+         const std::vector<unsigned int> &nodes,
+         const std::vector<double>       &weights,
+         const Point<dim>                &x)
+  {
+    double         sum = -1;
+    Tensor<1, dim> gap = -x;
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      {
+        sum += weights[a];
+        gap += weights[a] * space.node_position(nodes[a]);
+      }
+    return {std::abs(sum), gap.norm()};
+  }
+
+
+
+  template <int dim>
+  void
+  functions_continue_linear_ones_from_any_cell(const unsigned int degree,
+                                               const double       much)
+  {
+    BackgroundMesh<dim> mesh(unit_cells<dim>(2), MPI_COMM_WORLD);
+    GridSpace<dim>      space(mesh, degree);
+    const unsigned int  n_cells = mesh.triangulation().n_active_cells();
+    space.set_active_cells(std::vector<unsigned char>(n_cells, 1));
+    const unsigned int          n = space.nodes_per_cell();
+    std::vector<double>         N(n);
+    std::vector<Tensor<1, dim>> grad_N(n);
+    unsigned int                n_beyond_folds = 0;
+    double                      most           = 0;
+    for (unsigned int number = 0; number < 1000; ++number)
+      {
+        distort(space, much, number);
+        const unsigned int              cell = number % n_cells;
+        const std::vector<unsigned int> nodes(space.cell_nodes(cell),
+                                              space.cell_nodes(cell) + n);
+        Point<dim>                      x; // up to three cells away
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = 1 + 4 * any_number(number, d, degree);
+        continue_shapes(space, cell, x, N.data());
+        const auto [sum, gap] = misses(space, nodes, N, x);
+        ASSERT_LT(sum, 1e-10) << x;
+        ASSERT_LT(gap, 1e-8) << x;
+        double total = 0;
+        for (const double value : N)
+          total += std::abs(value);
+        most = std::max(most, total);
+        evaluate_shapes(space, cell, x, N.data(), grad_N.data());
+        n_beyond_folds += std::isnan(N[0]);
+      }
+    EXPECT_GT(n_beyond_folds, 10u);
+    // Those of a box twenty cells away: some of these cells are narrow.
+    EXPECT_LT(most, std::pow(degree == 1 ? 40 : 1600, dim));
+  }
+
+  TEST(Aggregates, FunctionsContinueLinearOnesFromAnyCell)
+  {
+    functions_continue_linear_ones_from_any_cell<2>(1, 0.2);
+    functions_continue_linear_ones_from_any_cell<2>(2, 0.07);
+    functions_continue_linear_ones_from_any_cell<3>(1, 0.2);
+    functions_continue_linear_ones_from_any_cell<3>(2, 0.07);
+  }
+
+
+
+  template <int dim>
+  void
+  ties_hold_linear_functions_in_distorted_cells()
+  {
+    TiedScene<dim> scene(0.5);
+    const auto     active = cells_of_points(scene.points, scene.mesh);
+    unsigned int   n_ties = 0;
+    for (unsigned int number = 0; number < 100; ++number)
+      {
+        distort(scene.space, 0.25, number);
+        scene.tie(active);
+        for (const auto &tie : scene.aggregates.ties())
+          {
+            const auto [sum, gap] = misses(scene.space,
+                                           tie.nodes,
+                                           tie.weights,
+                                           scene.space.node_position(tie.node));
+            ASSERT_LT(sum, 1e-10);
+            ASSERT_LT(gap, 1e-8);
+            ++n_ties;
+          }
+      }
+    EXPECT_GT(Utilities::MPI::sum(n_ties, MPI_COMM_WORLD), 100u);
+  }
+
+  TEST(Aggregates, TiesHoldLinearFunctionsInDistortedCells)
+  {
+    ties_hold_linear_functions_in_distorted_cells<2>();
+    ties_hold_linear_functions_in_distorted_cells<3>();
   }
 
 

@@ -49,6 +49,20 @@ namespace moraine
                   dealii::Tensor<1, dim>   *grad_N);
 
   /**
+   * Values @p N of shape functions of an active cell this rank knows, continued
+   * to a place @p x that may be far from it. The map of a cell that is no
+   * parallelogram folds outside of it: where @p x is beyond the fold or close
+   * to it, functions go on linearly from the middle of the cell. They sum to 1
+   * and reproduce linear functions everywhere.
+   */
+  template <int dim>
+  void
+  continue_shapes(const GridSpace<dim>     &space,
+                  const unsigned int        active_cell_index,
+                  const dealii::Point<dim> &x,
+                  double                   *N);
+
+  /**
    * How far the nodes of an active cell this rank knows carried the place @p X
    * of the mesh as it was built, which may be outside of the cell.
    */

@@ -50,6 +50,10 @@ namespace moraine
             const dealii::Point<dim> *X,
             const dealii::Point<dim> &start = middle());
 
+    /** @f$\partial x / \partial \xi@f$ at @p xi of a cell with nodes @p X. */
+    static dealii::Tensor<2, dim>
+    jacobian(const dealii::Point<dim> &xi, const dealii::Point<dim> *X);
+
     /** Of the unit cell. */
     static dealii::Point<dim>
     middle()
@@ -137,6 +141,23 @@ namespace moraine
   {
     dealii::Tensor<1, dim> unit_gradients[n_nodes];
     unit_cell(xi, N, unit_gradients);
+  }
+
+
+
+  template <int dim, int degree>
+  inline dealii::Tensor<2, dim>
+  CellShapes<dim, degree>::jacobian(const dealii::Point<dim> &xi,
+                                    const dealii::Point<dim> *X)
+  {
+    double                 N[n_nodes];
+    dealii::Tensor<1, dim> unit_gradients[n_nodes];
+    unit_cell(xi, N, unit_gradients);
+    dealii::Tensor<2, dim> J;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      J +=
+        dealii::outer_product(dealii::Tensor<1, dim>(X[a]), unit_gradients[a]);
+    return J;
   }
 
 
