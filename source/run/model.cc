@@ -381,6 +381,8 @@ namespace moraine
     if (motion)
       motion->read(of_nodes);
     state->place_by_nodes(come);
+    if (motion)
+      motion->slow_down(come);
   }
 
 

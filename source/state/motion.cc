@@ -7,6 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -175,40 +176,10 @@ namespace moraine
     rest();
     if (!points_carry())
       {
-        // A node that points of several bodies see has the mean of theirs,
-        // weighted with the mass that they give it, so that the momentum is
-        // that of the bodies. Quadratic functions are below 0 in places.
-        const GridSpace<dim> &space = state.grid();
-        const Basis<dim>     &basis = state.point_basis();
-        NodeValues            masses(space.n_nodes());
-        NodeValues            of_body; ///< velocities of the nodes of a block
-        StencilBlock<dim>     block;
-        for (unsigned int g = 0; g < basis.n_batches(); ++g)
-          {
-            basis.evaluate(g, block);
-            of_body.resize(block.n_nodes);
-            for (unsigned int p = 0; p < block.n_points; ++p)
-              {
-                const unsigned int body = points.body(block.points[p]);
-                if (p == 0 || body != points.body(block.points[p - 1]))
-                  for (unsigned int k = 0; k < block.n_nodes; ++k)
-                    of_body[k] =
-                      velocity(body, space.node_position(block.nodes[k]));
-                const double m = state.mass(block.points[p]);
-                for (unsigned int k = 0; k < block.n_nodes; ++k)
-                  {
-                    const unsigned int node  = block.nodes[k];
-                    const double       share = m * std::abs(block.N(p)[k]);
-                    masses[node][0] += share;
-                    v[node] += share * of_body[k];
-                  }
-              }
-          }
-        for (NodeValues *values : {&v, &masses})
-          space.sum_over_ranks(*values);
-        for (unsigned int k = 0; k < v.size(); ++k)
-          if (masses[k][0] > 0)
-            v[k] /= masses[k][0];
+        v =
+          mean_of_bodies([&](const unsigned int body, const unsigned int node) {
+            return velocity(body, state.grid().node_position(node));
+          });
         interpolate(v, v_field);
         return;
       }
@@ -236,6 +207,64 @@ namespace moraine
           }
         gradient_field.store(gradient, values);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::slow_down(const std::vector<bool> &come)
+  {
+    if (points_carry() ||
+        std::find(come.begin(), come.end(), true) == come.end())
+      return;
+    v.resize(state.grid().n_nodes()); // there are none before the first motion
+    v = mean_of_bodies([&](const unsigned int body, const unsigned int node) {
+      return come[body] ? Tensor<1, dim>() : v[node];
+    });
+    interpolate(v, v_field);
+  }
+
+
+
+  template <int dim>
+  typename Motion<dim>::NodeValues
+  Motion<dim>::mean_of_bodies(
+    const std::function<Tensor<1, dim>(const unsigned int, const unsigned int)>
+      &velocity) const
+  {
+    // Weights are no less than 0: quadratic functions are in places.
+    const GridSpace<dim> &space = state.grid();
+    const Basis<dim>     &basis = state.point_basis();
+    NodeValues            masses(space.n_nodes()), mean(space.n_nodes());
+    NodeValues            of_body; ///< velocities of the nodes of a block
+    StencilBlock<dim>     block;
+    for (unsigned int g = 0; g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, block);
+        of_body.resize(block.n_nodes);
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            const unsigned int body = points.body(block.points[p]);
+            if (p == 0 || body != points.body(block.points[p - 1]))
+              for (unsigned int k = 0; k < block.n_nodes; ++k)
+                of_body[k] = velocity(body, block.nodes[k]);
+            const double m = state.mass(block.points[p]);
+            for (unsigned int k = 0; k < block.n_nodes; ++k)
+              {
+                const unsigned int node  = block.nodes[k];
+                const double       share = m * std::abs(block.N(p)[k]);
+                masses[node][0] += share;
+                mean[node] += share * of_body[k];
+              }
+          }
+      }
+    for (NodeValues *values : {&mean, &masses})
+      space.sum_over_ranks(*values);
+    for (unsigned int k = 0; k < mean.size(); ++k)
+      if (masses[k][0] > 0)
+        mean[k] /= masses[k][0];
+    return mean;
   }
 
 

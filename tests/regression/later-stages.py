@@ -491,3 +491,59 @@ for name, keys in (
     result = run(held, keys, on_ranks=1)
     text(name, [line.strip() for line in result.output.splitlines()
                 if "Displacement" in line])
+
+# A body that comes before one in flight is at rest, also at the nodes they share.
+JOINS = SOLID.replace("10000", "100") + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 12, 4
+  set Cell size = 1
+end
+subsection Method
+  set Method = finite element
+end
+subsection Bodies
+  subsection flying
+    set Lower corner = 1, 1
+    set Upper corner = 3, 3
+    set Initial velocity = 1; 0
+  end
+  subsection new
+    set Lower corner = 3, 1
+    set Upper corner = 4, 3
+  end
+end
+subsection Stages
+  subsection one
+    set Bodies = flying
+    subsection Time
+      set Integrator = Newmark
+      set End time = 0.1
+      set Steps = 2
+    end
+  end
+  subsection two
+    set Bodies = flying, new
+    subsection Time
+      set Integrator = Newmark
+      set End time = 0.2
+      set Steps = 2
+    end
+  end
+end
+"""
+joins = folder / "joins.prm"
+joins.write_text(JOINS)
+for name, settings in (
+        ("finite element", {"Method/Mesh after step": "keep"}),
+        ("lumped", {"Method/Mesh after step": "keep",
+                    "Stages/*/Time/Mass": "lumped"}),
+        ("finite element that follows", {"Method/Strain": "finite"}),
+        ("GIMP", {"Method/Method": "GIMP", "Method/Mesh after step": "keep"}),
+        ("GIMP that moves", {"Method/Method": "GIMP"})):
+    result = run(joins, settings)
+    bound(f"{name}, a body comes: momentum - 4",
+          result.history()[-1]["momentum_x"] - 4, 1e-10)
+    if settings.get("Method/Strain") != "finite":
+        bound(f"{name}, a body comes: energy out of balance",
+              result.summary["energy"]["balance_error"], 1e-10)

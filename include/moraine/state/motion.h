@@ -153,6 +153,12 @@ namespace moraine
                                                  const dealii::Point<dim> &x)>
         &velocity);
 
+    /** After read(), where bodies have come: if nodes keep their velocities,
+     * those that points of bodies @p come see get the mean of what they had and
+     * of bodies at rest, so that these bring no momentum. Collective. */
+    void
+    slow_down(const std::vector<bool> &come);
+
     /** Get what nodes have at the start of a step, after State::begin_step().
      * Collective. */
     void
@@ -369,6 +375,15 @@ namespace moraine
     count(const StepWorks       &step,
           const KineticProducts &products,
           const Nodal           &end);
+
+    /** Of a node that points of several bodies see, the mean of @p velocity of
+     * these there, weighted with the mass that they give it, so that the
+     * momentum is that of the bodies. Collective. */
+    NodeValues
+    mean_of_bodies(
+      const std::function<dealii::Tensor<1, dim>(const unsigned int body,
+                                                 const unsigned int node)>
+        &velocity) const;
 
     /** Give points the @p field that nodes have. */
     void
