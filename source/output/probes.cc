@@ -309,7 +309,8 @@ namespace moraine
   Probes<dim>::try_step(const PlaceFunction<dim> &step_increment,
                         const PointSet<dim>      &points,
                         const PlaceFunction<dim> &velocity,
-                        const PlaceFunction<dim> &acceleration)
+                        const PlaceFunction<dim> &acceleration,
+                        const PlaceFunction<dim> &move)
   {
     for (Probe &probe : probes)
       if (!probe.follows_point())
@@ -326,7 +327,12 @@ namespace moraine
                                points,
                                numbers::invalid_unsigned_int,
                                probe);
-                  probe.body = body_of(probe.point_id, points);
+                  probe.body       = body_of(probe.point_id, points);
+                  Tensor<1, dim> u = probe.displacement;
+                  if (move)
+                    move(where, u);
+                  probe.before_reset += u - probe.displacement;
+                  probe.displacement = u;
                 }
               probe.v = probe.a = Tensor<1, dim>();
               if (velocity)
@@ -383,7 +389,9 @@ namespace moraine
     std::vector<double> all(probes.size() * (n + 1), 0.);
     for (unsigned int p = 0; p < points.n_local(); ++p)
       for (unsigned int i = 0; i < probes.size(); ++i)
-        if (probes[i].follows_point() && points.id(p) == probes[i].point_id)
+        // Halves of points may have numbers of those that are gone.
+        if (probes[i].follows_point() && points.id(p) == probes[i].point_id &&
+            points.body(p) == probes[i].body)
           {
             double       *out    = &all[i * (n + 1)];
             const double *values = points.values(p);
@@ -410,7 +418,7 @@ namespace moraine
           throw ComputationError(
             "probe '" + probes[i].parameters.name + "': point " +
             std::to_string(probes[i].point_id) + ", which it follows, is gone");
-        result.emplace_back(first, first + n);
+        result.emplace_back(first, first + n + 1);
       }
     return result;
   }
@@ -432,7 +440,8 @@ namespace moraine
         const Probe        &probe = probes[i];
         const std::string   at    = " at " + probe.parameters.name;
         std::vector<double> values(of_points[i]);
-        if (probe.parameters.kind == "interpolated")
+        const bool          is_gone = probe.has_left && values.back() == 0.;
+        if (probe.parameters.kind == "interpolated" && !is_gone)
           for (unsigned int c = 0; c < dim; ++c)
             {
               const double u  = probe.has_left ?

@@ -49,6 +49,21 @@ namespace moraine
 
 
 
+    /** How far nodes have taken a place of the mesh as it was built. */
+    template <int dim>
+    PlaceFunction<dim>
+    move_of_nodes(const GridSpace<dim> &space)
+    {
+      return [&space](const Point<dim> &place, Tensor<1, dim> &move) {
+        std::vector<Tensor<1, dim>> moves;
+        for (unsigned int node = 0; node < space.n_nodes(); ++node)
+          moves.push_back(space.node_move(node));
+        return grid_evaluation<dim>(space, moves)(place, move);
+      };
+    }
+
+
+
     /** Of all ranks. */
     template <int dim>
     double
@@ -376,7 +391,11 @@ namespace moraine
     model.probes->try_step(at(increments),
                            *model.points,
                            moves_probes ? at(motion.v) : PlaceFunction<dim>(),
-                           moves_probes ? at(motion.a) : PlaceFunction<dim>());
+                           moves_probes ? at(motion.a) : PlaceFunction<dim>(),
+                           model.state->mesh_after_step() ==
+                               MeshAfterStep::follow_material ?
+                             move_of_nodes(*model.space) :
+                             PlaceFunction<dim>());
     const std::string held    = share_of_ghost_term();
     const double      t_start = time_control.time();
     const double      growth  = allowed_growth(x);

@@ -547,3 +547,129 @@ for name, settings in (
     if settings.get("Method/Strain") != "finite":
         bound(f"{name}, a body comes: energy out of balance",
               result.summary["energy"]["balance_error"], 1e-10)
+
+# What comes fills the cells as they are, and so does a place on it.
+FILLED = SOLID.replace("10000", "100") + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 8
+  set Cell size = 1
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+end
+subsection Bodies
+  subsection ground
+    set Lower corner = 0, 0
+    set Upper corner = 4, 6
+  end
+  subsection fill
+    set Lower corner = 0, 6
+    set Upper corner = 4, 8
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection weight
+    set Type = gravity
+    set Value = 0; -5
+  end
+end
+subsection Stages
+  subsection one
+    set Bodies = ground
+    subsection Time
+      set Steps = 2
+    end
+  end
+  subsection two
+    set Bodies = ground, fill
+    subsection Time
+      set End time = 2
+      set Steps = 2
+    end
+  end
+end
+subsection Probes
+  subsection point
+    set Location = 0.21132486540518713, 6.2113248654051871
+    set Body = fill
+    set Quantities = displacement, position
+  end
+  subsection place
+    set Location = 0.21132486540518713, 6.2113248654051871
+    set Kind = interpolated
+    set Quantities = displacement, position
+  end
+end
+"""
+filled = folder / "filled.prm"
+filled.write_text(FILLED)
+row = run(filled).history()[-1]
+at_least("a place on what comes: has settled by", 6.2 - row["y at place"], 0.4)
+for key in ("x", "y", "u_x", "u_y"):
+    bound(f"  {key} over that of the point there - 1",
+          row[f"{key} at place"] / row[f"{key} at point"] - 1, 1e-10)
+
+# A place leaves the cells; then the body of the point that it follows is gone.
+LEAVES = SOLID + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 4
+  set Cell size = 1
+end
+subsection Method
+  set Method = material point
+  set Strain = finite
+end
+subsection Bodies
+  subsection left
+    set Lower corner = 0, 0
+    set Upper corner = 1, 2
+  end
+  subsection right
+    set Lower corner = 3, 0
+    set Upper corner = 4, 2
+  end
+end
+subsection Grid conditions
+  subsection base
+    set Side = bottom
+    set Displacement = 0; 0.1*min(t, 1)
+  end
+end
+subsection Stages
+  subsection both
+    subsection Time
+      set Steps = 4
+    end
+  end
+  subsection one
+    set Bodies = right
+    subsection Time
+      set End time = 2
+    end
+  end
+end
+subsection Probes
+  subsection top
+    set Location = 0.5, 2
+    set Kind = interpolated
+    set Quantities = displacement, position
+  end
+end
+"""
+leaves = folder / "leaves.prm"
+leaves.write_text(LEAVES)
+result = run(leaves)
+text("notes of a place out of the cells", [
+    " ".join(line.split()) for line in result.output.splitlines()
+    if "probe 'top'" in line])
+before, after = result.history()[-2:]
+bound("  goes along: y - 2.1", before["y at top"] - 2.1, 1e-6)
+text("  its body is gone", [after[f"{key} at top"] for key in ("y", "u_y")])

@@ -105,12 +105,16 @@ namespace moraine
      * @param points as they stood before the step
      * @param velocity,acceleration at the end of the step, at the same places;
      * empty if there are none
+     * @param move how far nodes have taken places before the step, where they
+     * stay with the material; empty if they do not. A body that comes is where
+     * they are by then.
      */
     void
     try_step(const PlaceFunction<dim> &step_increment,
              const PointSet<dim>      &points,
              const PlaceFunction<dim> &velocity     = {},
-             const PlaceFunction<dim> &acceleration = {});
+             const PlaceFunction<dim> &acceleration = {},
+             const PlaceFunction<dim> &move         = {});
 
     /** The step of the last try_step() is accepted. */
     void
@@ -190,7 +194,7 @@ namespace moraine
     displacement_of(const unsigned int id, const PointSet<dim> &points) const;
 
     /** Position, displacement, stress, velocity and acceleration of the points
-     * that are followed. */
+     * that are followed, and 1; zeros alone while the body is not there. */
     std::vector<std::vector<double>>
     gather_points(const PointSet<dim> &points) const;
 
