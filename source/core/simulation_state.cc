@@ -33,8 +33,10 @@ namespace moraine
 
 
   void
-  SimulationState::undo()
+  SimulationState::undo(const std::function<void(const Archive &)> &prepare)
   {
+    if (accepted && prepare)
+      prepare(*accepted);
     if (accepted)
       read(parts, *accepted);
     accepted.reset();

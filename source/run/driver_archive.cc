@@ -132,6 +132,17 @@ namespace moraine
 
   template <int dim>
   void
+  StepDriver<dim>::find_stencils(const Archive &archive)
+  {
+    model.points->read(archive);
+    model.state->points_changed();
+    model.state->begin_step();
+  }
+
+
+
+  template <int dim>
+  void
   StepDriver<dim>::read(const Archive &archive)
   {
     first_step = false;
@@ -141,11 +152,7 @@ namespace moraine
     // Where no step finds stencils anew, they are of the points in the order in
     // which these were kept, and nodes that move are there before their moves.
     if (model.state->mesh_after_step() != MeshAfterStep::reset)
-      {
-        model.points->read(archive);
-        model.state->points_changed();
-        model.state->begin_step();
-      }
+      find_stencils(archive);
     lasting.read(archive);
     accepted_fraction = archive.number("run/stiffness_of_empty_parts");
     buckling.read(archive);
@@ -168,6 +175,10 @@ namespace moraine
   StepDriver<2>::write_progress(Archive &) const;
   template void
   StepDriver<3>::write_progress(Archive &) const;
+  template void
+  StepDriver<2>::find_stencils(const Archive &);
+  template void
+  StepDriver<3>::find_stencils(const Archive &);
   template void
   StepDriver<2>::read(const Archive &);
   template void

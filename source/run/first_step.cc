@@ -374,7 +374,6 @@ namespace moraine
     const double          t       = stage.time.start_time;
     MechanicsSystem<dim> &system  = *model.system;
     // What absorbs from now on holds what it held so far.
-    system.begin_step(t);
     std::vector<std::pair<std::string, LA::Vector>> held;
     std::vector<std::string>                        notes;
     LA::Vector                                      x;

@@ -159,6 +159,23 @@ namespace moraine
 
 
   template <int dim>
+  void
+  StepDriver<dim>::undo()
+  {
+    lasting.undo([this](const Archive &accepted) {
+      if (!stage_is_begun)
+        find_stencils(accepted);
+    });
+    if (!stage_is_begun)
+      model.system->set_motion(
+        scene.stages[stage - 1].second.time.integrator.dynamic() ?
+          model.motion.get() :
+          nullptr);
+  }
+
+
+
+  template <int dim>
   bool
   StepDriver<dim>::is_to_end() const
   {
@@ -229,6 +246,7 @@ namespace moraine
   void
   StepDriver<dim>::begin_next_stage()
   {
+    model.system->begin_step(time_control.time());
     ++stage;
     stage_is_begun                 = false;
     const auto &[name, parameters] = scene.stages[stage];
@@ -248,9 +266,12 @@ namespace moraine
         for (const std::string &doubt : doubts_of_strain(model))
           warn(doubt);
       }
-    const auto notes = begin_stage(scene, stage, model);
-    if (support)
-      add_support(accepted_fraction, false);
+    std::vector<std::string> notes;
+    lasting.keep([&]() {
+      notes = begin_stage(scene, stage, model);
+      if (support)
+        add_support(accepted_fraction, false);
+    });
     for (const std::string &note : notes)
       tell(note);
     stage_is_begun = true;

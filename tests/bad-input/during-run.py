@@ -210,6 +210,7 @@ subsection Materials
   subsection clay
     set Young modulus = 1e5
     set Poisson ratio = 0.3
+    set Density = 1
   end
 end
 subsection Bodies
@@ -249,8 +250,24 @@ subsection Stages
     end
   end
 end
+subsection Probes
+  subsection top
+    set Location = 1.5, 2
+  end
+end
 """)
-text("load on a body that goes", message(run(staged, expect=1).output))
+for name, settings in (
+        ("", {}),
+        (", followed", {"Method/Method": "finite element",
+                        "Method/Strain": "finite"}),
+        (", with inertia", {"Stages/dug/Time/Integrator": "Newmark"})):
+    result = run(staged, {"Output/Write": "end", **settings}, expect=1)
+    text(f"load on a body that goes{name}", message(result.output))
+    text("  points", result.summary["points"])
+    text("  last file of points", f"{len(result.points('position'))} of them")
+    bound("  last displacement over that in history.csv - 1",
+          result.probes["u_y at top"] / result.history()[-1]["u_y at top"] - 1, 1e-9)
+    text("  energy", "energy" in result.summary)
 
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"

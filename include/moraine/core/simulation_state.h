@@ -81,10 +81,11 @@ namespace moraine
 
     /**
      * Give all parts what they had before a keep() that threw, if there was
-     * one, and let them forget what was tried. Collective.
+     * one, and let them forget what was tried. Before they read it, @p prepare
+     * may look at it. Collective.
      */
     void
-    undo();
+    undo(const std::function<void(const Archive &)> &prepare = {});
 
     void
     write(Archive &archive) const;

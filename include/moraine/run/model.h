@@ -116,8 +116,8 @@ namespace moraine
   begin_first_step(const Scene<dim> &scene, Model<dim> &model);
 
   /**
-   * The same for stage @p k, after the last step of the one before: what ends,
-   * what acts, and what carries on.
+   * The same for stage @p k, in a step that has begun after the last one of the
+   * stage before: what ends, what acts, and what carries on.
    *
    * @return what the user should know, sentence by sentence.
    * @throws InputError, ComputationError. Collective.

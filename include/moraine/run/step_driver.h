@@ -41,12 +41,10 @@ namespace moraine
     run(const std::function<void()> &after_step = {});
 
     /** Go back to the last accepted step, after run() threw or where a step is
-     * given up. Collective. */
+     * given up; bodies of a stage that failed as it began go back, too.
+     * Collective. */
     void
-    undo()
-    {
-      lasting.undo();
-    }
+    undo();
 
     /** The last accepted state and what observers recorded. Collective. */
     void
@@ -104,6 +102,10 @@ namespace moraine
     /** Go over to the next stage. */
     void
     begin_next_stage();
+
+    /** Of the points in @p archive, for what it has of nodes. Collective. */
+    void
+    find_stencils(const Archive &archive);
 
     /** Whether the user wants the run to end, and it can: not between the two
      * parts of a step, nor in one that gives empty parts of cells another
