@@ -10,7 +10,9 @@
 #include <moraine/core/exceptions.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace moraine
 {
@@ -76,6 +78,23 @@ namespace moraine
 
 
 
+    /** Sort @p names as @p all are: another order is no change. */
+    void
+    put_in_order(const std::vector<std::string> &all,
+                 std::vector<std::string>       &names)
+    {
+      std::vector<std::string> ordered;
+      std::copy_if(all.begin(),
+                   all.end(),
+                   std::back_inserter(ordered),
+                   [&names](const std::string &name) {
+                     return contains(names, name);
+                   });
+      names = std::move(ordered);
+    }
+
+
+
     /** The names that are active, by what key @p key of a stage says. */
     void
     complete_names(const std::string              &section,
@@ -96,6 +115,7 @@ namespace moraine
                  name,
                  "names of section '" + key + "', or none" +
                    suggest(name, all));
+      put_in_order(all, names);
     }
 
 
@@ -118,6 +138,7 @@ namespace moraine
                                   "names of bodies that no other is combined "
                                   "from" +
                                     suggest(name, all));
+      put_in_order(all, names);
     }
 
 

@@ -673,3 +673,19 @@ text("notes of a place out of the cells", [
 before, after = result.history()[-2:]
 bound("  goes along: y - 2.1", before["y at top"] - 2.1, 1e-6)
 text("  its body is gone", [after[f"{key} at top"] for key in ("y", "u_y")])
+
+# The order of names is no change, at which accelerations would be found anew and
+# nothing may begin to absorb.
+histories = [
+    (run(held, {"Stages/*/Time/Integrator": "generalised-alpha",
+                "Stages/held/Grid conditions": names}).folder /
+     "history.csv").read_bytes() for names in ("base, pull", "pull, base")]
+text("names in another order", "the same history" if
+     histories[0] == histories[1] else "NO")
+run(paused, {"Stages/first/Bodies": "ground, later",
+             "Stages/moves/Bodies": "later, ground",
+             "Stages/again/Bodies": "ground, later",
+             "Grid conditions/base/Displacement": "",
+             "Stages/moves/Time/Integrator": "Newmark",
+             "Stages/again/Time/Integrator": "Newmark",
+             "Stages/moves/Absorbing": "base"})
