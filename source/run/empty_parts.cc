@@ -5,6 +5,7 @@
 
 #include <moraine/run/step_driver.h>
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
@@ -60,17 +61,17 @@ namespace moraine
     MechanicsSystem<dim> &system = *model.system;
     const double          fraction =
       automatic_fictitious_stiffness[sums.n_fictitious_stiffness];
-    if (support)
-      support->set_fraction(fraction);
-    else
+    if (!support || support->stiffness_fraction() == 0)
       {
         LA::Vector x;
         system.initial_guess(x);
         system.assemble(x, true);
         system.check_that_it_is_held(false);
-        if (!add_support(fraction, true))
-          return false;
       }
+    if (support ? !support->any_empty_part(system.step_context()) :
+                  !add_support(fraction, true))
+      return false;
+    support->set_fraction(fraction);
     ++sums.n_fictitious_stiffness;
     std::ostringstream text;
     text << reason
@@ -100,6 +101,23 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  StepDriver<dim>::keep_support()
+  {
+    if (!support)
+      return;
+    accepted_fraction = support->stiffness_fraction();
+    // What was no cure for this step may be one for a later one.
+    sums.n_fictitious_stiffness =
+      std::upper_bound(std::begin(automatic_fictitious_stiffness),
+                       std::end(automatic_fictitious_stiffness),
+                       accepted_fraction) -
+      std::begin(automatic_fictitious_stiffness);
+  }
+
+
+
   template bool
   StepDriver<2>::add_support(const double, const bool);
   template bool
@@ -108,6 +126,8 @@ namespace moraine
   StepDriver<2>::hold_empty_parts(const std::string &);
   template bool
   StepDriver<2>::take_back_support();
+  template void
+  StepDriver<2>::keep_support();
   template bool
   StepDriver<3>::add_support(const double, const bool);
   template bool
@@ -116,4 +136,6 @@ namespace moraine
   StepDriver<3>::hold_empty_parts(const std::string &);
   template bool
   StepDriver<3>::take_back_support();
+  template void
+  StepDriver<3>::keep_support();
 } // namespace moraine

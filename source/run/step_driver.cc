@@ -428,8 +428,7 @@ namespace moraine
         last_increment->keep(increments);
     });
     first_step = false;
-    if (support)
-      accepted_fraction = support->stiffness_fraction();
+    keep_support();
 
     buckling.keep_step();
     for (const std::string &warning :

@@ -23,8 +23,9 @@ namespace moraine
     /** What solved the last linear system. */
     std::string linear_solver;
     /**
-     * Values of the stiffness of empty parts that were tried, because a matrix
-     * was singular or steps failed.
+     * Values of the stiffness of empty parts, smallest first, that the last
+     * accepted step had or that were tried since, because a matrix was singular
+     * or steps failed.
      */
     unsigned int n_fictitious_stiffness = 0;
     /** If the scene has a ghost term. */

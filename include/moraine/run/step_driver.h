@@ -166,6 +166,10 @@ namespace moraine
     bool
     take_back_support();
 
+    /** The step is accepted with the stiffness that empty parts have. */
+    void
+    keep_support();
+
     /** Whether empty parts have a stiffness that may still be raised. */
     bool
     may_support_more() const;
