@@ -22,7 +22,8 @@ namespace moraine
                                 const double               share_outside)
     : load_name(name)
     , function(value)
-    , carried(std::move(places))
+    , drawn(std::move(places))
+    , carried(drawn)
     , outside(share_outside)
   {}
 
@@ -56,6 +57,16 @@ namespace moraine
     if (!placed)
       carried.catch_up(space);
     placed = true;
+  }
+
+
+
+  template <int dim>
+  void
+  CarriedLoad<dim>::forget()
+  {
+    carried = CarriedPlaces<dim>(drawn);
+    placed  = false;
   }
 
 

@@ -10,6 +10,7 @@
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
+#include <moraine/geometry/covered_pieces.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/scene_bodies.h>
 #include <moraine/run/scene_conditions.h>
@@ -124,13 +125,37 @@ namespace moraine
 
 
 
+    /** The bodies that a load may lie on: as drawn they are within half a cell
+     * of one of its places. All of them if there is none. */
+    template <int dim>
+    std::vector<std::string>
+    bodies_under(const CarriedLoad<dim> &load, const Model<dim> &model)
+    {
+      const double             margin = 0.5 * model.mesh->cell_size();
+      std::vector<std::string> names;
+      for (const Body<dim> &body : model.bodies)
+        {
+          const auto &shape  = body.filled();
+          const auto &places = load.places_as_drawn();
+          if (!shape ||
+              std::any_of(places.begin(), places.end(), [&](const auto &place) {
+                return covers_place(*shape, place.x, margin);
+              }))
+            names.push_back(body.name);
+        }
+      return names.empty() ? model.body_names : names;
+    }
+
+
+
     /** Whether a load that does not push in this stage pushes in a later one,
      * on material that is there now. */
     template <int dim>
     bool
-    is_carried_to_later_stage(const std::string     &load,
-                              const StageParameters &stage,
-                              const Scene<dim>      &scene)
+    is_carried_to_later_stage(const CarriedLoad<dim> &load,
+                              const StageParameters  &stage,
+                              const Scene<dim>       &scene,
+                              const Model<dim>       &model)
     {
       const auto any_before = [&](const auto &holds) {
         return std::any_of(scene.stages.begin(),
@@ -142,12 +167,13 @@ namespace moraine
                            });
       };
       const bool has_pushed = any_before([&](const StageParameters &other) {
-        return contains(other.loads, load);
+        return contains(other.loads, load.name());
       });
+      const std::vector<std::string> under = bodies_under(load, model);
       // Its surface may be that of a body still to come, unless it has pushed;
       // then of one that went and comes back.
       const auto may_be_its = [&](const std::string &body) {
-        return !contains(stage.bodies, body) &&
+        return contains(under, body) && !contains(stage.bodies, body) &&
                (!has_pushed || any_before([&](const StageParameters &other) {
                  return contains(other.bodies, body);
                }));
@@ -158,7 +184,7 @@ namespace moraine
                            const auto &bodies_then = other.second.bodies;
                            return other.second.time.start_time >
                                     stage.time.start_time &&
-                                  contains(other.second.loads, load) &&
+                                  contains(other.second.loads, load.name()) &&
                                   std::none_of(bodies_then.begin(),
                                                bodies_then.end(),
                                                may_be_its);
@@ -292,7 +318,7 @@ namespace moraine
     // What pushes in a later stage goes with the material from now on.
     for (auto &load : loads.carried)
       if (!contains(stage.loads, load.name()) &&
-          is_carried_to_later_stage(load.name(), stage, scene))
+          is_carried_to_later_stage(load, stage, scene, *this))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
     if (state->strict_aggregates())
@@ -399,6 +425,11 @@ namespace moraine
       if (k > 0 && contains(stage.boundaries, boundary.name()) &&
           !contains(scene.stages[k - 1].second.boundaries, boundary.name()))
         boundary.forget();
+    for (auto &load : loads.carried)
+      if (k > 0 && !contains(scene.stages[k - 1].second.loads, load.name()) &&
+          !is_carried_to_later_stage(
+            load, scene.stages[k - 1].second, scene, *this))
+        load.forget();
     system->set_terms(terms_of(scene, stage));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic)

@@ -321,6 +321,108 @@ run(whole.folder, command="resume", extra=("--from", "4"))
 text("a load that paused, resumed", "the same history" if
      (whole.folder / "history.csv").read_bytes() == expected else "NO")
 
+# A load that has sunk with a body is as drawn again when the body comes back.
+COLUMN = SOLID.replace("10000", "100").replace("0.3", "0") + """
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 4, 12
+  set Cell size = 1
+end
+subsection Method
+  set Method = {method}
+  set Strain = finite
+end
+subsection Bodies
+  subsection base
+    set Lower corner = 0, 0
+    set Upper corner = 1, 2
+  end
+  subsection block
+    set Lower corner = 0, 2
+    set Upper corner = 1, 10
+  end
+  subsection other
+    set Lower corner = 3, 0
+    set Upper corner = 4, 1
+  end
+end
+subsection Grid conditions
+  subsection sides
+    set Lower corner = 0, 0
+    set Upper corner = 4, 12
+    set Components = x
+  end
+  subsection bottom
+    set Side = bottom
+  end
+end
+subsection Loads
+  subsection push
+    set Type = surface traction
+    set Points = 1 {top}; 0 {top}
+    set Value = 0; {force}
+  end
+  subsection weight
+    set Type = gravity
+    set Value = 0; {weight}
+  end
+end
+subsection Probes
+  subsection top
+    set Location = 0.5, {top}
+    set Body = block
+    set Quantities = displacement, stress
+  end
+end
+"""
+STEPS = """
+    subsection Time
+      set End time = {end}
+      set Steps = 10
+    end
+  end
+"""
+
+
+def column(name, stages, **values):
+    """The scene with stages, of which each has its bodies and loads."""
+    scene = COLUMN.format(**values) + "subsection Stages\n"
+    for end, (bodies, loads) in enumerate(stages, 1):
+        scene += f"subsection s{end}\nset Bodies = {bodies}\nset Loads = {loads}\n"
+        scene += STEPS.format(end=end)
+    file = folder / f"{name}.prm"
+    file.write_text(scene + "end\n")
+    return run(file, {"Output/Checkpoint every": "5 steps"})
+
+
+def compare(name, result, reference):
+    for quantity in ("u_y", "sigma_yy"):
+        a, b = (of.history()[-1][f"{quantity} at top"] for of in (result, reference))
+        at_least(f"{name}: {quantity}", abs(b), 0.1)
+        bound("  differs by", abs(a - b), 1e-8)
+
+
+for method, rests in (("GIMP", 1), ("finite element", 0)):
+    values = {"method": method, "top": 10, "force": f"-30*(t-{2 + rests}*(t>1))",
+              "weight": 0}
+    back = [("base", "none"), *[("base, block", "none")] * rests,
+            ("base, block", "push")]
+    again = column("again", [("base, block", "push"), *back], **values)
+    first = column("first", [("base", "none"), *back], **values)
+    compare(f"{method}, load on a body that comes back", again, first)
+expected = (again.folder / "history.csv").read_bytes()
+run(again.folder, command="resume", extra=("--from", "25"))
+text("  resumed", "the same history" if
+     (again.folder / "history.csv").read_bytes() == expected else "NO")
+
+# A load goes with what it lies on, whatever comes elsewhere as it begins to act.
+values = {"method": "GIMP", "top": 8, "force": "-20*(t-1)", "weight": "-3*min(t,1)"}
+alone = column("alone", [("base, block", "weight"),
+                         ("base, block, other", "weight, push")], **values)
+beside = column("beside", [("base, block, other", "weight"),
+                           ("base, block, other", "weight, push")], **values)
+compare("load that begins as another body comes", alone, beside)
+
 # A lining takes the place of what is dug out. A probe beside both follows the body
 # that it names: the stress of its one cell is that of half its weight.
 LINED = SOLID.replace("0.3", "0") + """

@@ -71,6 +71,10 @@ namespace moraine
     void
     find_cells(const GridSpace<dim> &space, const double search_tolerance);
 
+    /** Let the places be as drawn again: it begins to act anew. */
+    void
+    forget();
+
     /** Let @p functions carry the forces from the places to the nodes of this
      * rank, and the places along. */
     void
@@ -113,6 +117,13 @@ namespace moraine
       return carried.places();
     }
 
+    /** The places in the mesh as it was built. */
+    const std::vector<Place> &
+    places_as_drawn() const
+    {
+      return drawn;
+    }
+
     dealii::Tensor<1, dim>
     value(const dealii::Point<dim> &x, const double t) const
     {
@@ -142,6 +153,7 @@ namespace moraine
   private:
     const std::string         load_name;
     const VectorFunction<dim> function;
+    const std::vector<Place>  drawn;
     CarriedPlaces<dim>        carried;
     PlaceFunctions<dim>       place_functions;
     double                    outside;
