@@ -205,7 +205,7 @@ namespace moraine
               c        = local.dilatation.take_volumetric(p, c);
               coupling = local.dilatation.coupling();
               rest     = trial.stress(p);
-              take_mean<dim>(rest);
+              take_mean<dim>(rest, trial.mean_part(p));
               if (tau)
                 tau = &rest;
             }
@@ -432,7 +432,15 @@ namespace moraine
           points.stress_field()(points.values(point));
         const Tensor<1, dim> *grad_N = block.grad_N(p);
         if (block.means.n_cells > 0)
-          add_mean_pressure(v * take_mean<dim>(stress), block.means, p, local);
+          add_mean_pressure(
+            v *
+              take_mean<dim>(stress,
+                             state.mean_part(point,
+                                             state.material(points.body(point))
+                                               .elastic_stiffness())),
+            block.means,
+            p,
+            local);
         for (unsigned int a = 0; a < block.n_nodes; ++a)
           {
             const Tensor<1, dim> f = force_of_stress(v, stress, grad_N[a]);

@@ -40,24 +40,25 @@ namespace moraine
 
 
 
-    /** Add @f$-\frac2n (s \otimes 1 + 1 \otimes s + p\, 1 \otimes 1)
-     * + 2 p\, I@f$ of a stress s + p 1. */
+    /** Add @f$-\frac{2a}n (s \otimes 1 + 1 \otimes s
+     * + (2 - a)\, p\, 1 \otimes 1) + 2 a p\, I@f$ of a stress s + p 1. */
     template <int dim>
     void
     add_stress_part(const SymmetricTensor<2, 3> &s,
                     const double                 p,
+                    const double                 a,
                     VoigtMatrix<dim>            &c)
     {
       constexpr unsigned int n_v   = n_voigt<dim>;
       constexpr auto         pairs = voigt_pairs<dim>();
       for (unsigned int I = 0; I < n_v; ++I)
         {
-          c[I][I] += (I < dim ? 2. : 1.) * p;
+          c[I][I] += (I < dim ? 2. : 1.) * a * p;
           const double s_I = s[pairs[I][0]][pairs[I][1]];
           for (unsigned int J = 0; J < dim; ++J)
             {
-              c[I][J] -= 2. / dim * (s_I + (I < dim ? p : 0.));
-              c[J][I] -= 2. / dim * s_I;
+              c[I][J] -= 2. * a / dim * (s_I + (I < dim ? (2. - a) * p : 0.));
+              c[J][I] -= 2. * a / dim * s_I;
             }
         }
     }
@@ -88,7 +89,8 @@ namespace moraine
   MeanDilatation<dim>::take_pressure(const unsigned int i)
   {
     SymmetricTensor<2, 3> stress = trial->stress(i);
-    const double          w_p    = trial->weight(i) * take_mean<dim>(stress);
+    const double          w_p =
+      trial->weight(i) * take_mean<dim>(stress, trial->mean_part(i));
     for (unsigned int c = 0; c < P.size(); ++c)
       P[c] += w_p * trial->mean_weight(i, c);
     return stress;
@@ -135,13 +137,14 @@ namespace moraine
                                        const VoigtMatrix<dim> &c)
   {
     constexpr unsigned int  n_v = n_voigt<dim>;
-    std::array<double, n_v> t{};
+    const double            a   = trial->mean_part(i);
+    std::array<double, n_v> t{}; // a c : 1
     double                  k_1 = 0;
     for (unsigned int I = 0; I < n_v; ++I)
       for (unsigned int J = 0; J < dim; ++J)
-        t[I] += c[I][J];
+        t[I] += a * c[I][J];
     for (unsigned int I = 0; I < dim; ++I)
-      k_1 += t[I];
+      k_1 += a * t[I];
     VoigtMatrix<dim> rest = c;
     for (unsigned int I = 0; I < n_v; ++I)
       for (unsigned int J = 0; J < n_v; ++J)
@@ -159,11 +162,11 @@ namespace moraine
       {
         SymmetricTensor<2, 3> stress = trial->stress(i);
         const double          p      = take_mean<dim>(stress);
-        modulus += (2. / dim - 1.) * p;
-        add_stress_part<dim>(stress, p, rest);
+        modulus += (2. * a / dim - 1.) * a * p;
+        add_stress_part<dim>(stress, p, a, rest);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = d; e < dim; ++e)
-            T[d][e] += 2. * stress[d][e];
+            T[d][e] += 2. * a * (stress[d][e] + (d == e ? (1. - a) * p : 0.));
       }
     const double w = trial->weight(i);
     T *= w / dim;

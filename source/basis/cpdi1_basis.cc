@@ -21,8 +21,15 @@ namespace moraine
                               const PointSet<dim>          &points,
                               const CellSeeder<dim>        &seeder,
                               const std::vector<Body<dim>> &bodies,
-                              const bool                    split)
-    : CpdiBasis<dim>(space, points, seeder, bodies, split, "CPDI1")
+                              const bool                    split,
+                              const bool                    gradients_of_mesh)
+    : CpdiBasis<dim>(space,
+                     points,
+                     seeder,
+                     bodies,
+                     split,
+                     gradients_of_mesh,
+                     "CPDI1")
     , offsets(
         DomainTools::offsets_of_vectors<dim, dim>(points.fields(), "half_edge"))
   {}

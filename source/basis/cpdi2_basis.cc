@@ -21,8 +21,15 @@ namespace moraine
                               const PointSet<dim>          &points,
                               const CellSeeder<dim>        &seeder,
                               const std::vector<Body<dim>> &bodies,
-                              const bool                    split)
-    : CpdiBasis<dim>(space, points, seeder, bodies, split, "CPDI2")
+                              const bool                    split,
+                              const bool                    gradients_of_mesh)
+    : CpdiBasis<dim>(space,
+                     points,
+                     seeder,
+                     bodies,
+                     split,
+                     gradients_of_mesh,
+                     "CPDI2")
     , finite_strain(DomainTools::finite_strain(points))
     , offsets(DomainTools::offsets_of_vectors<dim, n_corners>(points.fields(),
                                                               "corner"))

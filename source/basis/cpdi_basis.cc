@@ -24,10 +24,12 @@ namespace moraine
                             const CellSeeder<dim>        &seeder,
                             const std::vector<Body<dim>> &bodies,
                             const bool                    split,
+                            const bool                    gradients_of_mesh,
                             const std::string            &name)
     : Basis<dim>(space, points)
     , seeder(seeder)
     , split(split)
+    , gradients_of_mesh(gradients_of_mesh)
     , name(name)
     , neighbours(space.mesh())
   {
@@ -208,6 +210,8 @@ namespace moraine
               }
           }
       }
+    if (gradients_of_mesh)
+      find_mesh_gradients();
     return this->batch_node_list != previous_nodes;
   }
 
@@ -244,6 +248,10 @@ namespace moraine
               }
           }
       }
+    if (!mesh_gradients.empty())
+      std::copy_n(&mesh_gradients[first_gradient[batch]],
+                  g.n_points * g.n_nodes,
+                  block.gradients.begin());
   }
 
 

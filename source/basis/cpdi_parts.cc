@@ -84,17 +84,10 @@ namespace moraine
                                  const StencilBlock<dim> &block,
                                  CellParts<dim>          &parts) const
   {
-    const auto        &g     = this->batches[batch];
-    const CornerCells  cells = cells_of_batches[batch];
-    const unsigned int first = first_place[batch];
-    parts.cells.assign(cells.cells.begin(), cells.cells.begin() + cells.n);
-    parts.places.assign(&places_of_nodes[first],
-                        &places_of_nodes[first] + cells.n * n_corners);
-    parts.shares.assign(g.n_points * cells.n, 0.);
-    parts.gradients.assign(g.n_points * cells.n * n_corners, Tensor<1, dim>());
+    begin_parts(batch, parts);
     CellPatch<dim> patch(neighbours);
     patch.reinit(neighbours.cell(cell_of_batch[batch]));
-    for (unsigned int i = 0; i < g.n_points; ++i)
+    for (unsigned int i = 0; i < block.n_points; ++i)
       add_parts_of(block.points[i], i, patch, parts);
   }
 
@@ -102,6 +95,60 @@ namespace moraine
 
   template <int dim>
   void
+  CpdiBasis<dim>::begin_parts(const unsigned int batch,
+                              CellParts<dim>    &parts) const
+  {
+    const unsigned int n_points = this->batches[batch].n_points;
+    const CornerCells  cells    = cells_of_batches[batch];
+    const unsigned int first    = first_place[batch];
+    parts.cells.assign(cells.cells.begin(), cells.cells.begin() + cells.n);
+    parts.places.assign(&places_of_nodes[first],
+                        &places_of_nodes[first] + cells.n * n_corners);
+    parts.shares.assign(n_points * cells.n, 0.);
+    parts.gradients.assign(n_points * cells.n * n_corners, Tensor<1, dim>());
+  }
+
+
+
+  template <int dim>
+  void
+  CpdiBasis<dim>::find_mesh_gradients()
+  {
+    mesh_gradients.clear();
+    first_gradient.clear();
+    std::vector<Tensor<1, dim>> gradients;
+    StencilBlock<dim>           block;
+    CellParts<dim>              parts;
+    CellPatch<dim>              patch(neighbours);
+    for (unsigned int batch = 0; batch < this->batches.size(); ++batch)
+      {
+        const std::size_t first = gradients.size();
+        first_gradient.push_back(first);
+        evaluate(batch, block);
+        gradients.insert(gradients.end(),
+                         block.gradients.begin(),
+                         block.gradients.begin() +
+                           block.n_points * block.n_nodes);
+        begin_parts(batch, parts);
+        patch.reinit(neighbours.cell(cell_of_batch[batch]));
+        const unsigned int n = parts.places.size();
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          {
+            if (add_parts_of(block.points[p], p, patch, parts) > most_left_out)
+              continue;
+            const auto own = gradients.begin() + first + p * block.n_nodes;
+            std::fill_n(own, block.n_nodes, Tensor<1, dim>());
+            for (unsigned int i = 0; i < n; ++i)
+              own[parts.places[i]] += parts.gradients[p * n + i];
+          }
+      }
+    mesh_gradients = std::move(gradients);
+  }
+
+
+
+  template <int dim>
+  double
   CpdiBasis<dim>::add_parts_of(const unsigned int    point,
                                const unsigned int    i,
                                const CellPatch<dim> &patch,
@@ -116,7 +163,7 @@ namespace moraine
       along[d] = own.n == 1 ? intervals(2) :
                  box        ? intervals(4, crossing(*box, corners, d)) :
                               intervals(4);
-    double             sum     = 0;
+    double             sum = 0, left_out = 0;
     const unsigned int n_parts = Utilities::fixed_power<dim>(along[0].n);
     for (unsigned int part = 0; part < n_parts; ++part)
       {
@@ -135,17 +182,21 @@ namespace moraine
                                         map.place(middle),
                                         cell,
                                         N);
+        const double w     = size * std::abs(determinant(map.jacobian(middle)));
         const auto   end   = own.cells.begin() + own.n;
         if (!found || std::find(own.cells.begin(), end, cell) == end)
-          continue;
+          {
+            left_out += w;
+            continue;
+          }
         Point<dim> xi;
         for (unsigned int a = 0; a < n_corners; ++a)
           for (unsigned int d = 0; d < dim; ++d)
             xi[d] += (a >> d) & 1 ? N[a] : 0.;
-        const double w = size * std::abs(determinant(map.jacobian(middle)));
         sum += w;
         add_part(i, cell, xi, w, parts);
       }
+    const double part_left_out = left_out / (sum + left_out);
     if (sum == 0)
       {
         Point<dim> middle;
@@ -161,6 +212,7 @@ namespace moraine
         for (unsigned int a = c * n_corners; a < (c + 1) * n_corners; ++a)
           parts.gradients[a] /= sum;
       }
+    return part_left_out;
   }
 
 
@@ -195,7 +247,8 @@ namespace moraine
 #define INSTANTIATE(dim)                                                  \
   template void CpdiBasis<dim>::evaluate_parts(const unsigned int,        \
                                                const StencilBlock<dim> &, \
-                                               CellParts<dim> &) const;
+                                               CellParts<dim> &) const;   \
+  template void CpdiBasis<dim>::find_mesh_gradients();
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

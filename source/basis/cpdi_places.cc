@@ -110,6 +110,8 @@ namespace moraine
   CpdiBasis<dim>::functions_at(
     const std::vector<typename CarriedPlaces<dim>::Place> &places) const
   {
+    if (gradients_of_mesh)
+      return this->functions_of_cells(places);
     const std::vector<PlaceInDomain> here = nearest_domains(places);
     // The one domain of all ranks.
     std::vector<double>       distances;

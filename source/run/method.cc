@@ -193,7 +193,8 @@ namespace moraine
           of.points,
           material_points<dim>(of.parameters),
           of.bodies,
-          of.parameters.splits_domains());
+          of.parameters.splits_domains(),
+          of.parameters.volumetric() == VolumetricStrain::cell_mean);
       };
       return method;
     }
@@ -218,7 +219,8 @@ namespace moraine
           of.points,
           material_points<dim>(of.parameters),
           of.bodies,
-          of.parameters.splits_domains());
+          of.parameters.splits_domains(),
+          of.parameters.volumetric() == VolumetricStrain::cell_mean);
       };
       return method;
     }

@@ -247,6 +247,21 @@ namespace moraine
 
 
   template <int dim>
+  double
+  State<dim>::mean_part(const unsigned int point, const LameConstants &C) const
+  {
+    if (measure == StrainMeasure::small || !basis.has_domains())
+      return 1;
+    const double K = C.lambda + 2 * C.mu / dim;
+    const double q =
+      deviator(points.stress_field()(points.values(point))).norm();
+    const double own = q * std::min(1., q / C.mu) * std::sqrt(K / C.mu);
+    return 1 - std::min(1., own / K);
+  }
+
+
+
+  template <int dim>
   void
   State<dim>::nodes_of_mean(const unsigned int         active_cell_index,
                             std::vector<unsigned int> &nodes) const

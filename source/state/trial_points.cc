@@ -109,7 +109,10 @@ namespace moraine
     answers.resize(end - begin);
     means.block = block.means.n_cells > 0 ? &block.means : nullptr;
     if (means.block)
-      find_means(nodal_increments);
+      {
+        find_parts_of_means(state, block, begin);
+        find_means(nodal_increments);
+      }
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const Tensor<1, dim> *grad = block.grad_N(begin + i);
@@ -142,6 +145,22 @@ namespace moraine
     else
       ask_small(state, block, begin);
     answer(state, material);
+  }
+
+
+
+  template <int dim>
+  void
+  TrialPoints<dim>::find_parts_of_means(const State<dim>        &state,
+                                        const StencilBlock<dim> &block,
+                                        const unsigned int       begin)
+  {
+    means.parts.resize(points.size());
+    const LameConstants C =
+      state.material(state.material_points().body(block.points[begin]))
+        .elastic_stiffness();
+    for (unsigned int i = 0; i < points.size(); ++i)
+      means.parts[i] = state.mean_part(block.points[begin + i], C);
   }
 
 
@@ -220,7 +239,8 @@ namespace moraine
       }
     for (unsigned int c = 0; c < m; ++c)
       weights[c] /= J;
-    const Tensor<2, dim> mean = std::pow(J / at.J_increment, 1. / dim) * dF;
+    const Tensor<2, dim> mean =
+      std::pow(J / at.J_increment, means.parts[i] / dim) * dF;
     at.gradient = mean - Tensor<2, dim>(unit_symmetric_tensor<dim>());
     return mean;
   }

@@ -48,6 +48,16 @@ namespace moraine
    *
    * All that is added to the matrix is added to the upper triangle of node
    * pairs.
+   *
+   * Where the means are the part a of the change of volume of a point,
+   * TrialPoints::mean_part(), a p is what works on their gradients,
+   * @f$\tau - a p\, 1@f$ stands for @f$\mathrm{dev}\,\tau@f$ in the force
+   * and in what InternalForce adds, @f$P_a^T c\, P_a@f$ with
+   * @f$P_a = I - \frac an 1 \otimes 1@f$ for @f$c_d@f$, with
+   * @f$-\frac{2a}n (\mathrm{dev}\,\tau \otimes 1 + 1 \otimes
+   * \mathrm{dev}\,\tau + (2 - a)\, p\, 1 \otimes 1) + 2 a p\, I@f$, and
+   * @f$a\, (P_a^T t + 2\, \mathrm{dev}\,\tau + 2 (1 - a)\, p\, 1)@f$ and
+   * @f$a^2 k/n^2 + (2 a/n - 1)\, a p@f$ for what Q and k sum.
    */
   template <int dim>
   class MeanDilatation
@@ -125,14 +135,14 @@ namespace moraine
 
 
 
-  /** Of a stress, p = tr/n in dim directions, taken off. */
+  /** Of a stress, the part a of p = tr/n in dim directions, taken off. */
   template <int dim>
   inline double
-  take_mean(dealii::SymmetricTensor<2, 3> &stress)
+  take_mean(dealii::SymmetricTensor<2, 3> &stress, const double a = 1.)
   {
     double p = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      p += stress[d][d] / dim;
+      p += a * stress[d][d] / dim;
     for (unsigned int d = 0; d < dim; ++d)
       stress[d][d] -= p;
     return p;

@@ -33,7 +33,8 @@ namespace moraine
                const PointSet<dim>          &points,
                const CellSeeder<dim>        &seeder,
                const std::vector<Body<dim>> &bodies,
-               const bool                    split = false);
+               const bool                    split             = false,
+               const bool                    gradients_of_mesh = false);
 
     /**
      * Of DomainTools::initial_domains(): vectors from the point to the middles

@@ -36,7 +36,8 @@ namespace moraine
                const PointSet<dim>          &points,
                const CellSeeder<dim>        &seeder,
                const std::vector<Body<dim>> &bodies,
-               const bool                    split = false);
+               const bool                    split             = false,
+               const bool                    gradients_of_mesh = false);
 
     /**
      * DomainTools::initial_domains(). Volumes become those of the domains

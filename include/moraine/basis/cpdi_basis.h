@@ -49,9 +49,8 @@ namespace moraine
     void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const override;
 
-    /** The mesh's gradients at places spread over each domain, where those of
-     * evaluate() are interpolated between its corners. What lies in cells
-     * without a corner is left out, and the rest stands for it. */
+    /** The mesh's gradients at places spread over each domain. What lies in
+     * cells without a corner is left out, and the rest stands for it. */
     void
     evaluate_parts(const unsigned int       batch,
                    const StencilBlock<dim> &block,
@@ -63,7 +62,8 @@ namespace moraine
      * tractions of Sadeghirad et al. (2011). With the functions of the cell
      * itself forces near faces of cells are not in balance with a uniform
      * stress. A place that is further from all domains than a tenth of their
-     * length has the functions of its cell.
+     * length has the functions of its cell; so have all with the gradients of
+     * the mesh, whose stresses are in balance with those.
      */
     PlaceFunctions<dim>
     functions_at(const std::vector<typename CarriedPlaces<dim>::Place> &places)
@@ -95,8 +95,11 @@ namespace moraine
     /**
      * @p seeder made the points of those @p bodies that have a shape; @p split
      * says whether split_domains() does anything; all points are there, as they
-     * are at the start. Collective then. The name of the method, its value of
-     * the key 'Method', is for messages.
+     * are at the start. Collective then. @p gradients_of_mesh : gradients are
+     * means of the mesh's over the domains, those of evaluate_parts(), and not
+     * interpolated between their corners; but where more than
+     * most_left_out of a domain is in cells without a corner. The name of the
+     * method, its value of the key 'Method', is for messages.
      * @throws InputError if the functions are not of degree 1.
      */
     CpdiBasis(const GridSpace<dim>         &space,
@@ -104,7 +107,12 @@ namespace moraine
               const CellSeeder<dim>        &seeder,
               const std::vector<Body<dim>> &bodies,
               const bool                    split,
+              const bool                    gradients_of_mesh,
               const std::string            &name);
+
+    /** A domain that is no longer than a cell has no more of itself in a cell
+     * that it reaches into across a vertex. */
+    static constexpr double most_left_out = 0.25;
 
     /** @f$w_c@f$ and @f$g_c@f$ of a point. */
     virtual void
@@ -211,12 +219,21 @@ namespace moraine
     void
     append_batch(const CornerCells &cells);
 
-    /** Add the parts of a point, the i-th of its batch. */
+    /** The cells of a batch, without parts of points. */
     void
+    begin_parts(const unsigned int batch, CellParts<dim> &parts) const;
+
+    /** Add the parts of a point, the i-th of its batch.
+     * @return the part of its domain that is left out. */
+    double
     add_parts_of(const unsigned int    point,
                  const unsigned int    i,
                  const CellPatch<dim> &patch,
                  CellParts<dim>       &parts) const;
+
+    /** Gradients of all points, as evaluate() gives them. */
+    void
+    find_mesh_gradients();
 
     /** Add a place in a cell with a weight. */
     void
@@ -228,6 +245,7 @@ namespace moraine
 
     const CellSeeder<dim>               seeder;
     const bool                          split;
+    const bool                          gradients_of_mesh;
     const std::string                   name;
     std::vector<bool>                   is_seeded;
     std::vector<dealii::Tensor<2, dim>> half_edges_of_body;
@@ -249,6 +267,9 @@ namespace moraine
     std::vector<CornerCells>   cells_of_batches;
     /** That of the points, by active_cell_index(). */
     std::vector<unsigned int> cell_of_batch;
+    /** Of batches, point major; none if they are interpolated. */
+    std::vector<dealii::Tensor<1, dim>> mesh_gradients;
+    std::vector<std::size_t>            first_gradient; ///< of a batch
   };
 } // namespace moraine
 

@@ -202,6 +202,25 @@ namespace moraine
         cell_means->of_cell(active_cell_index, parts);
     }
 
+    /**
+     * The part a of the change of volume of a point with elastic stiffness C
+     * that is the means' of its cells: 1, but for points with domains at finite
+     * strain. There a mesh that begins each step anew forgets how it moved,
+     * while stress turned with the points, and where only shape resists what
+     * points of a cell do against each other grows from step to step in a
+     * stretched body. So points keep of their own what has the modulus
+     * @f$K_o@f$,
+     * @f[ a = 1 - \min\left(1, \frac{K_o}{K}\right), \qquad
+     *     K_o = q \min\left(1, \frac q\mu\right) \sqrt{\frac K\mu}, \qquad
+     *     q = |\mathrm{dev}\,\sigma_n|, \quad K = \lambda + \frac{2\mu}{n} ,
+     * @f]
+     * found by trial: with it bars stay uniform up to four times their length,
+     * in 20 to 240 steps. Next to nothing where stress is small against @f$\mu
+     * @f$, as in soil.
+     */
+    double
+    mean_part(const unsigned int point, const LameConstants &C) const;
+
     /** The nodes of the cells that have a part in mean_of_cell(), sorted. */
     void
     nodes_of_mean(const unsigned int         active_cell_index,

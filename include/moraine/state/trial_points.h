@@ -78,6 +78,8 @@ namespace moraine
    * @f$A_c = 1 + \sum_a \Delta u_a \otimes b_{ca}@f$, n = dim: in plane strain
    * in the plane (de Souza Neto et al. 1996, 2005). Unlike there, forces and
    * tangent are derivatives of the stored energy, so that they are symmetric.
+   * Of points that keep a part of their own change, State::mean_part(), it is
+   * @f$(\hat J/J)^{a/n}@f$.
    */
   template <int dim>
   class TrialPoints
@@ -135,6 +137,13 @@ namespace moraine
     n_means() const
     {
       return means.block ? means.block->n_cells : 0;
+    }
+
+    /** a of the i-th point, State::mean_part(). */
+    double
+    mean_part(const unsigned int i) const
+    {
+      return means.parts[i];
     }
 
     /** The means' gradients in the trial state at the corners of the c-th cell,
@@ -274,6 +283,7 @@ namespace moraine
       std::vector<double>                 changes;
       std::vector<dealii::Tensor<1, dim>> gradients; ///< in the trial state
       std::vector<double>                 weights;   ///< of points and cells
+      std::vector<double>                 parts;     ///< a of points
     };
 
     /** What find_energies() finds. */
@@ -283,6 +293,12 @@ namespace moraine
       dealii::SymmetricTensor<2, 3> stress; ///< at the start of the step
       dealii::Tensor<2, 3> carried; ///< @f$\Delta F\,\tau_n\,\Delta F^{-1}@f$
     };
+
+    /** What the means are to the points, from the state at the start. */
+    void
+    find_parts_of_means(const State<dim>        &state,
+                        const StencilBlock<dim> &block,
+                        const unsigned int       begin);
 
     /** Change of volume and gradients of the cells in the trial state. */
     void
