@@ -255,7 +255,7 @@ namespace moraine
     const double K = C.lambda + 2 * C.mu / dim;
     const double q =
       deviator(points.stress_field()(points.values(point))).norm();
-    const double own = q * std::min(1., q / C.mu) * std::sqrt(K / C.mu);
+    const double own = 6 * q * std::min(1., q / C.mu) * std::sqrt(K / C.mu);
     return 1 - std::min(1., own / K);
   }
 

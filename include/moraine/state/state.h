@@ -211,12 +211,11 @@ namespace moraine
      * stretched body. So points keep of their own what has the modulus
      * @f$K_o@f$,
      * @f[ a = 1 - \min\left(1, \frac{K_o}{K}\right), \qquad
-     *     K_o = q \min\left(1, \frac q\mu\right) \sqrt{\frac K\mu}, \qquad
-     *     q = |\mathrm{dev}\,\sigma_n|, \quad K = \lambda + \frac{2\mu}{n} ,
-     * @f]
-     * found by trial: with it bars stay uniform up to four times their length,
-     * in 20 to 240 steps. Next to nothing where stress is small against @f$\mu
-     * @f$, as in soil.
+     *     K_o = 6\, q \min\left(1, \frac q\mu\right) \sqrt{\frac K\mu},
+     *     \qquad q = |\mathrm{dev}\,\sigma_n|, \quad
+     *     K = \lambda + \frac{2\mu}{n} , @f]
+     * found by trial, doc/theory/locking.md. Next to nothing where stress is
+     * small against @f$\mu@f$, as in soil.
      */
     double
     mean_part(const unsigned int point, const LameConstants &C) const;
