@@ -26,6 +26,10 @@ namespace moraine
     constexpr double told_share_of_motion = 0.02;
     constexpr double told_share_of_cell   = 1e-3;
 
+    /** Of a cell: material that has come this far behind a boundary is told of.
+     */
+    constexpr double told_depth = 0.1;
+
     /** Of the size of a body: parts that move by more against each other have
      * turned by 20 degrees, or stretched by a third. */
     constexpr double told_difference = 0.35;
@@ -167,6 +171,7 @@ namespace moraine
     holds.stage_begins();
     crossings.stage_begins();
     slides.stage_begins();
+    depths.clear();
     if (motion_starts)
       energy.motion_starts();
     if (!bodies_change)
@@ -234,7 +239,10 @@ namespace moraine
     const double             t = time.time();
     std::vector<std::string> found;
     for (const BoundaryReport<dim> &report : reports)
-      found.push_back(missed_boundary(t, report, of_points));
+      {
+        found.push_back(missed_boundary(t, report, of_points));
+        found.push_back(passed_boundary(t, report));
+      }
     for (const std::string &text : ends.look(reports, t))
       found.push_back(text);
     found.push_back(points_apart(t));
@@ -283,6 +291,29 @@ namespace moraine
       << " % of the largest motion in the step to t = " << t
       << "; smaller cells or steps, or one that ends on faces of cells, bring "
          "it closer";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepChecks<dim>::passed_boundary(const double               t,
+                                   const BoundaryReport<dim> &report)
+  {
+    const auto [depth, is_new] =
+      depths.try_emplace(report.name, report.penetration);
+    if (is_new || missed.count(report.name) > 0 ||
+        !(report.penetration - depth->second >
+          told_depth * model.mesh->cell_size()))
+      return "";
+    depth->second = std::numeric_limits<double>::infinity();
+    std::ostringstream text;
+    text << "boundary '" << report.name << "': material has passed it by "
+         << report.penetration << " in the step to t = " << t
+         << ", in cells that have let go of it, as beside another boundary, or "
+            "that do not see it: its force and the stress there are too small; "
+            "smaller cells help";
     return text.str();
   }
 
@@ -436,6 +467,15 @@ namespace moraine
     archive.write("checks/parts_of_bodies", n_parts);
     archive.write_lines("checks/missed_boundaries",
                         {missed.begin(), missed.end()});
+    std::vector<std::string> names_of_depths;
+    std::vector<double>      behind;
+    for (const auto &[name, depth] : depths)
+      {
+        names_of_depths.push_back(name);
+        behind.push_back(depth);
+      }
+    archive.write_lines("checks/boundaries_with_depths", names_of_depths);
+    archive.write("checks/depths_behind_boundaries", behind, 1, "length");
     archive.write("checks/stretched_bodies",
                   std::vector<unsigned int>(stretched.begin(),
                                             stretched.end()));
@@ -458,9 +498,14 @@ namespace moraine
   void
   StepChecks<dim>::read(const Archive &archive)
   {
-    n_parts              = archive.integers("checks/parts_of_bodies");
-    const auto names     = archive.lines("checks/missed_boundaries");
-    missed               = {names.begin(), names.end()};
+    n_parts                    = archive.integers("checks/parts_of_bodies");
+    const auto names           = archive.lines("checks/missed_boundaries");
+    missed                     = {names.begin(), names.end()};
+    const auto names_of_depths = archive.lines("checks/boundaries_with_depths");
+    const auto behind = archive.numbers("checks/depths_behind_boundaries", 1);
+    depths.clear();
+    for (unsigned int i = 0; i < behind.size(); ++i)
+      depths[names_of_depths[i]] = behind[i];
     const auto bodies_of = [&](const std::string &name) {
       const std::vector<unsigned int> bodies = archive.integers(name);
       return std::set<unsigned int>(bodies.begin(), bodies.end());

@@ -129,3 +129,63 @@ for end, steps in ((0.65, 13), (0.7, 14)):
     text(f"pressed to t = {end}", re.findall(
         r"boundary '(\w+)': by t = (\S+) material has come past its end",
         " ".join(result.summary.get("warnings", []))))
+
+# A cube of two cells between plates: beside the rollers cells let go of the upper one.
+CUBE = """
+set Dimension = 3
+subsection Mesh
+  set Lower corner = -1, -1, -1
+  set Upper corner = 3, 3, 4
+  set Cell size    = 1
+end
+subsection Method
+  set Method = GIMP
+  set Strain = finite
+end
+subsection Materials
+  subsection clay
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection cube
+    set Lower corner = 0.13, 0.13, 0.13
+    set Upper corner = 2.13, 2.13, 2.13
+  end
+end
+subsection Boundaries
+"""
+for name, point, normal, motion in (
+        ("left", "0.13, 0, 0", "-1, 0, 0", ""),
+        ("front", "0, 0.13, 0", "0, -1, 0", ""),
+        ("bottom", "0, 0, 0.13", "0, 0, -1", ""),
+        ("top", "0, 0, 2.13", "0, 0, 1", "set Translation = 0; 0; -0.6*t")):
+    CUBE += f"""
+  subsection {name}
+    set Surface    = plane
+    set Point      = {point}
+    set Normal     = {normal}
+    set Constraint = roller
+    {motion}
+  end
+"""
+CUBE += """
+end
+subsection Time
+  set Steps = 10
+end
+subsection Output
+  set Points = false
+  set Mesh   = false
+end
+"""
+cube = folder / "cube.prm"
+cube.write_text(CUBE)
+for h in 1, 0.5:
+    result = run(cube, {"Mesh/Cell size": h})
+    depth = result.history()[-1]["penetration of top"]
+    text(f"cube, h = {h}: material beyond the plate by more than a tenth of a cell",
+         depth > 0.1 * h)
+    text("  told of", re.findall(r"boundary '(\w+)': material has passed it",
+                                 " ".join(result.summary.get("warnings", []))))

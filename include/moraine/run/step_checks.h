@@ -15,6 +15,7 @@
 #include <moraine/time/time_control.h>
 
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -48,10 +49,10 @@ namespace moraine
     /**
      * What is to be told of the step that @p time has accepted, with the
      * boundaries' @p reports: that the material misses one of them, with
-     * @p largest_motion of a node in the step and that @p of_points; what
-     * EndWatch finds; that points of a body drift apart; that a body moves far
-     * or is turned at small strain; that material that yields slides; that
-     * energy grows without work.
+     * @p largest_motion of a node in the step and that @p of_points, or has
+     * passed it; what EndWatch finds; that points of a body drift apart; that a
+     * body moves far or is turned at small strain; that material that yields
+     * slides; that energy grows without work.
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
@@ -85,6 +86,11 @@ namespace moraine
                     const BoundaryReport<dim> &report,
                     const double               largest_motion);
 
+    /** That material has come behind a boundary, unless missed_boundary() has
+     * told of it: where cells let go, nothing else shows it. */
+    std::string
+    passed_boundary(const double t, const BoundaryReport<dim> &report);
+
     /** That points without domains that follow them are stretched apart. */
     std::string
     points_apart(const double t);
@@ -100,17 +106,20 @@ namespace moraine
 
     const Scene<dim>         &scene;
     const Model<dim>         &model;
-    std::vector<unsigned int> n_parts;   ///< of each body
-    std::set<std::string>     missed;    ///< boundaries told of
-    std::set<unsigned int>    stretched; ///< bodies told of
-    std::set<unsigned int>    far;       ///< the same, as they moved far
-    EnergyWatch               energy;
-    HoldWatch<dim>            holds;
-    CrossingWatch<dim>        crossings;
-    TurnWatch<dim>            turns;
-    SlideWatch                slides;
-    PassWatch<dim>            passes;
-    EndWatch<dim>             ends;
+    std::vector<unsigned int> n_parts; ///< of each body
+    std::set<std::string>     missed;  ///< boundaries told of
+    /** How far points were behind boundaries when the stage began, by name;
+     * infinite where it was told of. */
+    std::map<std::string, double> depths;
+    std::set<unsigned int>        stretched; ///< bodies told of
+    std::set<unsigned int>        far;       ///< the same, as they moved far
+    EnergyWatch                   energy;
+    HoldWatch<dim>                holds;
+    CrossingWatch<dim>            crossings;
+    TurnWatch<dim>                turns;
+    SlideWatch                    slides;
+    PassWatch<dim>                passes;
+    EndWatch<dim>                 ends;
     /** Energy that the integrator had made by the last step, over the largest
      * part; in the first step none is told of. */
     double share_made     = std::numeric_limits<double>::infinity();
