@@ -28,7 +28,7 @@ namespace moraine
 
     /** Of a cell: material that has come this far behind a boundary is told of.
      */
-    constexpr double told_depth = 0.1;
+    constexpr double told_passing = 0.1;
 
     /** Of the size of a body: parts that move by more against each other have
      * turned by 20 degrees, or stretched by a third. */
@@ -303,9 +303,17 @@ namespace moraine
   {
     const auto [depth, is_new] =
       depths.try_emplace(report.name, report.penetration);
-    if (is_new || missed.count(report.name) > 0 ||
+    // HoldWatch tells where that moves it through the surface.
+    const bool has_displacement =
+      std::any_of(scene.boundaries.begin(),
+                  scene.boundaries.end(),
+                  [&report](const auto &boundary) {
+                    return boundary.first == report.name &&
+                           !boundary.second.displacement.empty();
+                  });
+    if (is_new || has_displacement || missed.count(report.name) > 0 ||
         !(report.penetration - depth->second >
-          told_depth * model.mesh->cell_size()))
+          told_passing * model.mesh->cell_size()))
       return "";
     depth->second = std::numeric_limits<double>::infinity();
     std::ostringstream text;
