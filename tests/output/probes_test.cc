@@ -118,7 +118,7 @@ namespace moraine
     probes.write(before);
     EXPECT_EQ(before.integers("probes/point")[0], 99u);
     written.write("probes/point", std::vector<unsigned int>{100, 0});
-    written.write("probes/body", std::vector<unsigned int>{1, 0});
+    written.write("probes/body", std::vector<unsigned int>{0, 1});
     written.write("probes/has_left", std::vector<unsigned int>{0, 0});
     // How far they went, what is ahead of their points, and does not count.
     written.write(
