@@ -233,7 +233,7 @@ namespace moraine
     const std::function<Tensor<1, dim>(const unsigned int, const unsigned int)>
       &velocity) const
   {
-    // Weights are no less than 0: quadratic functions are in places.
+    // Weights by the size of functions: quadratic ones are below 0 in places.
     const GridSpace<dim> &space = state.grid();
     const Basis<dim>     &basis = state.point_basis();
     NodeValues            masses(space.n_nodes()), mean(space.n_nodes());

@@ -46,6 +46,7 @@ namespace moraine
     , materials(std::move(materials_))
     , after_step(mesh_after_step)
     , measure(measure)
+    , keeps_parts(measure == StrainMeasure::finite && basis.has_domains())
     , fitted_weights(weights == PointWeights::fitted_to_cells ?
                        std::make_optional<FittedWeights<dim>>(points) :
                        std::nullopt)
@@ -250,7 +251,7 @@ namespace moraine
   double
   State<dim>::mean_part(const unsigned int point, const LameConstants &C) const
   {
-    if (measure == StrainMeasure::small || !basis.has_domains())
+    if (!keeps_parts)
       return 1;
     const double K = C.lambda + 2 * C.mu / dim;
     const double q =

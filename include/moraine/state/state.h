@@ -395,6 +395,7 @@ namespace moraine
     const std::vector<std::shared_ptr<const Material>> materials;
     const MeshAfterStep                                after_step;
     const StrainMeasure                                measure;
+    const bool                                         keeps_parts; ///< a < 1
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
     std::optional<CellMeans<dim>>                      cell_means;
