@@ -93,6 +93,7 @@ namespace moraine
               pieces.emplace_back();
               pieces.back().piece.owner = owner;
               pieces.back().piece.cell  = points[q].cell;
+              pieces.back().piece.h     = points[q].h;
               sum.clear();
             }
           auto &[piece, nodes] = pieces.back();

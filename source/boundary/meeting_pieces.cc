@@ -3,11 +3,14 @@
 
 #include <moraine/boundary/meeting_pieces.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -27,6 +30,10 @@ namespace moraine
 
     /** Weight of differences in cells against what is missed. */
     constexpr double weight_of_differences = 1e-6;
+
+    /** Solutions with what the last one missed added to the values: differences
+     * in cells then take next to nothing of what can be met. */
+    constexpr unsigned int n_corrections = 4;
 
     using Node = types::global_dof_index;
 
@@ -69,6 +76,10 @@ namespace moraine
             const unsigned int               reference,
             const double                     scale) const;
 
+      /** Whether one linear field satisfies all pieces. */
+      bool
+      all_meet_a_linear_field() const;
+
     private:
       /** @f$M (g - g_r)@f$ at a place of a piece in a span. */
       Tensor<1, dim>
@@ -85,16 +96,27 @@ namespace moraine
       void
       find_differences();
 
-      /** Add the equations of a piece whose nodes have the numbers @p at, with
-       * a right-hand side for each span. */
+      void
+      find_matrices();
+
+      /** The same of a linear field, @f$u(x) = c + A x@f$, which the functions
+       * of any cells have, tied or not. */
+      bool
+      a_linear_field_satisfies(const std::vector<unsigned int> &some,
+                               const unsigned int               reference,
+                               const double                     scale) const;
+
+      /** Add the equations of a piece whose free nodes have the numbers @p at,
+       * with a right-hand side for each span. */
       void
       add(const unsigned int               piece,
           const std::vector<unsigned int> &at,
           const unsigned int               reference,
-          LAPACKFullMatrix<double>        &matrix,
+          LAPACKFullMatrix<double>        &constraint,
+          LAPACKFullMatrix<double>        &differences,
           LAPACKFullMatrix<double>        &sides) const;
 
-      /** Whether @p u satisfies them. */
+      /** Whether @p u of nodes with the numbers @p at satisfies a piece. */
       bool
       satisfies(const LAPACKFullMatrix<double>  &u,
                 const unsigned int               piece,
@@ -108,6 +130,8 @@ namespace moraine
       unsigned int                                  n_spans = 0;
       /** By piece, place, owner and span. */
       std::vector<std::vector<std::vector<std::vector<Tensor<1, dim>>>>> values;
+      /** Of the constraint of each piece, by its nodes and components. */
+      std::vector<FullMatrix<double>>           matrices;
       std::vector<double>                       differences;
       std::map<Node, std::vector<unsigned int>> pieces_of_nodes;
     };
@@ -140,6 +164,27 @@ namespace moraine
             n_spans = own.size();
           }
       find_differences();
+      find_matrices();
+    }
+
+
+
+    template <int dim>
+    void
+    Meeting<dim>::find_matrices()
+    {
+      for (const auto &piece : pieces)
+        {
+          const unsigned int n = piece.nodes.size();
+          matrices.emplace_back(dim * n, dim * n);
+          for (const auto &[x, M, N] : piece.places)
+            for (unsigned int a = 0; a < n; ++a)
+              for (unsigned int b = 0; b < n; ++b)
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    matrices.back()(dim * a + i, dim * b + j) +=
+                      N[a] * N[b] / piece.places.size() * M[i][j];
+        }
     }
 
 
@@ -255,35 +300,55 @@ namespace moraine
     Meeting<dim>::add(const unsigned int               piece,
                       const std::vector<unsigned int> &at,
                       const unsigned int               reference,
-                      LAPACKFullMatrix<double>        &matrix,
+                      LAPACKFullMatrix<double>        &constraint,
+                      LAPACKFullMatrix<double>        &differences,
                       LAPACKFullMatrix<double>        &sides) const
     {
       const unsigned int n        = at.size();
       const auto        &places   = pieces[piece].places;
       const unsigned int n_places = places.size();
       for (unsigned int k = 0; k < n_places; ++k)
-        {
-          const auto &N = places[k].N;
-          const auto &M = places[k].M;
-          for (unsigned int s = 0; s < n_spans; ++s)
-            {
-              const auto g = relative(piece, k, reference, s);
-              for (unsigned int a = 0; a < n; ++a)
-                for (unsigned int i = 0; i < dim; ++i)
-                  sides(dim * at[a] + i, s) += N[a] / n_places * g[i];
-            }
-          for (unsigned int a = 0; a < n; ++a)
-            for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int s = 0; s < n_spans; ++s)
+          {
+            const auto g = relative(piece, k, reference, s) / n_places;
+            for (unsigned int a = 0; a < n; ++a)
               for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int j = 0; j < dim; ++j)
-                  matrix(dim * at[a] + i, dim * at[b] + j) +=
-                    N[a] * N[b] / n_places * M[i][j];
-        }
+                sides(dim * at[a] + i, s) += places[k].N[a] * g[i];
+          }
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int i = 0; i < dim; ++i)
-            matrix(dim * at[a] + i, dim * at[b] + i) +=
-              weight_of_differences * ((a == b ? 1. : 0.) - 1. / n);
+            {
+              const unsigned int row = dim * at[a] + i;
+              differences(row, dim * at[b] + i) += (a == b ? 1. : 0.) - 1. / n;
+              for (unsigned int j = 0; j < dim; ++j)
+                constraint(row, dim * at[b] + j) +=
+                  matrices[piece](dim * a + i, dim * b + j);
+            }
+    }
+
+
+
+    /** Solve for @p u, its right-hand sides on entry: those increments with
+     * little of @p penalty that satisfy @p constraint if any do. */
+    void
+    satisfy(const LAPACKFullMatrix<double> &constraint,
+            LAPACKFullMatrix<double>       &penalised,
+            LAPACKFullMatrix<double>       &u)
+    {
+      const LAPACKFullMatrix<double> wanted = u;
+      LAPACKFullMatrix<double>       sides = u, met = u;
+      penalised.set_property(LAPACKSupport::symmetric);
+      penalised.compute_cholesky_factorization();
+      penalised.solve(u);
+      for (unsigned int k = 0; k < n_corrections; ++k)
+        {
+          constraint.mmult(met, u);
+          sides.add(1., wanted);
+          sides.add(-1., met);
+          u = sides;
+          penalised.solve(u);
+        }
     }
 
 
@@ -328,10 +393,104 @@ namespace moraine
 
     template <int dim>
     bool
+    Meeting<dim>::a_linear_field_satisfies(
+      const std::vector<unsigned int> &some,
+      const unsigned int               reference,
+      const double                     scale) const
+    {
+      constexpr unsigned int n      = dim * (dim + 1);
+      const Point<dim>       middle = pieces[some[0]].places[0].x;
+      double                 length = 0, h = 0;
+      for (const unsigned int p : some)
+        {
+          h = std::max(h, pieces[p].h);
+          for (const auto &place : pieces[p].places)
+            length = std::max(length, place.x.distance(middle));
+        }
+      if (!(length > 0))
+        return false;
+      const auto functions = [&](const Point<dim> &x) {
+        std::array<double, dim + 1> of;
+        of[dim] = 1;
+        for (unsigned int j = 0; j < dim; ++j)
+          of[j] = (x[j] - middle[j]) / length;
+        return of;
+      };
+
+      LAPACKFullMatrix<double> constraint(n, n), u(n, n_spans);
+      for (const unsigned int p : some)
+        for (unsigned int k = 0; k < pieces[p].places.size(); ++k)
+          {
+            const auto &place = pieces[p].places[k];
+            const auto  N     = functions(place.x);
+            for (unsigned int s = 0; s < n_spans; ++s)
+              {
+                const auto g = relative(p, k, reference, s);
+                for (unsigned int i = 0; i < n; ++i)
+                  u(i, s) += N[i / dim] * g[i % dim];
+              }
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                constraint(i, j) +=
+                  N[i / dim] * N[j / dim] * place.M[i % dim][j % dim];
+          }
+      LAPACKFullMatrix<double> penalised = constraint;
+      const double             small     = 1e-10 * constraint.trace();
+      for (unsigned int i = 0; i < n; ++i)
+        penalised(i, i) += small;
+      satisfy(constraint, penalised, u);
+
+      for (unsigned int s = 0; s < n_spans; ++s)
+        {
+          double square = 0;
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            square += u(i, s) * u(i, s);
+          if (std::sqrt(dim * square) * h / 2 >
+              largest_difference * scale * length)
+            return false;
+          for (const unsigned int p : some)
+            for (unsigned int k = 0; k < pieces[p].places.size(); ++k)
+              {
+                const auto     N = functions(pieces[p].places[k].x);
+                Tensor<1, dim> here;
+                for (unsigned int i = 0; i < n; ++i)
+                  here[i % dim] += N[i / dim] * u(i, s);
+                if ((pieces[p].places[k].M * here -
+                     relative(p, k, reference, s))
+                      .norm() > tolerance_of_pieces * scale)
+                  return false;
+              }
+        }
+      return true;
+    }
+
+
+
+    template <int dim>
+    bool
+    Meeting<dim>::all_meet_a_linear_field() const
+    {
+      double smallest = 0;
+      for (const double by : differences)
+        if (by > 0 && (smallest == 0 || by < smallest))
+          smallest = by;
+      std::vector<unsigned int> all(pieces.size());
+      std::iota(all.begin(), all.end(), 0);
+      return smallest == 0 ||
+             a_linear_field_satisfies(all, pieces[0].owner, smallest);
+    }
+
+
+
+    template <int dim>
+    bool
     Meeting<dim>::agree(const std::vector<unsigned int> &some,
                         const unsigned int               reference,
                         const double                     scale) const
     {
+      if (a_linear_field_satisfies(some, reference, scale))
+        return true;
+
       std::map<Node, unsigned int>           numbers;
       std::vector<std::vector<unsigned int>> at;
       for (const unsigned int p : some)
@@ -342,14 +501,16 @@ namespace moraine
               numbers.emplace(node, numbers.size()).first->second);
         }
       const unsigned int       n = dim * numbers.size();
-      LAPACKFullMatrix<double> matrix(n, n), u(n, n_spans);
+      LAPACKFullMatrix<double> constraint(n, n), differences(n, n),
+        u(n, n_spans);
       for (unsigned int k = 0; k < some.size(); ++k)
-        add(some[k], at[k], reference, matrix, u);
+        add(some[k], at[k], reference, constraint, differences, u);
+      LAPACKFullMatrix<double> penalised = constraint;
+      penalised.add(weight_of_differences, differences);
       // What nothing holds stays.
       for (unsigned int i = 0; i < n; ++i)
-        matrix(i, i) += 1e-4 * weight_of_differences;
-      matrix.compute_lu_factorization();
-      matrix.solve(u);
+        penalised(i, i) += 1e-4 * weight_of_differences;
+      satisfy(constraint, penalised, u);
       for (unsigned int k = 0; k < some.size(); ++k)
         if (!satisfies(u, some[k], at[k], reference, scale))
           return false;
@@ -380,6 +541,8 @@ namespace moraine
             return meeting.is_in_the_way(q, p);
           });
       }
+    if (meeting.all_meet_a_linear_field())
+      return decisions;
     taken.assign(pieces.size(), false);
     for (const unsigned int p : meeting.order())
       {

@@ -27,6 +27,7 @@ namespace
     of.owner = owner;
     of.cell  = cell;
     of.area  = end - begin;
+    of.h     = 1;
     of.nodes = {cell, cell + 1};
     for (const double s : {0.2, 0.8})
       {

@@ -39,6 +39,7 @@ namespace moraine
     /** A node that is prescribed cannot let go. */
     bool   must_hold = false;
     double area      = 0; ///< [length^(dim-1)]
+    double h         = 0; ///< size of the cell; of nodes zero
     /** Names of nodes that ranks share. */
     std::vector<dealii::types::global_dof_index> nodes;
     std::vector<Place>                           places;
@@ -47,7 +48,7 @@ namespace moraine
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &owner &cell &must_hold &area &nodes &places;
+      archive &owner &cell &must_hold &area &h &nodes &places;
     }
   };
 
@@ -71,12 +72,13 @@ namespace moraine
 
   /**
    * Where owners meet whose motions nodes cannot follow together, or only if
-   * they move by several times what the motions differ by, some pieces have to
-   * let go. One after the other pieces are taken that agree with those taken
+   * they move by several times the difference of the motions, some pieces have
+   * to let go. If one linear field meets the values of all pieces, all hold.
+   * Else pieces are taken one after the other if they agree with those taken
    * before: first those that see least of nodes another one moves differently,
-   * of two alike the larger one. Pieces agree if the nodal increments with
-   * least differences in cells satisfy all, relative to the motion of one
-   * owner: rigid motions are no difference.
+   * of two alike the larger one. Pieces agree if a linear field satisfies all,
+   * or the nodal increments with least differences in cells do, relative to the
+   * motion of one owner: rigid motions are no difference.
    *
    * @param pieces all that share nodes with one of another owner, of all ranks
    * @param increments of owners
