@@ -137,6 +137,20 @@ namespace moraine
 
 
 
+    /** @throws InputError, on all ranks, where what a piece itself prescribes
+     * is not a number. */
+    template <int dim>
+    void
+    check_own_values(const std::vector<MeetingPiece<dim>>         &pieces,
+                     const std::vector<PrescribedIncrements<dim>> &increments)
+    {
+      for (const auto &piece : pieces)
+        for (const auto &place : piece.places)
+          increments[piece.owner](place.x);
+    }
+
+
+
     /** Flags for nodes that see pieces or conditions of several owners.
      * Collective. */
     template <int dim>
@@ -285,7 +299,12 @@ namespace moraine
                              }),
                  pieces.end());
 
-    take_meetings(pieces, decide_meetings(pieces, increments(context.t_start)));
+    std::vector<PrescribedIncrements<dim>> of_owners =
+      increments(context.t_start);
+    check_own_values(pieces, of_owners);
+    for (auto &of_owner : of_owners)
+      of_owner = if_defined<dim>(of_owner);
+    take_meetings(pieces, decide_meetings(pieces, of_owners));
     check_that_all_hold(context);
     searches = std::move(now);
     return false;
@@ -312,8 +331,6 @@ namespace moraine
                                 times[k]));
         return all;
       });
-    for (auto &of_owner : of_owners)
-      of_owner = if_defined<dim>(of_owner);
     return of_owners;
   }
 

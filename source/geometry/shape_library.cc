@@ -263,8 +263,8 @@ namespace moraine
         const auto surface = found->second ? found->second->rim(part) : nullptr;
         if (!surface)
           wrong("Body",
-                "a body with a rim; points of a file and the whole mesh have "
-                "none");
+                "a body with a rim; points of a file and cells of the mesh "
+                "have none");
         return surface;
       }
 
@@ -336,7 +336,8 @@ namespace moraine
   ShapePointer<dim>
   make_shape(const ShapeParameters<dim> &p,
              const NamedShapes<dim>     &known,
-             const std::string          &section)
+             const std::string          &section,
+             const ShapeOfGroups<dim>   &of_groups)
   {
     const ShapeMaker<dim> maker(p, known, section);
     const Placement<dim>  placement = make_placement(p, section);
@@ -349,12 +350,15 @@ namespace moraine
           ": set, but the " + why);
     };
     if (p.kind() == "mesh")
-      refuse_placement("shape 'mesh' is all of the mesh and cannot move in it");
+      refuse_placement(
+        "shape 'mesh' is cells of the mesh and cannot move in it");
     if (p.is_point_file())
       {
         refuse_placement("points are where 'Point file' says");
         return nullptr;
       }
+    if (p.given("Group"))
+      return of_groups(p.words("Group"), section);
     const auto shape = maker.shape();
     return turns || moves ? make_moved(shape, placement) : shape;
   }
@@ -364,7 +368,8 @@ namespace moraine
   template <int dim>
   NamedShapes<dim>
   make_shapes(const std::map<std::string, ShapeParameters<dim>> &bodies,
-              const std::string                                 &section)
+              const std::string                                 &section,
+              const ShapeOfGroups<dim>                          &of_groups)
   {
     NamedShapes<dim>      made;
     std::set<std::string> under_way;
@@ -384,7 +389,7 @@ namespace moraine
             check_operand(operand, bodies, here);
             make(operand, here);
           }
-        made[name] = make_shape(bodies.at(name), made, here);
+        made[name] = make_shape(bodies.at(name), made, here, of_groups);
         under_way.erase(name);
       };
     for (const auto &body : bodies)
@@ -416,16 +421,19 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                        \
-  template Placement<dim>    make_placement(const ShapeParameters<dim> &,       \
-                                            const std::string &);               \
-  template ShapePointer<dim> make_shape(const ShapeParameters<dim> &,           \
-                                        const NamedShapes<dim> &,               \
-                                        const std::string &);                   \
-  template NamedShapes<dim>  make_shapes(                                       \
-     const std::map<std::string, ShapeParameters<dim>> &, const std::string &); \
-  template SurfacePointer<dim> make_surface(const ShapeParameters<dim> &,       \
-                                            const NamedShapes<dim> &,           \
+#define INSTANTIATE(dim)                                                  \
+  template Placement<dim>    make_placement(const ShapeParameters<dim> &, \
+                                            const std::string &);         \
+  template ShapePointer<dim> make_shape(const ShapeParameters<dim> &,     \
+                                        const NamedShapes<dim> &,         \
+                                        const std::string &,              \
+                                        const ShapeOfGroups<dim> &);      \
+  template NamedShapes<dim>  make_shapes(                                 \
+     const std::map<std::string, ShapeParameters<dim>> &,                 \
+     const std::string &,                                                 \
+     const ShapeOfGroups<dim> &);                                         \
+  template SurfacePointer<dim> make_surface(const ShapeParameters<dim> &, \
+                                            const NamedShapes<dim> &,     \
                                             const std::string &);
   INSTANTIATE(2)
   INSTANTIATE(3)

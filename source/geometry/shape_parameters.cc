@@ -40,7 +40,7 @@ b s 3  | cylinder | (3D) solid or hollow (a surface: its side) | Axis start, Axi
 b   23 | half-space | all behind a plane | Point, Normal |
   s 23 | plane | without ends | Point, Normal | Flip
 b s 23 | expression | where it is positive (a surface: zero) | Expression | Extent lower corner, Extent upper corner
-b   23 | mesh | all cells of the mesh | |
+b   23 | mesh | the cells of the mesh, or those of groups | | Group
 b   23 | union | in any operand | Operands |
 b   23 | intersection | in all operands | Operands |
 b   23 | difference | in the first operand only | Operands |
@@ -71,6 +71,7 @@ b s 23 | Normal | point | Normal of this plane, pointing out of the body; any le
 b s 23 | Expression | text | Positive inside the body; in x, y (and z), muParser syntax. A number wherever there are bodies. Details smaller than a point's share of its cell may be missed
   s 23 | Extent lower corner | point | Lower corner of the box that limits the surface of an expression [length]; no limit if left out
   s 23 | Extent upper corner | point | Upper corner of this box [length]
+b   23 | Group | words | Names of physical groups of cells (gmsh) of a mesh file: those that the body fills. A group without a name is called by its number. Needed if the file has several groups; what no body names stays empty
 b   23 | Operands | words | Names of the bodies that a union, intersection or difference is made from, as they are placed. These bodies are not simulated themselves
 b   23 | Point file | text | CSV file with columns x, y (, z), volume and, if wanted, more; its path is seen from the folder of the scene
 b   23 | Rotation angle | number | Turns the body counter-clockwise [degrees]

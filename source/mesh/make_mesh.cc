@@ -428,6 +428,33 @@ namespace moraine
 
 
   template <int dim>
+  CellGroups
+  groups_of_cells(const MeshParameters<dim> &parameters,
+                  const Triangulation<dim>  &cells)
+  {
+    CellGroups groups;
+    if (parameters.type != "file")
+      return groups;
+    std::set<types::material_id> ids;
+    for (const auto &cell : cells.active_cell_iterators())
+      ids.insert(cell->material_id());
+    std::ifstream in(parameters.file);
+    const auto    named =
+      physical_names_of_msh(in, parameters.extrusion_layers > 0 ? 2 : dim);
+    for (const types::material_id id : ids)
+      {
+        std::string name = std::to_string(id);
+        for (const auto &[given, number] : named)
+          if (number == id)
+            name = given;
+        groups.emplace_back(name, id);
+      }
+    return groups;
+  }
+
+
+
+  template <int dim>
   void
   require_memory_for_cells(const double n, const std::string &where)
   {
@@ -469,12 +496,14 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                                 \
-  template MeshSides                 make_mesh(const MeshParameters<dim> &,              \
-                                               Triangulation<dim> &);                    \
-  template void                      require_memory_for_cells<dim>(const double,         \
+#define INSTANTIATE(dim)                                                  \
+  template MeshSides  make_mesh(const MeshParameters<dim> &,              \
+                                Triangulation<dim> &);                    \
+  template CellGroups groups_of_cells(const MeshParameters<dim> &,        \
+                                      const Triangulation<dim> &);        \
+  template void       require_memory_for_cells<dim>(const double,         \
                                               const std::string &); \
-  template std::optional<Point<dim>> find_inverted_cell(                                 \
+  template std::optional<Point<dim>> find_inverted_cell(                  \
     const Triangulation<dim> &, const std::vector<Point<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

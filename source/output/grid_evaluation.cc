@@ -8,6 +8,7 @@
 
 #include <deal.II/fe/fe_q.h>
 
+#include <cmath>
 #include <memory>
 
 namespace moraine
@@ -16,16 +17,23 @@ namespace moraine
 
   namespace
   {
-    /** Unit cell coordinates of @p place, if it is in the cell. */
+    /** Less of a cell gets no points (see CellSeeder). */
+    constexpr double smallest_filled_part = 1e-12;
+
+
+
+    /** Unit cell coordinates of @p place, if it is in the cell or nearer to it
+     * than @p margin. */
     template <int dim>
     bool
     find_in_cell(const BackgroundMesh<dim>                        &mesh,
                  const typename BackgroundMesh<dim>::CellIterator &cell,
                  const Point<dim>                                 &place,
+                 const double                                      margin,
                  Point<dim>                                       &unit)
     {
       BoundingBox<dim> box = cell->bounding_box();
-      box.extend(mesh.round_off());
+      box.extend(margin);
       if (!box.point_inside(place))
         return false;
       try
@@ -37,7 +45,7 @@ namespace moraine
           return false;
         }
       return GeometryInfo<dim>::is_inside_unit_cell(
-        unit, mesh.round_off() / cell->minimum_vertex_distance());
+        unit, margin / cell->minimum_vertex_distance());
     }
   } // namespace
 
@@ -53,32 +61,41 @@ namespace moraine
 
     return [&space, &values, element, lexicographic](const Point<dim> &place,
                                                      Tensor<1, dim>   &result) {
-      const auto    &mesh      = space.mesh();
-      constexpr auto nowhere   = numbers::invalid_unsigned_int;
-      unsigned int   cell_here = nowhere;
-      Tensor<1, dim> value_here;
-      Point<dim>     unit;
-      for (const auto &cell : mesh.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned() && space.is_active(cell) &&
-            find_in_cell<dim>(mesh, cell, place, unit))
-          {
-            const unsigned int *nodes = space.cell_nodes(cell);
-            for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
-              value_here +=
-                element->shape_value(lexicographic[a], unit) * values[nodes[a]];
-            cell_here = cell->active_cell_index();
-            break;
-          }
+      const auto &mesh = space.mesh();
+      // The corner of a body may reach into a cell by so little that it has no
+      // points there; then a cell beside it counts.
+      for (const double margin :
+           {mesh.round_off(),
+            2 * mesh.cell_size() * std::pow(smallest_filled_part, 1. / dim)})
+        {
+          constexpr auto nowhere   = numbers::invalid_unsigned_int;
+          unsigned int   cell_here = nowhere;
+          Tensor<1, dim> value_here;
+          Point<dim>     unit;
+          for (const auto &cell : mesh.triangulation().active_cell_iterators())
+            if (cell->is_locally_owned() && space.is_active(cell) &&
+                find_in_cell<dim>(mesh, cell, place, margin, unit))
+              {
+                const unsigned int *nodes = space.cell_nodes(cell);
+                for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+                  value_here += element->shape_value(lexicographic[a], unit) *
+                                values[nodes[a]];
+                cell_here = cell->active_cell_index();
+                break;
+              }
 
-      // On a face between ranks both have found a cell: take the first.
-      const unsigned int cell_taken =
-        Utilities::MPI::min(cell_here, space.communicator());
-      if (cell_taken == nowhere)
-        return false;
-      result = Utilities::MPI::sum(cell_here == cell_taken ? value_here :
-                                                             Tensor<1, dim>(),
-                                   space.communicator());
-      return true;
+          // On a face between ranks both have found a cell: take the first.
+          const unsigned int cell_taken =
+            Utilities::MPI::min(cell_here, space.communicator());
+          if (cell_taken == nowhere)
+            continue;
+          result =
+            Utilities::MPI::sum(cell_here == cell_taken ? value_here :
+                                                          Tensor<1, dim>(),
+                                space.communicator());
+          return true;
+        }
+      return false;
     };
   }
 

@@ -12,6 +12,9 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <deal.II/numerics/rtree.h>
+
+#include <cmath>
 #include <set>
 #include <limits>
 #include <sstream>
@@ -202,6 +205,53 @@ namespace moraine
 
 
 
+    /**
+     * Refuse a point that is given twice, be it in one file or in those of two
+     * bodies that are there at the same time.
+     */
+    template <int dim>
+    void
+    refuse_repeated_points(const std::vector<Body<dim>> &bodies,
+                           const Meet                   &meet)
+    {
+      // Far less than the size of a point: round-off of who wrote the file.
+      constexpr double        same_place = 1e-6;
+      std::vector<Point<dim>> positions;
+      // Of each position, its body and its number there.
+      std::vector<std::pair<unsigned int, unsigned int>> owners;
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (!bodies[b].filled())
+          for (unsigned int i = 0; i < bodies[b].listed.positions.size(); ++i)
+            {
+              positions.push_back(bodies[b].listed.positions[i]);
+              owners.emplace_back(b, i);
+            }
+      const auto tree = pack_rtree_of_indices(positions);
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        {
+          const auto [b, i] = owners[k];
+          BoundingBox<dim> around(std::make_pair(positions[k], positions[k]));
+          around.extend(same_place *
+                        std::pow(bodies[b].listed.volumes[i], 1. / dim));
+          for (const auto other :
+               tree | boost::geometry::index::adaptors::queried(
+                        boost::geometry::index::intersects(around)))
+            {
+              const auto [c, j] = owners[other];
+              if (other >= k || (b != c && meet && !meet(c, b)))
+                continue;
+              std::ostringstream message;
+              message << bodies[b].listed.origin(i) << ": found a point at ("
+                      << positions[k] << "), which "
+                      << bodies[c].listed.origin(j)
+                      << " gives too, allowed: each point once";
+              throw InputError(message.str());
+            }
+        }
+    }
+
+
+
     /** Values of the columns of a list, whose ids begin at @p first_id. */
     template <int dim>
     void
@@ -346,6 +396,7 @@ namespace moraine
   {
     const Triangulation<dim> &triangulation = points.mesh().triangulation();
     check_number_of_points(bodies, seeder, triangulation);
+    refuse_repeated_points(bodies, meet);
     std::vector<double> in_cells = seed_cells(bodies, seeder, meet, points);
     const unsigned int  first_of_lists =
       triangulation.n_active_cells() * bodies.size() * seeder.max_points();

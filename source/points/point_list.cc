@@ -4,6 +4,7 @@
 #include <moraine/points/point_list.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/input_text.h>
 #include <moraine/core/memory.h>
 #include <moraine/geometry/shape_library.h>
 
@@ -120,7 +121,7 @@ namespace moraine
     std::string               text;
     for (unsigned int line = 1; std::getline(in, text); ++line)
       {
-        text = Utilities::trim(text);
+        text = Utilities::trim(line == 1 ? without_mark(text) : text);
         if (text.empty())
           continue;
         if (names.empty())

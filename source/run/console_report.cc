@@ -141,6 +141,23 @@ namespace moraine
     if (!stage.absorbing.empty())
       console << ", absorbing " << list_of(stage.absorbing);
     console << '\n';
+    if (name.empty())
+      return;
+    std::string acting;
+    const auto  add = [&](const std::string              &kind,
+                         const bool                      there_are,
+                         const std::vector<std::string> &names) {
+      if (there_are)
+        acting += (acting.empty() ? "" : "; ") + kind + ": " +
+                  (names.empty() ? "none" : list_of(names));
+    };
+    add("bodies", true, stage.bodies);
+    add("boundaries", !scene.boundaries.empty(), stage.boundaries);
+    add("grid conditions",
+        !scene.grid_conditions.empty(),
+        stage.grid_conditions);
+    add("loads", !scene.loads.empty(), stage.loads);
+    console << "              " << acting << '\n';
   }
 
 

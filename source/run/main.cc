@@ -20,7 +20,9 @@
 /**
  * A process that no launcher of MPI started has nobody to talk to. Open MPI
  * then need not look for networks nor start a daemon, which is half of the
- * program's start. What the user has set stays.
+ * program's start. Nor does it need a session directory: all such processes of
+ * a user would share one, and one that ends would remove it while another
+ * starts. What the user has set stays.
  */
 static void
 start_quickly_if_alone()
@@ -32,6 +34,7 @@ start_quickly_if_alone()
       }))
     return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
   setenv("OMPI_MCA_btl", "self,vader", 0);
 }

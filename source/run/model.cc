@@ -227,7 +227,8 @@ namespace moraine
                     TimerOutput      &timer)
   {
     TimerOutput::Scope scope(timer, "set up");
-    mesh   = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
+    mesh = std::make_unique<BackgroundMesh<dim>>(scene.mesh, communicator);
+    check_groups(scene, *mesh);
     bodies = make_bodies(scene);
     mesh->share_cells(work_by_bodies(bodies));
     space = std::make_unique<GridSpace<dim>>(*mesh, scene.method.degree);

@@ -58,7 +58,20 @@ namespace moraine
     std::map<std::string, ShapeParameters<dim>> parameters;
     for (const auto &[name, body] : scene.bodies)
       parameters[name] = body.shape;
-    return make_shapes(parameters, "Bodies");
+    return make_shapes<dim>(
+      parameters,
+      "Bodies",
+      [&scene](const std::vector<std::string> &groups,
+               const std::string              &section) {
+        if (scene.mesh.type != "file")
+          reject(section,
+                 "Group",
+                 list_of(groups),
+                 "nothing; only a mesh of type 'file' has groups of cells");
+        if (!scene.mesh_groups)
+          scene.mesh_groups = std::make_shared<MeshGroups<dim>>(scene.mesh);
+        return scene.mesh_groups->shape(groups, section);
+      });
   }
 
 
@@ -119,6 +132,28 @@ namespace moraine
                            "CSV file");
       }
     return bodies;
+  }
+
+
+
+  template <int dim>
+  void
+  check_groups(const Scene<dim> &scene, const BackgroundMesh<dim> &mesh)
+  {
+    for (const auto &[name, body] : scene.bodies)
+      {
+        if (body.shape.kind() != "mesh" || body.shape.given("Group"))
+          continue;
+        std::vector<std::string> known;
+        for (const auto &group :
+             groups_of_cells(scene.mesh, mesh.triangulation()))
+          known.push_back(group.first);
+        if (known.size() > 1)
+          throw InputError(place("Bodies/" + name, "Group") +
+                           ": not set, but the cells of the mesh are in "
+                           "several groups, allowed: one or more of " +
+                           list_of(known));
+      }
   }
 
 
@@ -245,6 +280,7 @@ namespace moraine
   template std::set<std::string>    operands_of(const Scene<dim> &);                    \
   template std::vector<std::string> simulated_bodies(const Scene<dim> &);               \
   template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);                    \
+  template void check_groups(const Scene<dim> &, const BackgroundMesh<dim> &);          \
   template std::vector<std::shared_ptr<const Material>> make_materials(                 \
     const Scene<dim> &,                                                                 \
     const std::vector<Body<dim>> &,                                                     \

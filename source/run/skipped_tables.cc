@@ -3,6 +3,7 @@
 
 #include <moraine/run/skipped_tables.h>
 
+#include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
 
@@ -106,6 +107,21 @@ namespace moraine
 
 
 
+    /** The curves of the translation, if there is one. */
+    template <int dim>
+    std::vector<TimeCurve>
+    translations(const MotionParameters<dim> &motion,
+                 const std::string           &section)
+    {
+      if (motion.translation.empty())
+        return {};
+      return time_curves(motion.translation,
+                         place(section, "Translation"),
+                         dim);
+    }
+
+
+
     /** What does nothing though it has a value. */
     template <int dim>
     void
@@ -113,22 +129,24 @@ namespace moraine
     {
       for (const auto &named : scene.loads)
         if (const auto &[name, load] = named; !load.curve.empty())
-          if (constant_value(TimeCurve(load.curve, name),
+          if (constant_value(TimeCurve(load.curve,
+                                       place("Loads/" + name, "Curve")),
                              scene,
                              [&](const StageParameters &stage) {
                                return contains(stage.loads, named.first);
                              }) == 0.)
             notes.push_back("load " + name +
                             ": its 'Curve' is 0 as long as it acts");
-      const auto check = [&](const std::string           &name,
+      const auto check = [&](const std::string           &kind,
+                             const std::string           &name,
                              const MotionParameters<dim> &motion,
                              const auto                  &acts,
                              const std::string           &what) {
-        std::vector<TimeCurve> curves;
-        if (!motion.translation.empty())
-          curves = time_curves(motion.translation, name, dim);
+        const std::string      section = kind + '/' + name;
+        std::vector<TimeCurve> curves  = translations(motion, section);
         if (!motion.rotation_angle.empty())
-          curves.emplace_back(motion.rotation_angle, name);
+          curves.emplace_back(motion.rotation_angle,
+                              place(section, "Rotation angle"));
         bool is_zero = true;
         for (const TimeCurve &curve : curves)
           {
@@ -148,6 +166,7 @@ namespace moraine
         if (!named.second.motion.translation.empty() &&
             contains(scene.stages.front().second.boundaries, named.first))
           check(
+            "Boundaries",
             named.first,
             named.second.motion,
             [&](const StageParameters &stage) {
@@ -156,6 +175,7 @@ namespace moraine
             "material; it places the surface");
       for (const auto &named : scene.grid_conditions)
         check(
+          "Grid conditions",
           named.first,
           named.second.motion,
           [&](const StageParameters &stage) {
@@ -187,41 +207,43 @@ namespace moraine
         notes.push_back(name + ": " + row + " would see it");
     };
     const auto check_text = [&](const std::string &name,
-                                const std::string &text) {
+                                const std::string &text,
+                                const std::string &origin) {
       if (!text.empty())
-        check(name, TimeCurve(text, name));
+        check(name, TimeCurve(text, origin));
     };
-    const auto check_motion = [&](const std::string           &name,
+    const auto check_motion = [&](const std::string           &section,
+                                  const std::string           &name,
                                   const MotionParameters<dim> &motion) {
-      if (!motion.translation.empty())
-        for (const TimeCurve &curve :
-             time_curves(motion.translation, name, dim))
-          check("'Translation' of " + name, curve);
+      for (const TimeCurve &curve : translations(motion, section))
+        check("'Translation' of " + name, curve);
       if (motion.rotation_angle.empty())
         return;
       const std::string rotation = "'Rotation angle' of " + name;
-      check_text(rotation, motion.rotation_angle);
+      const TimeCurve   angle(motion.rotation_angle,
+                            place(section, "Rotation angle"));
+      check(rotation, angle);
       const std::string turn =
-        turn_of_a_step(TimeCurve(motion.rotation_angle, name),
-                       time.start_time,
-                       time.end_time,
-                       time.n_steps);
+        turn_of_a_step(angle, time.start_time, time.end_time, time.n_steps);
       if (!turn.empty())
         notes.push_back(rotation + ": " + turn +
                         "; more 'Steps' in section 'Time' would see it");
     };
     for (const auto &[name, load] : scene.loads)
       if (contains(stage.loads, name))
-        check_text("load " + name, load.curve);
+        check_text("load " + name, load.curve, place("Loads/" + name, "Curve"));
     for (const auto &[name, boundary] : scene.boundaries)
       if (contains(stage.boundaries, name))
         {
-          check_text("wave at " + name, boundary.absorbing.incident_curve);
-          check_motion(name, boundary.motion);
+          const std::string section = "Boundaries/" + name;
+          check_text("wave at " + name,
+                     boundary.absorbing.incident_curve,
+                     place(section, "Incident curve"));
+          check_motion(section, name, boundary.motion);
         }
     for (const auto &[name, condition] : scene.grid_conditions)
       if (contains(stage.grid_conditions, name))
-        check_motion(name, condition.motion);
+        check_motion("Grid conditions/" + name, name, condition.motion);
   }
 
 

@@ -25,8 +25,8 @@ namespace moraine
     time.add_parameters(prm);
     prm.leave_subsection();
     const std::string text =
-      " that act from this stage on, separated by commas; none: no one. If "
-      "left out, those of the stage before; all in the first.";
+      " that act from this stage on, separated by commas; none or nothing: no "
+      "one. as before: those of the stage before, in the first all.";
     prm.add_parameter("Boundaries",
                       boundaries,
                       "Names of the boundaries" + text);
@@ -40,8 +40,8 @@ namespace moraine
       "Names of the bodies that are there from this stage on. What comes is as "
       "drawn, with its initial stress if it has one; where nodes move with the "
       "material it fills the cells as they are by then. What goes takes its "
-      "stress and weight with it. If left out, those of the stage before; all "
-      "in the first.");
+      "stress and weight with it. as before: those of the stage before, in the "
+      "first all.");
     prm.add_parameter(
       "Absorbing",
       absorbing,
@@ -95,6 +95,15 @@ namespace moraine
 
 
 
+    /** Whether a key of a stage leaves its names to the stage before. */
+    bool
+    are_as_before(const std::vector<std::string> &names)
+    {
+      return names == std::vector<std::string>{"as before"};
+    }
+
+
+
     /** The names that are active, by what key @p key of a stage says. */
     void
     complete_names(const std::string              &section,
@@ -103,7 +112,7 @@ namespace moraine
                    const std::vector<std::string> &before,
                    std::vector<std::string>       &names)
     {
-      if (names.empty())
+      if (are_as_before(names))
         names = before;
       else if (names == std::vector<std::string>{"none"})
         names.clear();
@@ -126,8 +135,10 @@ namespace moraine
                     const std::vector<std::string> &before,
                     std::vector<std::string>       &names)
     {
-      if (names.empty())
+      if (are_as_before(names))
         names = before;
+      if (names.empty())
+        reject(section, "Bodies", "", "at least one body");
       refuse_repeated(section, "Bodies", names);
       for (const std::string &name : names)
         if (!contains(all, name))

@@ -32,6 +32,8 @@ refused("negative volume", good + "2.25,1.25,-0.25\n")
 refused("zero volume", good + "2.25,1.25,0\n")
 refused("outside the mesh", good + "20,1.25,0.25\n")
 refused("outside the mesh, after an empty line", good + "\n20,1.25,0.25\n")
+refused("a point twice", good + "2.25,1.25,0.25\n\n1.25,1.25,0.3\n")
+refused("a point twice, but for round-off", good + "1.7500000001,1.25,0.25\n")
 refused("one long line", ",".join(["1"] * 2000000))
 refused("one long row", good + ",".join(["1"] * 2000000))
 refused("a column that every point has", good.replace("volume", "volume,stress")
@@ -43,5 +45,9 @@ refused("a column that archives have", good.replace("volume", "volume,order")
 for column in "velocity", "initial_volume", "phi/deg":
     refused(f"a column {column}", good.replace("volume", f"volume,{column}")
             .replace("0.25\n", "0.25,1\n"))
+other = folder / "other.csv"
+other.write_text("x,y,volume\n2.25,1.25,0.25\n1.75,1.25,0.25\n")
+refused("a point in two bodies", good, {
+    "Bodies/more/Shape": "points-from-file", "Bodies/more/Point file": other})
 for key, value in ("Rotation angle", "25"), ("Translation", "1, 0"):
     refused(f"points that are to move, {key}", good, {f"Bodies/block/{key}": value})

@@ -6,7 +6,8 @@
     fuzz.py MORAINE [--seed 1] [--cases 100] [--first 0] [--keep DIR]
 
 Each case is a scene of prm/, shortened to two steps, with one to three changes:
-numbers, words, lines, sections, bytes, methods. It must end with 0, 1 or 2; say
+numbers, words, lines, sections, bytes, methods, motions, a boundary that meets
+others, inertia, stages. Every third has checkpoints and goes on from one. It must end with 0, 1 or 2; say
 why in one line if that is not 0; get no signal; not be silent until its time is
 over (a scene that says what it simulates may take its time: it is stopped); and
 leave either no folder or one that is complete, with summary.json. A case follows
@@ -45,6 +46,18 @@ WORDS = ["", "text", "x", "t", "x;y", "0,0", "0;0;0;0", "rand()", "true",
          "sin(50*x)*sin(50*y)", "x*", "(", "1/x", "log(x-1e9)", "{{1|2}}",
          "{{", "0: 0, 1: 1", "1: 0, 0: 1", "a: b", "left", "../x", "é", "'",
          '"', "|", "<b>", "$", "%s", "0 0; 1 0", "\\"]
+# Of place and time; some are numbers at the start only.
+EXPRESSIONS = ["0", "0.01*t", "sqrt(-1)", "0.01*sqrt(0.5-t)", "1/(t-1)", "log(x)",
+               "0.01*(sqrt(0.5-t)-sqrt(0.5))", "0.01*t*sqrt(y-1)", "1e300*t"]
+# Keys of these sections, and whether they have one for each coordinate.
+OF_TIME = {("Boundaries", "Displacement"): True, ("Boundaries", "Translation"): True,
+           ("Boundaries", "Rotation angle"): False, ("Loads", "Value"): True,
+           ("Grid conditions", "Displacement"): True,
+           ("Grid conditions", "Translation"): True, ("Loads", "Curve"): False,
+           ("Boundaries", "Incident velocity"): True,
+           ("Bodies", "Initial velocity"): True}
+INTEGRATORS = ["Newmark", "generalised-alpha", "Bathe",
+               "energy-momentum"]
 CHOICES = {
     "Method/Method": ["finite element", "material point", "GIMP", "CPDI1",
                       "CPDI2"],
@@ -97,15 +110,101 @@ def with_choice(rng, text):
     value = rng.choice(CHOICES[path])
     section, *middle, key = path.split("/")
     if middle:
-        names = re.findall(rf"^subsection {section}\n\s+subsection (.*)$", text,
-                           re.M)
+        names = names_of(section, text)
         if not names:
             return text
         path = f"{section}/{rng.choice(names)}/{key}"
-    pattern = rf"(set {key} *=).*"
-    if re.search(pattern, text) and not middle:
-        return re.sub(pattern, rf"\1 {value}", text)
-    return text + setting(path, value)
+    return with_setting(text, path, value)
+
+
+def dimension(text):
+    return 3 if re.search(r"set Dimension *= *3", text) else 2
+
+
+def sections_of(text):
+    """The path of the section that each line stands in or opens."""
+    path, paths = [], []
+    for line in text.splitlines():
+        if opens := re.match(r"\s*subsection (.*)", line):
+            path.append(opens[1].strip())
+        paths.append("/".join(path))
+        if line.strip() == "end" and path:
+            path.pop()
+    return paths
+
+
+def names_of(section, text):
+    names = [path.split("/")[1] for path in sections_of(text)
+             if path.startswith(section + "/")]
+    return sorted(set(names))
+
+
+def with_setting(text, path, value):
+    """The key with this value, in place of the one that it has."""
+    section, key = path.rsplit("/", 1)
+    lines = text.splitlines()
+    for i, here in enumerate(sections_of(text)):
+        if here == section and re.match(rf"\s*set {key}\s*=", lines[i]):
+            lines[i] = f"set {key} = {value}"
+            return "\n".join(lines) + "\n"
+    return text + "\n" + setting(path, value)
+
+
+def with_expression(rng, text):
+    """A motion, load or velocity that may be no number, now or later."""
+    (section, key), is_vector = rng.choice(sorted(OF_TIME.items()))
+    names = names_of(section, text)
+    if not names:
+        return text
+    value = rng.choice(EXPRESSIONS)
+    if is_vector:
+        value = "; ".join([value] + ["0"] * (dimension(text) - 1))
+    return with_setting(text, f"{section}/{rng.choice(names)}/{key}", value)
+
+
+def with_boundary(rng, text):
+    """A plane through the mesh, which meets what is there."""
+    dim = dimension(text)
+    corners = [re.search(rf"set {which} corner *= *(.*)", text)
+               for which in ("Lower", "Upper")]
+    try:
+        low, high = ([float(x) for x in corner[1].split(",")] for corner in corners)
+        place = [a + rng.random() * (b - a) for a, b in zip(low, high)]
+    except (TypeError, ValueError):
+        return text
+    motion = rng.choice(["Displacement", "Translation"])
+    value = [rng.choice(EXPRESSIONS)] + ["0"] * (dim - 1)
+    return text + setting("Boundaries/fuzz/Surface", "plane") + "".join(
+        setting(f"Boundaries/fuzz/{key}", value) for key, value in (
+            ("Point", ", ".join(f"{x:.6g}" for x in place)),
+            ("Normal", ", ".join(rng.choice(["1", "-1", "0.3"])
+                                 for _ in range(dim))),
+            ("Constraint", rng.choice(["fixed", "roller"])),
+            (motion, "; ".join(value))))
+
+
+def with_inertia(rng, text, section="Time"):
+    if "set Density" not in text:
+        text = re.sub(r"( *)(set Young modulus)", r"\1set Density = 1\n\1\2", text)
+    return with_setting(text, f"{section}/Integrator", rng.choice(INTEGRATORS))
+
+
+def with_stages(rng, text):
+    """Two stages; the second may have other members, and inertia."""
+    if "subsection Stages\n" in text:
+        return text
+    # Beside stages, a section 'Time' would be refused.
+    text = re.sub(r"^subsection Time\n(?:.*\n)*?end\n", "", text, flags=re.M) + \
+        setting("Stages/one/Time/Steps", "1") + \
+        setting("Stages/two/Time/End time", "2")
+    if rng.random() < 0.5:
+        text = with_inertia(rng, text, "Stages/two/Time")
+    for key in ("Boundaries", "Grid conditions", "Loads", "Bodies"):
+        if rng.random() < 0.4:
+            names = ["", "none", *names_of(key, text)]
+            stage = rng.choice(["one", "two"])
+            text = with_setting(text, f"Stages/{stage}/{key}", rng.choice(names))
+    return text
 
 
 def replaced(rng, text, pattern, values):
@@ -124,7 +223,10 @@ def mutated(rng, text):
     """@p text with one change; odd bytes are characters 0 to 255."""
     lines = text.splitlines(True)
     i, j = rng.randrange(len(lines)), rng.randrange(len(lines))
-    kind = rng.randrange(14)
+    kind = rng.randrange(20)
+    if kind >= 14:
+        return rng.choice([with_expression, with_expression, with_boundary,
+                           with_inertia, with_stages])(rng, text)
     if kind <= 2:
         return replaced(rng, text, r"(?<![A-Za-z])[-+]?\d+\.?\d*(e[-+]?\d+)?",
                         lambda line: SMALL if any(s in line for s in SIZES)
@@ -156,7 +258,8 @@ def mutated(rng, text):
 
 
 def make_case(folder, seed, number):
-    """The scene of a case, in a folder with what scenes refer to."""
+    """The scene of a case, in a folder with what scenes refer to, and whether its
+    run is to go on from a checkpoint."""
     rng = random.Random(f"{seed} {number}")
     scenes = [s for s in sorted((root / "prm").rglob("*.prm"))
               if s.stem not in LONG and "studies" not in s.parts]
@@ -168,19 +271,21 @@ def make_case(folder, seed, number):
                 text = mutated(rng, text)
             (folder / file.name).write_bytes(text.encode("latin-1", "replace"))
     text = shortened(source.read_text())
+    resumes = rng.random() < 1 / 3
+    if resumes and "Checkpoint every" not in text:
+        text = with_setting(text, "Output/Checkpoint every", "1 steps")
     for _ in range(rng.choice([1, 1, 1, 2, 3])):
         text = mutated(rng, text) if text else text
     scene = folder / "scene.prm"
     utf8 = rng.random() < 0.5
     scene.write_bytes(text.encode("utf-8" if utf8 else "latin-1", "replace"))
-    return source, scene
+    return source, scene, resumes
 
 
-def one_run(starter, scene, output):
+def one_run(starter, folder, words):
     """Exit code, what was printed, and whether its time was over."""
-    files = [scene.parent / "standard-output", scene.parent / "standard-error"]
-    process = starter.start(["run", scene, "--output", output], scene.parent,
-                            *files)
+    files = [folder / "standard-output", folder / "standard-error"]
+    process = starter.start(words, folder, *files)
     late = False
     try:
         process.wait(TIMEOUT)
@@ -214,8 +319,8 @@ def complaints_about_folder(output, code):
     return complaints
 
 
-def complaints_about(starter, scene, output):
-    code, out, err, late = one_run(starter, scene, output)
+def complaints_about(starter, folder, words, output):
+    code, out, err, late = one_run(starter, folder, words)
     if late:
         return [] if "  steps " in out else [f"silent for {TIMEOUT} s"]
     complaints = []
@@ -246,9 +351,13 @@ def main():
     for number in range(arguments.first, arguments.first + arguments.cases):
         with tempfile.TemporaryDirectory(prefix="moraine-fuzz-") as name:
             folder = pathlib.Path(name)
-            source, scene = make_case(folder, arguments.seed, number)
+            source, scene, resumes = make_case(folder, arguments.seed, number)
             output = folder / "output"
-            complaints = complaints_about(starter, scene, output)
+            complaints = complaints_about(
+                starter, folder, ["run", scene, "--output", output], output)
+            if resumes and not complaints and list(output.glob("checkpoints/*1*")):
+                complaints = complaints_about(
+                    starter, folder, ["resume", output, "--from", "1"], output)
             if arguments.keep:
                 shutil.copytree(folder, arguments.keep, dirs_exist_ok=True)
         if complaints:

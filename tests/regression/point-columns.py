@@ -1,7 +1,8 @@
 # ranks: 1 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A column of a point file beyond place and volume is a field of the points."""
+"""A column of a point file beyond place and volume is a field of the points. Files
+of spreadsheets begin with a byte-order mark, which is no part of the header."""
 
 import base64
 import re
@@ -24,7 +25,8 @@ def array(file, name):
 rows = (root / "prm/verification/patch-random.csv").read_text().split()
 with_layer = [f"{row},{'layer' if i == 0 else 3 * i}"
               for i, row in enumerate(rows)]
-(folder / "points.csv").write_text("\n".join(with_layer) + "\n")
+(folder / "points.csv").write_text(
+    "\ufeff" + "\n".join(with_layer) + "\n", encoding="utf-8")
 result = run("prm/verification/patch-random.prm",
              {"Bodies/square/Point file": folder / "points.csv"})
 text("status", result.summary["status"])

@@ -6,6 +6,7 @@
 
 #include <moraine/geometry/shape.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -95,6 +96,12 @@ namespace moraine
   template <int dim>
   using NamedShapes = std::map<std::string, ShapePointer<dim>>;
 
+  /** Makes the shape of groups of cells; the section is for messages. */
+  template <int dim>
+  using ShapeOfGroups =
+    std::function<ShapePointer<dim>(const std::vector<std::string> &groups,
+                                    const std::string              &section)>;
+
   /**
    * The shape described by @p parameters, with its rotation and translation;
    * null for a point file. Operands are looked up in @p known. Throws
@@ -104,7 +111,8 @@ namespace moraine
   ShapePointer<dim>
   make_shape(const ShapeParameters<dim> &parameters,
              const NamedShapes<dim>     &known,
-             const std::string          &section);
+             const std::string          &section,
+             const ShapeOfGroups<dim>   &of_groups = {});
 
   /**
    * The shapes of all bodies, by name. An operand is the name of another body
@@ -114,7 +122,8 @@ namespace moraine
   template <int dim>
   NamedShapes<dim>
   make_shapes(const std::map<std::string, ShapeParameters<dim>> &bodies,
-              const std::string                                 &section);
+              const std::string                                 &section,
+              const ShapeOfGroups<dim> &of_groups = {});
 
   /**
    * The rim of one of @p bodies, of a shape of its own, or a part of it. Throws

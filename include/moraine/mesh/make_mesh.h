@@ -10,6 +10,9 @@
 #include <deal.II/grid/tria.h>
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace moraine
 {
@@ -25,6 +28,19 @@ namespace moraine
   MeshSides
   make_mesh(const MeshParameters<dim>  &parameters,
             dealii::Triangulation<dim> &triangulation);
+
+  /** What users call groups of cells, and their material ids. */
+  using CellGroups =
+    std::vector<std::pair<std::string, dealii::types::material_id>>;
+
+  /**
+   * The physical groups of @p cells that came from a file of gmsh: by their
+   * names, those without one by their number. Other meshes have none.
+   */
+  template <int dim>
+  CellGroups
+  groups_of_cells(const MeshParameters<dim>        &parameters,
+                  const dealii::Triangulation<dim> &cells);
 
   /**
    * Refuse @p n cells that do not fit into the memory.

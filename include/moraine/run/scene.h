@@ -4,6 +4,7 @@
 #ifndef moraine_run_scene_h
 #define moraine_run_scene_h
 
+#include <moraine/geometry/mesh_groups.h>
 #include <moraine/geometry/shape_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
@@ -23,6 +24,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -128,6 +130,9 @@ namespace moraine
     ExactSolutionParameters<dim>        exact;
     StrengthReductionParameters         strength_reduction;
     StudyParameters                     study;
+
+    /** Of the mesh file, read when first asked for. */
+    mutable std::shared_ptr<const MeshGroups<dim>> mesh_groups;
 
     /** Whether there is a stage with inertia. */
     bool

@@ -43,6 +43,15 @@ namespace moraine
   std::vector<Body<dim>>
   make_bodies(const Scene<dim> &scene);
 
+  /**
+   * Groups of cells must not become one body unsaid.
+   * @throws InputError for a body of shape 'mesh' that names no group though
+   * there are several.
+   */
+  template <int dim>
+  void
+  check_groups(const Scene<dim> &scene, const BackgroundMesh<dim> &mesh);
+
   /** The material of each body. @throws InputError for impossible values. */
   template <int dim>
   std::vector<std::shared_ptr<const Material>>

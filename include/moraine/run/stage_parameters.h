@@ -22,9 +22,9 @@ namespace moraine
   struct StageParameters
   {
     TimeParameters time;
-    /** Names; as read, none: those of the stage before, and the word "none":
-     * none at all. */
-    std::vector<std::string> boundaries, grid_conditions, loads, bodies;
+    /** Names; as read, also the words "as before" and "none". */
+    std::vector<std::string> boundaries{"as before"},
+      grid_conditions{"as before"}, loads{"as before"}, bodies{"as before"};
     /** Boundaries and grid conditions that absorb from this stage on. */
     std::vector<std::string> absorbing;
     bool                     reset_displacements = false;
