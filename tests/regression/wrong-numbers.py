@@ -254,12 +254,11 @@ for angle, steps in ("360*t", 1), ("360*t", 2), ("360*t", 3), ("100*t", 1):
          "degrees, of which it sees half a circle at most" in result.output)
 
 # Points of a file with volumes that are not theirs.
-for name, size, volume, times in (
-        ("right", 0.5, 1, 1), ("that fit no cells", 0.4, 1, 1),
-        ("nearly as large as cells", 0.79, 1, 1), ("twice as large", 0.5, 2, 1),
-        ("right, each point twice", 0.5, 1, 2)):
+for name, size, volume in (
+        ("right", 0.5, 1), ("that fit no cells", 0.4, 1),
+        ("nearly as large as cells", 0.79, 1), ("twice as large", 0.5, 2)):
     file = folder / "points.csv"
-    file.write_text("x,y,volume\n" + times * "".join(
+    file.write_text("x,y,volume\n" + "".join(
         f"{0.5 + (i + 0.5) * size},{0.5 + (j + 0.5) * size},{volume * size ** 2}\n"
         for i in range(round(4 / size)) for j in range(round(4 / size))))
     result = run("tests/bad-input/base.prm", {
