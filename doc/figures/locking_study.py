@@ -43,9 +43,7 @@ def once(scene, settings, keep_on):
                            **settings}.items():
             words += ["--set", f"{key} = {value}"]
         ended = subprocess.run(words, capture_output=True, text=True,
-                               env={**os.environ, "OMP_NUM_THREADS": "1",
-                                    "OMPI_MCA_ess_singleton_isolated": "1",
-                                    "OMPI_MCA_orte_tmpdir_base": folder})
+                               env={**os.environ, "OMP_NUM_THREADS": "1"})
         if ended.returncode and not keep_on:
             sys.exit(f"{words}\n{ended.stdout}{ended.stderr}")
         summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
