@@ -54,18 +54,64 @@ namespace moraine
 
 
 
-    /** Whether a body is at a place, or not far from it on one of its sides. */
+    /** Of a cell: a body further away than this is not at a surface. */
+    constexpr double largest_gap = 0.5;
+
+    /** Of cells in which a surface whose pieces cannot be cut exactly ends:
+     * halvings that bring the end to 1e-4 of a cell, in 3D to 3e-2. */
     template <int dim>
-    bool
-    is_beside_body(const Covers<dim>       &covers,
-                   const SurfacePoint<dim> &place,
-                   const double             h)
+    constexpr unsigned int n_halvings = dim == 2 ? 10 : 4;
+
+
+
+    /** Cuts the parts of a surface in cells that are beside a body. */
+    template <int dim>
+    class PiecesBeside
     {
-      return is_at_body(covers, place.x, place.normal, h) ||
-             is_near_body(covers, place.x, place.normal, h) ||
-             is_at_body(covers, place.x, -place.normal, h) ||
-             is_near_body(covers, place.x, -place.normal, h);
-    }
+    public:
+      PiecesBeside(const Surface<dim> &surface, const ShapePointer<dim> &body)
+        : surface(surface)
+        , body(body)
+      {}
+
+      /** Of a cell of size @p cell_size; @p part is it or beside it. */
+      void
+      add(const CellVertices<dim>        &part,
+          const double                    cell_size,
+          const unsigned int              n_points,
+          std::vector<SurfacePoint<dim>> &points)
+      {
+        if (!surface.may_touch(part))
+          return;
+        if (!body)
+          return surface.pieces(part, n_points, points);
+        if (cell_size != h)
+          {
+            h      = cell_size;
+            extent = beside(body, largest_gap * h);
+            exact  = surface.within(extent);
+          }
+        if (exact)
+          exact->pieces(part, n_points, points);
+        else
+          add_kept_pieces<dim>(
+            surface,
+            part,
+            n_points,
+            [&](const auto &place) {
+              return extent.value(place.x, place.normal, 1e-9 * h) > 0;
+            },
+            points,
+            n_halvings<dim>);
+      }
+
+    private:
+      const Surface<dim>      &surface;
+      const ShapePointer<dim> &body;
+      double                   h = 0;
+      Extent<dim>              extent;
+      SurfacePointer<dim>      exact; ///< null if there is none
+    };
 
 
 
@@ -360,33 +406,27 @@ namespace moraine
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on(const Surface<dim>        &surface,
             const BackgroundMesh<dim> &mesh,
-            const Covers<dim>         &covers,
+            const ShapePointer<dim>   &body,
             const Spacing              spacing)
   {
     const unsigned int             n_points = spacing == Spacing::through_mesh ?
                                                 n_points_through_mesh<dim> :
                                                 n_gauss_points_of_pieces;
     std::vector<SurfacePoint<dim>> pieces, beyond;
-    double                         h = 0;
-    const auto is_beside             = [&](const SurfacePoint<dim> &piece) {
-      return !covers || is_beside_body(covers, piece, h);
-    };
+    PiecesBeside<dim>              beside_body(surface, body);
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
         const CellVertices<dim> vertices = vertices_of<dim>(cell);
-        h = edge_of_cell(cell);
-        if (surface.may_touch(vertices))
-          add_kept_pieces<dim>(surface, vertices, n_points, is_beside, pieces);
+        const double            h        = edge_of_cell(cell);
+        beside_body.add(vertices, h, n_points, pieces);
         for (const unsigned int f : cell->face_indices())
           {
             if (!cell->face(f)->at_boundary())
               continue;
             const CellVertices<dim> layer =
               layer_beyond<dim>(f, vertices, reach_of_mesh * mesh.cell_size());
-            if (!surface.may_touch(layer))
-              continue;
             beyond.clear();
-            add_kept_pieces<dim>(surface, layer, n_points, is_beside, beyond);
+            beside_body.add(layer, h, n_points, beyond);
             const Tensor<1, dim> along = normal_of_face(f, vertices);
             for (const auto &piece : beyond)
               if (std::abs(piece.normal * along) > cosine_along_side)
@@ -405,7 +445,7 @@ namespace moraine
   double
   share_outside(const Surface<dim>        &surface,
                 const BackgroundMesh<dim> &mesh,
-                const Covers<dim>         &covers)
+                const ShapePointer<dim>   &body)
   {
     constexpr double most_cells = dim == 2 ? 100 : 20; // in each direction
     const double     h          = mesh.cell_size();
@@ -435,13 +475,15 @@ namespace moraine
         // fine enough for cells of the mesh, not for these
         return 0.;
       }
+    const Extent<dim> extent =
+      body ? beside(body, largest_gap * h) : Extent<dim>();
     double outside = 0, all = 0;
     for (const auto &piece : pieces)
       {
         all += piece.JxW;
         if (nearest_cell(mesh, piece.x, reach_of_mesh * h).state() !=
               IteratorState::valid ||
-            (covers && !is_beside_body(covers, piece, h)))
+            extent.value(piece.x, piece.normal, 1e-9 * h) <= 0)
           outside += piece.JxW;
       }
     return all > 0 ? outside / all : 0.;
@@ -506,11 +548,11 @@ namespace moraine
   template std::vector<typename CarriedPlaces<dim>::Place> places_on(      \
     const Surface<dim> &,                                                  \
     const BackgroundMesh<dim> &,                                           \
-    const Covers<dim> &,                                                   \
+    const ShapePointer<dim> &,                                             \
     const Spacing);                                                        \
   template double share_outside(const Surface<dim> &,                      \
                                 const BackgroundMesh<dim> &,               \
-                                const Covers<dim> &);                      \
+                                const ShapePointer<dim> &);                \
   template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
     const BackgroundMesh<dim> &,                                           \
     const types::boundary_id,                                              \

@@ -4,6 +4,7 @@
 #include <moraine/geometry/covered_pieces.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/geometry/shapes.h>
 
 #include <algorithm>
 #include <iterator>
@@ -139,38 +140,70 @@ namespace moraine
 
 
   template <int dim>
+  ShapePointer<dim>
+  united(const std::vector<ShapePointer<dim>> &shapes)
+  {
+    if (shapes.empty() ||
+        std::find(shapes.begin(), shapes.end(), nullptr) != shapes.end())
+      return nullptr;
+    ShapePointer<dim> all = shapes[0];
+    for (std::size_t b = 1; b < shapes.size(); ++b)
+      all = combine(Operation::unite, all, shapes[b]);
+    return all;
+  }
+
+
+
+  template <int dim>
+  Extent<dim>
+  beside(const ShapePointer<dim> &body, const double reach)
+  {
+    Extent<dim> extent;
+    extent.limits.push_back({body, true, Extent<dim>::Along::beside, reach});
+    extent.box = body->bounding_box();
+    extent.box.extend(reach);
+    return extent;
+  }
+
+
+
+  template <int dim>
   void
   add_kept_pieces(const Surface<dim>                                   &surface,
                   const CellVertices<dim>                              &cell,
                   const unsigned int                                    n_gauss,
                   const std::function<bool(const SurfacePoint<dim> &)> &keep,
-                  std::vector<SurfacePoint<dim>>                       &points)
+                  std::vector<SurfacePoint<dim>>                       &points,
+                  const unsigned int n_halvings)
   {
-    add_halved(surface, cell, n_gauss, dim == 2 ? 4 : 2, keep, points);
+    add_halved(surface, cell, n_gauss, n_halvings, keep, points);
   }
 
 
 
-#define INSTANTIATE(dim)                                     \
-  template bool        covers_place(const Shape<dim> &,      \
-                                    const Point<dim> &,      \
-                                    const double);           \
-  template Covers<dim> covers_of(                            \
-    const std::vector<std::shared_ptr<const Shape<dim>>> &); \
-  template bool is_at_body(const Covers<dim> &,              \
-                           const Point<dim> &,               \
-                           const Tensor<1, dim> &,           \
-                           const double);                    \
-  template bool is_near_body(const Covers<dim> &,            \
-                             const Point<dim> &,             \
-                             const Tensor<1, dim> &,         \
-                             const double);                  \
-  template void add_kept_pieces(                             \
-    const Surface<dim> &,                                    \
-    const CellVertices<dim> &,                               \
-    const unsigned int,                                      \
-    const std::function<bool(const SurfacePoint<dim> &)> &,  \
-    std::vector<SurfacePoint<dim>> &);
+#define INSTANTIATE(dim)                                                     \
+  template bool        covers_place(const Shape<dim> &,                      \
+                                    const Point<dim> &,                      \
+                                    const double);                           \
+  template Covers<dim> covers_of(                                            \
+    const std::vector<std::shared_ptr<const Shape<dim>>> &);                 \
+  template bool is_at_body(const Covers<dim> &,                              \
+                           const Point<dim> &,                               \
+                           const Tensor<1, dim> &,                           \
+                           const double);                                    \
+  template bool is_near_body(const Covers<dim> &,                            \
+                             const Point<dim> &,                             \
+                             const Tensor<1, dim> &,                         \
+                             const double);                                  \
+  template void add_kept_pieces(                                             \
+    const Surface<dim> &,                                                    \
+    const CellVertices<dim> &,                                               \
+    const unsigned int,                                                      \
+    const std::function<bool(const SurfacePoint<dim> &)> &,                  \
+    std::vector<SurfacePoint<dim>> &,                                        \
+    const unsigned int);                                                     \
+  template ShapePointer<dim> united(const std::vector<ShapePointer<dim>> &); \
+  template Extent<dim>       beside(const ShapePointer<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -368,6 +368,15 @@ namespace moraine
           }
       }
 
+      SurfacePointer<2>
+      within(const Extent<2> &other) const override
+      {
+        const auto part = std::make_shared<Arc>(*this);
+        part->extent    = extent.and_within(other);
+        part->box       = intersection(box, other.box);
+        return part;
+      }
+
     private:
       /** The angle to x from the start of the arc, in [0, 2π). */
       double

@@ -3,6 +3,7 @@
 
 #include <moraine/geometry/shape.h>
 
+#include <moraine/core/exceptions.h>
 #include <moraine/geometry/curved_parts.h>
 #include <moraine/geometry/shapes.h>
 
@@ -124,6 +125,118 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** The level of a shape beside a place of a surface, as far off along @p
+     * off as round-off reaches. */
+    template <int dim>
+    double
+    level_beside(const Shape<dim>     &shape,
+                 const Point<dim>     &x,
+                 const Tensor<1, dim> &off)
+    {
+      const double level = shape.level(x + off);
+      // along a boundary of the shape, further off there is a distance
+      // from the end that is not round-off
+      if (std::abs(level) > 1.5 * off.norm())
+        return level;
+      const double further = shape.level(x + 1e8 * off);
+      return level > 0. ? std::max(level, further) : std::min(level, further);
+    }
+
+
+
+    /**
+     * Whether the rim of a shape at @p x, just inside it, runs across the unit
+     * vector @p outward: in each direction it does so on one side at least, as
+     * beside an edge.
+     */
+    template <int dim>
+    bool
+    is_rim_across(const Shape<dim>     &shape,
+                  const Point<dim>     &x,
+                  const Tensor<1, dim> &outward,
+                  const double          step)
+    {
+      constexpr double     largest_slope = 0.2;
+      const Tensor<1, dim> up            = largest_slope * step * outward;
+      const auto           is_flat       = [&](const Tensor<1, dim> &way) {
+        return shape.covers(x + step * way - up, 0) &&
+               !shape.covers(x + step * way + up, 0);
+      };
+      if constexpr (dim == 2)
+        {
+          const Tensor<1, 2> along = cross_product_2d(outward);
+          return is_flat(along) || is_flat(-along);
+        }
+      else
+        {
+          const PlaneFrame frame(x, outward);
+          return (is_flat(frame.first) || is_flat(-frame.first)) &&
+                 (is_flat(frame.second) || is_flat(-frame.second));
+        }
+    }
+
+
+
+    /** Of a place of a surface before a shape, positive if the shape's rim runs
+     * along the surface at most @p reach behind it, against @p outward. */
+    template <int dim>
+    double
+    level_behind_gap(const Shape<dim>     &shape,
+                     const Point<dim>     &x,
+                     const Tensor<1, dim> &outward,
+                     const double          reach,
+                     const double          tolerance)
+    {
+      double depth = 0;
+      for (unsigned int k = 0; k < 100 && depth <= reach; ++k)
+        {
+          const Point<dim> there = x - depth * outward;
+          const double     level = shape.distance(there, reach);
+          if (level > 0)
+            return is_rim_across(shape, there, outward, 20 * tolerance) ?
+                     std::max(tolerance,
+                              shape.level(there - 1e8 * tolerance * outward)) :
+                     -reach;
+          depth += std::max(-level, tolerance);
+        }
+      return -reach;
+    }
+
+
+
+    /** Positive where a shape is at a place of a surface, or at most @p reach
+     * before or behind it. Where an expression is no number it is. */
+    template <int dim>
+    double
+    level_near(const Shape<dim>     &shape,
+               const Point<dim>     &x,
+               const Tensor<1, dim> &normal,
+               const double          reach,
+               const double          tolerance)
+    {
+      try
+        {
+          const double level =
+            std::max(level_beside<dim>(shape, x, tolerance * normal),
+                     level_beside<dim>(shape, x, -tolerance * normal));
+          if (level > 0)
+            return level;
+          const double behind_gap = std::max(
+            level_behind_gap<dim>(shape, x, normal, reach, tolerance),
+            level_behind_gap<dim>(shape, x, -normal, reach, tolerance));
+          return behind_gap > 0 ? behind_gap : level;
+        }
+      catch (const InputError &)
+        {
+          return reach;
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   double
   Extent<dim>::value(const Point<dim>     &x,
@@ -131,24 +244,19 @@ namespace moraine
                      const double          tolerance) const
   {
     double value = std::numeric_limits<double>::infinity();
-    for (const auto &[shape, inside, along] : limits)
-      for (const auto &[side, other] : {std::make_pair(-1., Along::outer),
-                                        std::make_pair(1., Along::inner)})
-        if (along != other)
-          {
-            const double sign  = inside ? 1. : -1.;
-            double       level = shape->level(x + side * tolerance * normal);
-            // along a boundary of the shape, further off there is a distance
-            // from the end that is not round-off
-            if (std::abs(level) <= 1.5 * tolerance)
-              {
-                const double off =
-                  shape->level(x + side * 1e8 * tolerance * normal);
-                level =
-                  level > 0. ? std::max(level, off) : std::min(level, off);
-              }
-            value = std::min(value, sign * level);
-          }
+    for (const auto &[shape, inside, along, reach] : limits)
+      if (along == Along::beside)
+        value =
+          std::min(value, level_near(*shape, x, normal, reach, tolerance));
+      else
+        for (const auto &[side, other] : {std::make_pair(-1., Along::outer),
+                                          std::make_pair(1., Along::inner)})
+          if (along != other)
+            value = std::min(value,
+                             (inside ? 1. : -1.) *
+                               level_beside<dim>(*shape,
+                                                 x,
+                                                 side * tolerance * normal));
     return value;
   }
 
@@ -216,10 +324,24 @@ namespace moraine
   {
     Extent<dim> result;
     result.box = placement.inverse().map(box);
-    for (const auto &[shape, inside, along] : limits)
+    for (const auto &[shape, inside, along, reach] : limits)
       result.limits.push_back(
-        {make_moved(shape, placement.inverse()), inside, along});
+        {make_moved(shape, placement.inverse()), inside, along, reach});
     return result;
+  }
+
+
+
+  template <int dim>
+  Extent<dim>
+  Extent<dim>::and_within(const Extent &other) const
+  {
+    Extent<dim> both = *this;
+    both.limits.insert(both.limits.end(),
+                       other.limits.begin(),
+                       other.limits.end());
+    both.box = intersection(box, other.box);
+    return both;
   }
 
 
@@ -274,6 +396,20 @@ namespace moraine
 
 
 
+  template <int dim>
+  SurfacePointer<dim>
+  MovedSurface<dim>::within(const Extent<dim> &extent) const
+  {
+    const auto part = reference->within(extent.seen_from(present));
+    if (!part)
+      return nullptr;
+    const auto moved = std::make_shared<MovedSurface<dim>>(part, present);
+    moved->see_over(seen_over);
+    return moved;
+  }
+
+
+
   namespace
   {
     template <int dim>
@@ -313,6 +449,17 @@ namespace moraine
       {
         for (const auto &member : members)
           member->pieces(cell, n_gauss, out);
+      }
+
+      SurfacePointer<dim>
+      within(const Extent<dim> &extent) const override
+      {
+        std::vector<SurfacePointer<dim>> parts;
+        for (const auto &member : members)
+          parts.push_back(member->within(extent));
+        return std::find(parts.begin(), parts.end(), nullptr) == parts.end() ?
+                 join(parts) :
+                 nullptr;
       }
 
     private:

@@ -174,7 +174,167 @@ namespace moraine
 
 
 
-    /** The parts of a flat piece within an extent. */
+    using PlanePolygon = ConvexPolytope<2>::PointList;
+
+    double
+    area_of(const std::vector<PlanePolygon> &polygons)
+    {
+      double area = 0;
+      for (const auto &p : polygons)
+        area += polygon_area(Polygon(p.begin(), p.end()));
+      return area;
+    }
+
+
+
+    /** What one set of polygons has beyond another, as polygons whose areas
+     * sum up to it: clockwise ones count as negative. */
+    std::vector<PlanePolygon>
+    without(const std::vector<PlanePolygon> &one,
+            const std::vector<PlanePolygon> &other,
+            const double                     round_off)
+    {
+      const auto counter_clockwise = [](PlanePolygon p) {
+        const bool turn = area_of({p}) < 0;
+        if (turn)
+          std::reverse(p.begin(), p.end());
+        return std::make_pair(p, turn);
+      };
+      std::vector<PlanePolygon> result = one;
+      for (const auto &a : one)
+        for (const auto &b : other)
+          {
+            const auto [p, p_turned] = counter_clockwise(a);
+            const auto [q, q_turned] = counter_clockwise(b);
+            auto both                = ConvexPolytope<2>::polygon(p, round_off);
+            for (unsigned int i = 0; i < q.size() && !both.empty(); ++i)
+              both.clip(q[i], -cross_product_2d(q[(i + 1) % q.size()] - q[i]));
+            if (both.empty())
+              continue;
+            result.emplace_back(both.vertices().begin(), both.vertices().end());
+            if (p_turned == q_turned)
+              std::reverse(result.back().begin(), result.back().end());
+          }
+      return result;
+    }
+
+
+
+    /**
+     * What a straight @p shape has of a polygon in a plane on one side of it,
+     * exactly: faces in the plane of what it has of a slab there. Clockwise
+     * ones count as negative.
+     */
+    std::vector<PlanePolygon>
+    parts_on_side(const Shape<3>     &shape,
+                  const PlaneFrame   &frame,
+                  const Tensor<1, 3> &outward,
+                  const PlanePolygon &polygon,
+                  const double        round_off,
+                  const double        tolerance)
+    {
+      const auto      box  = BoundingBox<2>(polygon);
+      const double    deep = 1e-2 * (box.side_length(0) + box.side_length(1));
+      CellVertices<3> corners;
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        corners[v] =
+          frame.to_space(box.vertex(v & 3)) - ((v & 4) ? 0. : deep) * outward;
+      if (cross_product_3d(frame.first, frame.second) * outward < 0)
+        for (unsigned int v = 0; v < 4; ++v)
+          std::swap(corners[v], corners[v + 4]);
+      ConvexPolytope<3> slab(corners, round_off);
+      for (unsigned int i = 0; i < polygon.size(); ++i)
+        {
+          const Tensor<1, 2> in =
+            -cross_product_2d(polygon[(i + 1) % polygon.size()] - polygon[i]);
+          slab.clip(frame.to_space(polygon[i]),
+                    in[0] * frame.first + in[1] * frame.second);
+        }
+      SignedPieces<3>           pieces;
+      std::vector<PlanePolygon> parts;
+      shape.add_pieces(slab, 1., pieces);
+      for (const auto &[sign, piece] : pieces)
+        piece.for_each_face([&, sign = sign](const auto &face) {
+          PlanePolygon flat;
+          for (const auto &x : face)
+            {
+              if (std::abs((x - frame.origin) * outward) > tolerance)
+                return;
+              flat.push_back(frame.to_plane(x));
+            }
+          if (twice_area(face) * outward <= 0)
+            return;
+          if ((area_of({flat}) < 0) != (sign < 0))
+            std::reverse(flat.begin(), flat.end());
+          parts.push_back(flat);
+        });
+      return parts;
+    }
+
+
+
+    /** What a straight shape has of a polygon in a plane on either side of it;
+     * see parts_on_side(). */
+    std::vector<PlanePolygon>
+    parts_beside(const Shape<3>     &shape,
+                 const PlaneFrame   &frame,
+                 const Tensor<1, 3> &normal,
+                 const PlanePolygon &polygon,
+                 const double        round_off,
+                 const double        tolerance)
+    {
+      auto parts =
+        parts_on_side(shape, frame, normal, polygon, round_off, tolerance);
+      if (area_of(parts) > (1 - 1e-12) * area_of({polygon}))
+        return parts;
+      const auto more = without(
+        parts_on_side(shape, frame, -normal, polygon, round_off, tolerance),
+        parts,
+        round_off);
+      parts.insert(parts.end(), more.begin(), more.end());
+      return parts;
+    }
+
+
+
+    /** Whether a polygon in a plane can be cut by parts_beside(): by a straight
+     * shape that leaves no gap. */
+    bool
+    is_cut_exactly(const Extent<3>    &extent,
+                   const PlaneFrame   &frame,
+                   const Tensor<1, 3> &normal,
+                   const PlanePolygon &polygon,
+                   const double        tolerance)
+    {
+      if (extent.limits.size() != 1 ||
+          extent.limits[0].along != Extent<3>::Along::beside ||
+          !extent.limits[0].shape->is_straight())
+        return false;
+      Extent<3> without_reach       = extent;
+      without_reach.limits[0].reach = 0;
+      Point<2> middle;
+      for (const auto &p : polygon)
+        middle += p / double(polygon.size());
+      for (unsigned int i = 0; i < polygon.size(); ++i)
+        for (const double toward : {0., 0.5, 0.9, 0.999})
+          for (const double along : {0., 0.5})
+            {
+              const Point<2> end =
+                polygon[i] +
+                along * (polygon[(i + 1) % polygon.size()] - polygon[i]);
+              const Point<3> x =
+                frame.to_space(middle + toward * (end - middle));
+              if ((extent.value(x, normal, tolerance) > 0) !=
+                  (without_reach.value(x, normal, tolerance) > 0))
+                return false;
+            }
+      return true;
+    }
+
+
+
+    /** The parts of a flat piece within an extent; clockwise ones count as
+     * negative. */
     template <int dim>
     std::vector<Loop<dim>>
     parts_within(const Extent<dim>    &extent,
@@ -201,11 +361,26 @@ namespace moraine
         }
       else
         {
-          const PlaneFrame             frame(piece[0], normal);
-          ConvexPolytope<2>::PointList polygon;
-          SignedPieces<2>              flat;
+          const PlaneFrame frame(piece[0], normal);
+          PlanePolygon     polygon;
+          SignedPieces<2>  flat;
           for (const auto &x : piece)
             polygon.push_back(frame.to_plane(x));
+          if (is_cut_exactly(extent, frame, normal, polygon, tolerance))
+            {
+              for (const auto &part : parts_beside(*extent.limits[0].shape,
+                                                   frame,
+                                                   normal,
+                                                   polygon,
+                                                   round_off,
+                                                   tolerance))
+                {
+                  parts.emplace_back();
+                  for (const auto &p : part)
+                    parts.back().push_back(frame.to_space(p));
+                }
+              return parts;
+            }
           add_curved_pieces<2>(
             [&](const Point<2> &p) {
               return extent.value(frame.to_space(p), normal, tolerance);
@@ -330,6 +505,14 @@ namespace moraine
                 add_loop_points<dim>(
                   p, facet.normal, 1e-15 * size * size, n_gauss, out);
           }
+      }
+
+      SurfacePointer<dim>
+      within(const Extent<dim> &other) const override
+      {
+        return std::make_shared<FlatFace>(facets,
+                                          this->box,
+                                          extent.and_within(other));
       }
 
     private:

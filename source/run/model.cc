@@ -249,10 +249,9 @@ namespace moraine
           return f > 0;
         }))
       state->aggregate_below(fill, scene.method.has_ghost_term());
-    boundaries               = make_boundaries(scene);
-    grid_conditions          = make_grid_conditions(scene, *mesh);
-    const Covers<dim> covers = covers_of<dim>(shapes_of(bodies));
-    loads                    = make_loads(scene, *mesh, body_names, covers);
+    boundaries      = make_boundaries(scene);
+    grid_conditions = make_grid_conditions(scene, *mesh);
+    loads = make_loads(scene, *mesh, body_names, united(shapes_of(bodies)));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
     set_initial_stress(scene, *this);

@@ -233,7 +233,7 @@ namespace moraine
               const RigidMotion<dim>    &motion,
               const double               first_time,
               const MeshAfterStep        mesh_after_step,
-              const Covers<dim>         &covers)
+              const ShapePointer<dim>   &body)
     {
       return [=](const GridSpace<dim> &space, const double t) {
         const Placement<dim> at_first = motion.pose(first_time),
@@ -242,9 +242,9 @@ namespace moraine
           // Where bodies are beside one that has moved, cells tell.
           return places_on(MovedSurface<dim>(surface, now),
                            space.mesh(),
-                           motion.moves() ? Covers<dim>() : covers);
+                           motion.moves() ? nullptr : body);
         auto places =
-          places_on(MovedSurface<dim>(surface, at_first), space.mesh(), covers);
+          places_on(MovedSurface<dim>(surface, at_first), space.mesh(), body);
         if (mesh_after_step == MeshAfterStep::follow_material)
           for (auto &place : places)
             place.normal = now.rotate(at_first.inverse().rotate(place.normal));
@@ -287,13 +287,13 @@ namespace moraine
                             const std::vector<std::string> &body_names,
                             const ShapesOfBodies<dim>      &shapes_of_bodies)
   {
-    const NamedShapes<dim> shapes    = body_shapes(scene);
-    const auto             covers_at = [&](const StageParameters &stage) {
+    const NamedShapes<dim> shapes     = body_shapes(scene);
+    const auto             present_at = [&](const StageParameters &stage) {
       ShapesOfBodies<dim> present;
       for (unsigned int b = 0; b < body_names.size(); ++b)
         if (contains(stage.bodies, body_names[b]))
           present.push_back(shapes_of_bodies[b]);
-      return covers_of<dim>(present);
+      return present;
     };
     std::vector<AbsorbingBoundary<dim>> absorbing;
     for (const auto &[name, parameters] : scene.boundaries)
@@ -307,7 +307,7 @@ namespace moraine
               parameters.motion.make_motion(section),
               first_time_of(name, scene),
               scene.method.after_step(),
-              covers_at(scene.first_absorbing_stage(name))),
+              united(present_at(scene.first_absorbing_stage(name)))),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             false);
@@ -318,10 +318,10 @@ namespace moraine
           const std::string section = "Grid conditions/" + name;
           absorbing.emplace_back(
             name,
-            finder_on_side<dim>(mesh.boundary_id(parameters.side,
-                                                 place(section, "Side")),
-                                region_of(parameters, section),
-                                covers_at(scene.first_absorbing_stage(name))),
+            finder_on_side<dim>(
+              mesh.boundary_id(parameters.side, place(section, "Side")),
+              region_of(parameters, section),
+              covers_of<dim>(present_at(scene.first_absorbing_stage(name)))),
             parameters.absorbing.law(section),
             incident_velocity<dim>(parameters.absorbing, section),
             true);
@@ -370,7 +370,7 @@ namespace moraine
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names,
-             const Covers<dim>              &covers)
+             const ShapePointer<dim>        &body)
   {
     using Place                   = typename CarriedLoad<dim>::Place;
     const NamedShapes<dim> shapes = body_shapes(scene);
@@ -399,12 +399,12 @@ namespace moraine
                                        value,
                                        places_on(*surface,
                                                  mesh,
-                                                 covers,
+                                                 body,
                                                  scene.method.after_step() ==
                                                      MeshAfterStep::reset ?
                                                    Spacing::through_mesh :
                                                    Spacing::for_cells),
-                                       share_outside(*surface, mesh, covers));
+                                       share_outside(*surface, mesh, body));
           }
         else
           {
@@ -456,7 +456,7 @@ namespace moraine
   template Loads<dim> make_loads(const Scene<dim> &,                      \
                                  const BackgroundMesh<dim> &,             \
                                  const std::vector<std::string> &,        \
-                                 const Covers<dim> &);                    \
+                                 const ShapePointer<dim> &);              \
   template std::function<Tensor<1, dim>(const unsigned int,               \
                                         const Point<dim> &)>              \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);

@@ -132,19 +132,19 @@ namespace moraine
   /**
    * The places of a surface in a mesh, the same on all ranks. What runs along a
    * side of the mesh, and beyond it by no more than a tenth of a cell, is in
-   * it. If @p covers is given, what is further from a body than half a cell is
-   * left out.
+   * it. If @p body is given, what is further from it than half a cell is left
+   * out; see beside().
    *
    * @param surface any
    * @param mesh the whole of it
-   * @param covers none if nothing is known of bodies
+   * @param body the union of all; null if nothing is known of one
    * @param spacing for places that stay in their cells or leave them
    */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on(const Surface<dim>        &surface,
             const BackgroundMesh<dim> &mesh,
-            const Covers<dim>         &covers  = {},
+            const ShapePointer<dim>   &body    = nullptr,
             const Spacing              spacing = Spacing::for_cells);
 
   /**
@@ -154,13 +154,13 @@ namespace moraine
    *
    * @param surface any
    * @param mesh the whole of it
-   * @param covers none if nothing is known of bodies
+   * @param body the union of all; null if nothing is known of one
    */
   template <int dim>
   double
   share_outside(const Surface<dim>        &surface,
                 const BackgroundMesh<dim> &mesh,
-                const Covers<dim>         &covers = {});
+                const ShapePointer<dim>   &body = nullptr);
 
   /** The places of a side of a mesh, the same on all ranks; where @p covers is
    * given, those at a body. */

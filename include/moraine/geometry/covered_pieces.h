@@ -49,9 +49,22 @@ namespace moraine
                const dealii::Tensor<1, dim> &normal,
                const double                  h);
 
+  /** The union of bodies where they are at first; null if the points of one of
+   * them are given, so that its @p shapes entry is null. */
+  template <int dim>
+  ShapePointer<dim>
+  united(const std::vector<ShapePointer<dim>> &shapes);
+
+  /** What of surfaces is in a body or at it, or at most @p reach [length] off
+   * on either side where the rim of the body runs along them. */
+  template <int dim>
+  Extent<dim>
+  beside(const ShapePointer<dim> &body, const double reach);
+
   /**
    * The points of a surface in a cell that are to be kept. Where only some are,
-   * as a body ends there, the cell is halved, four times in 2D and twice in 3D.
+   * as a body ends there, the cell is halved, by default four times in 2D and
+   * twice in 3D.
    * What is nearer to a face of the cell than all points is not seen: 7 % of
    * the cell size with 4 points in each direction.
    *
@@ -67,7 +80,8 @@ namespace moraine
                   const CellVertices<dim>                              &cell,
                   const unsigned int                                    n_gauss,
                   const std::function<bool(const SurfacePoint<dim> &)> &keep,
-                  std::vector<SurfacePoint<dim>>                       &points);
+                  std::vector<SurfacePoint<dim>>                       &points,
+                  const unsigned int n_halvings = dim == 2 ? 4 : 2);
 } // namespace moraine
 
 #endif

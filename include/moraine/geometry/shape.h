@@ -21,6 +21,9 @@ namespace moraine
   template <int dim>
   class Shape;
 
+  template <int dim>
+  struct Extent;
+
   /**
    * A quadrature point on a surface: its place, the unit normal pointing out of
    * the body (−∇φ), and its weight (length in 2D, area in 3D).
@@ -126,6 +129,15 @@ namespace moraine
            const unsigned int              n_gauss,
            std::vector<SurfacePoint<dim>> &out) const = 0;
 
+    /** What of the surface is within @p extent, too; null if pieces() cannot
+     * cut that exactly. */
+    virtual std::shared_ptr<const Surface<dim>>
+    within(const Extent<dim> &extent) const
+    {
+      (void)extent;
+      return nullptr;
+    }
+
     /** A box that holds the surface; see unlimited_extent. */
     const dealii::BoundingBox<dim> &
     bounding_box() const
@@ -174,7 +186,8 @@ namespace moraine
     {
       inner, ///< what lies just behind the surface, in its body
       outer, ///< what lies just before it
-      never  ///< outside of the extent
+      never, ///< outside of the extent
+      beside ///< within the extent, also at a distance up to its reach
     };
 
     struct Limit
@@ -182,6 +195,7 @@ namespace moraine
       std::shared_ptr<const Shape<dim>> shape;
       bool                              inside; ///< else outside of the shape
       Along                             along;
+      double                            reach = 0; ///< [length] if beside
     };
 
     /**
@@ -214,6 +228,10 @@ namespace moraine
     /** The limits seen from the frame that @p placement puts in place. */
     Extent
     seen_from(const Placement<dim> &placement) const;
+
+    /** What is within both. */
+    Extent
+    and_within(const Extent &other) const;
 
     std::vector<Limit> limits;
 
@@ -256,6 +274,9 @@ namespace moraine
     pieces(const CellVertices<dim>        &cell,
            const unsigned int              n_gauss,
            std::vector<SurfacePoint<dim>> &out) const override;
+
+    SurfacePointer<dim>
+    within(const Extent<dim> &extent) const override;
 
   private:
     SurfacePointer<dim> reference;

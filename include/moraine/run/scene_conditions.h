@@ -38,13 +38,14 @@ namespace moraine
   make_grid_conditions(const Scene<dim>          &scene,
                        const BackgroundMesh<dim> &mesh);
 
-  /** Surfaces on which they act end where bodies do, as @p covers says. */
+  /** Surfaces on which they act end where @p body does, the union of all; null
+   * if nothing is known of one. */
   template <int dim>
   Loads<dim>
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names,
-             const Covers<dim>              &covers);
+             const ShapePointer<dim>        &body);
 
   /** Velocities at the start, by body. */
   template <int dim>
