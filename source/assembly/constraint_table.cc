@@ -11,12 +11,43 @@ namespace moraine
 
   namespace
   {
+    using Line = AffineConstraints<double>::ConstraintLine;
+
+
+
+    /** Keep of a tie what is prescribed, with weights of sum 1, if this is on
+     * the way from the others to the tied unknown, or all.
+     * @return whether it is */
+    bool
+    keep_prescribed(Line &tie, const AffineConstraints<double> &lines)
+    {
+      constexpr double round_off = 1e-9;
+      Line::Entries    prescribed;
+      double           sum = 0;
+      for (const auto &[dof, weight] : tie.entries)
+        if (lines.is_constrained(dof) &&
+            lines.get_constraint_entries(dof)->empty())
+          {
+            prescribed.emplace_back(dof, weight);
+            sum += weight;
+          }
+      if (sum < 1 - round_off)
+        return false;
+      for (auto &entry : prescribed)
+        entry.second /= sum;
+      tie.entries = prescribed;
+      return true;
+    }
+
+
+
     /** Add the forces of the unknowns of @p tied to those they are tied to,
      * which are @p relevant. */
     template <class Lines>
     void
     add_to_others(const Lines    &tied,
                   const IndexSet &relevant,
+                  const IndexSet &left_out,
                   LA::Vector     &force)
     {
       LA::Vector sums;
@@ -25,7 +56,8 @@ namespace moraine
                   force.get_mpi_communicator(),
                   true);
       for (const auto &line : tied)
-        if (force.in_local_range(line.index))
+        if (force.in_local_range(line.index) &&
+            !left_out.is_element(line.index))
           for (const auto &[dof, weight] : line.entries)
             {
               const double f = weight * force(line.index);
@@ -59,8 +91,10 @@ namespace moraine
   void
   ConstraintTable::reinit(const IndexSet &relevant,
                           const MPI_Comm &communicator,
-                          const AddLines &add_lines)
+                          const AddLines &add_lines,
+                          const bool      prescribed_take)
   {
+    takes = prescribed_take;
     lines.clear();
     lines.reinit(relevant);
     set_values(add_lines);
@@ -69,7 +103,9 @@ namespace moraine
       lines.set_inhomogeneity(line.index, 0.);
     has_lines =
       Utilities::MPI::logical_or(lines.n_constraints() > 0, communicator);
-    has_ties = Utilities::MPI::logical_or(!ties.empty(), communicator);
+    has_ties  = Utilities::MPI::logical_or(!ties.empty(), communicator);
+    has_taken = Utilities::MPI::logical_or(taken_by_prescribed.n_elements() > 0,
+                                           communicator);
   }
 
 
@@ -82,9 +118,15 @@ namespace moraine
     lines_with_values.reinit(relevant);
     add_lines(lines_with_values);
     ties.clear();
+    taken_by_prescribed = IndexSet(relevant.size());
     for (const auto &line : lines_with_values.get_lines())
       if (!line.entries.empty())
-        ties.push_back(line);
+        {
+          ties.push_back(line);
+          if (takes && keep_prescribed(ties.back(), lines_with_values))
+            taken_by_prescribed.add_index(line.index);
+        }
+    taken_by_prescribed.compress();
     lines_with_values.close();
   }
 
@@ -130,7 +172,10 @@ namespace moraine
   ConstraintTable::condense(LA::Vector &force) const
   {
     if (has_ties)
-      add_to_others(lines.get_lines(), lines.get_local_lines(), force);
+      add_to_others(lines.get_lines(),
+                    lines.get_local_lines(),
+                    taken_by_prescribed,
+                    force);
     lines.set_zero(force);
   }
 
@@ -141,7 +186,10 @@ namespace moraine
   {
     if (!has_ties)
       return;
-    add_to_others(ties, lines.get_local_lines(), force);
+    add_to_others(ties,
+                  lines.get_local_lines(),
+                  IndexSet(lines.get_local_lines().size()),
+                  force);
     for (const auto &line : ties)
       if (force.in_local_range(line.index))
         force(line.index) = 0.;

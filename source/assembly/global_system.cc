@@ -13,13 +13,14 @@ namespace moraine
   template <int dim>
   void
   GlobalSystem<dim>::reinit(const GridSpace<dim>            &space_,
-                            const AffineConstraints<double> &constraints_,
+                            const ConstraintTable           &table_,
                             const Couplings<dim>            &couplings,
                             const std::vector<unsigned int> &body_of_node_,
                             const unsigned int               n_bodies)
   {
     space        = &space_;
-    constraints  = &constraints_;
+    table        = &table_;
+    constraints  = &table_.homogeneous();
     body_of_node = &body_of_node_;
     squares.assign(n_bodies, 0.);
     sum_of_matrices = std::make_shared<LA::SparseMatrix>();
@@ -147,10 +148,8 @@ namespace moraine
     // Of a diagonal with nothing on it deal.II takes the mean of all others.
     if (whole)
       {
-        constraints->distribute_local_to_global(local.matrix,
-                                                local.dofs,
-                                                *sum_of_matrices);
-        return;
+        rest = local.matrix;
+        return add_rest(local);
       }
     std::sort(by_column.begin(), by_column.end());
     add_to_rows(local);
@@ -162,6 +161,20 @@ namespace moraine
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             rest(dim * a + c, dim * b + d) = 0;
+    add_rest(local);
+  }
+
+
+
+  template <int dim>
+  void
+  GlobalSystem<dim>::add_rest(const LocalSystem<dim> &local)
+  {
+    if (table->any_taken())
+      for (unsigned int r = 0; r < local.dofs.size(); ++r)
+        if (table->taken().is_element(local.dofs[r]))
+          for (unsigned int s = 0; s < local.dofs.size(); ++s)
+            rest(r, s) = 0;
     constraints->distribute_local_to_global(rest, local.dofs, *sum_of_matrices);
   }
 

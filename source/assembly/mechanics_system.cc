@@ -222,7 +222,8 @@ namespace moraine
     const GridSpace<dim> &space = state.grid();
     constraints.reinit(space.locally_relevant(),
                        space.communicator(),
-                       lines_of_terms());
+                       lines_of_terms(),
+                       context.motion == nullptr);
 
     Couplings<dim> couplings(space);
     const auto couple = [&](const unsigned int *nodes, const unsigned int n) {
@@ -247,11 +248,8 @@ namespace moraine
     for (const auto &term : terms)
       term->couple(context, couple);
     bodies = find_bodies_of_nodes(state, body_names.size());
-    sums.reinit(space,
-                constraints.homogeneous(),
-                couplings,
-                bodies.of_node,
-                body_names.size());
+    sums.reinit(
+      space, constraints, couplings, bodies.of_node, body_names.size());
     for (LA::Vector *vector :
          {&residual_vector, &forces.dead, &unbalanced, &assembled_at})
       *vector = space.vector();
@@ -336,9 +334,10 @@ namespace moraine
   bool
   MechanicsSystem<dim>::symmetric() const
   {
-    return std::all_of(terms.begin(), terms.end(), [this](const auto &term) {
-      return term->symmetric(context);
-    });
+    return !constraints.any_taken() &&
+           std::all_of(terms.begin(), terms.end(), [this](const auto &term) {
+             return term->symmetric(context);
+           });
   }
 
 

@@ -20,17 +20,25 @@ namespace moraine
    * alike. With @f$\Delta u = W \Delta v + g@f$ the equations are
    * @f$W^T r = 0@f$ and the tangent is @f$W^T K W@f$. Ranks hold the lines of
    * all unknowns they know.
+   *
+   * Material beyond prescribed unknowns moves on as that before them does. What
+   * acts on it the prescribed ones take: where the weights of prescribed
+   * @f$j@f$ sum up to 1 or more, row i of W is left out of @f$W^T@f$. Handed to
+   * the free ones, it would pull at the material before the prescribed ones.
    */
   class ConstraintTable
   {
   public:
     using AddLines = std::function<void(dealii::AffineConstraints<double> &)>;
 
-    /** Take new lines among the unknowns @p relevant. Collective. */
+    /** Take new lines among the unknowns @p relevant. Forces beyond prescribed
+     * unknowns are theirs if @p prescribed_take, else those of the tie, which
+     * keeps the tangent symmetric. Collective. */
     void
     reinit(const dealii::IndexSet &relevant,
            const MPI_Comm         &communicator,
-           const AddLines         &add_lines);
+           const AddLines         &add_lines,
+           const bool              prescribed_take = false);
 
     /** The same lines with new @f$g@f$. */
     void
@@ -58,6 +66,20 @@ namespace moraine
     bool
     prescribes(const dealii::types::global_dof_index dof) const;
 
+    /** Tied unknowns whose forces prescribed ones take. */
+    const dealii::IndexSet &
+    taken() const
+    {
+      return taken_by_prescribed;
+    }
+
+    /** Whether any rank has some. */
+    bool
+    any_taken() const
+    {
+      return has_taken;
+    }
+
     /** Fill the constrained entries from the free ones. Collective. */
     void
     distribute(LA::Vector &x) const;
@@ -81,8 +103,11 @@ namespace moraine
     /** Those to other unknowns, as terms added them: some of the others may be
      * prescribed. */
     std::vector<dealii::AffineConstraints<double>::ConstraintLine> ties;
-    bool has_lines = false;
-    bool has_ties  = false;
+    dealii::IndexSet taken_by_prescribed;
+    bool             has_lines = false;
+    bool             has_ties  = false;
+    bool             has_taken = false;
+    bool             takes     = false;
   };
 } // namespace moraine
 

@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_global_system_h
 #define moraine_assembly_global_system_h
 
+#include <moraine/assembly/constraint_table.h>
 #include <moraine/assembly/couplings.h>
 #include <moraine/assembly/ghost_rows.h>
 #include <moraine/assembly/local_system.h>
@@ -45,11 +46,11 @@ namespace moraine
      * each of @p n_bodies, to which nodes belong by @p body_of_node.
      * Collective. */
     void
-    reinit(const GridSpace<dim>                    &space,
-           const dealii::AffineConstraints<double> &constraints,
-           const Couplings<dim>                    &couplings,
-           const std::vector<unsigned int>         &body_of_node,
-           const unsigned int                       n_bodies);
+    reinit(const GridSpace<dim>            &space,
+           const ConstraintTable           &table,
+           const Couplings<dim>            &couplings,
+           const std::vector<unsigned int> &body_of_node,
+           const unsigned int               n_bodies);
 
     /**
      * Begin anew, with the matrix if @p tangent. The matrix times the values
@@ -167,6 +168,10 @@ namespace moraine
     void
     add_to_matrix(const LocalSystem<dim> &local);
 
+    /** Add the matrix in rest in deal.II's way. */
+    void
+    add_rest(const LocalSystem<dim> &local);
+
     /** Add the pairs of the nodes in by_column to rows in memory. */
     void
     add_to_rows(const LocalSystem<dim> &local);
@@ -178,6 +183,7 @@ namespace moraine
     scale_tied_rows();
 
     const GridSpace<dim>                        *space       = nullptr;
+    const ConstraintTable                       *table       = nullptr;
     const dealii::AffineConstraints<double>     *constraints = nullptr;
     std::shared_ptr<LA::SparseMatrix>            sum_of_matrices;
     LA::LocalRows                                rows;
