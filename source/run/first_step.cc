@@ -22,6 +22,7 @@
 #include <moraine/run/point_volumes.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>
+#include <moraine/run/velocity_jump.h>
 #include <moraine/solver/newton.h>
 
 #include <deal.II/base/mpi.h>
@@ -95,64 +96,6 @@ namespace moraine
 
 
 
-    /** Aim at the end of the first step of a stage: nodes that are held get
-     * the velocity and the acceleration that conditions prescribe. */
-    template <int dim>
-    void
-    set_first_target(const TimeParameters &time, Model<dim> &model)
-    {
-      model.system->set_target(
-        time.start_time +
-        time.largest_step * (time.end_time - time.start_time) / time.n_steps);
-    }
-
-
-
-    /** Nodes that begin to move otherwise than conditions want are a mistake;
-     * means of points around a node that is held need not be held as well.
-     * Nodes that follow a root begin with what it has. */
-    template <int dim>
-    void
-    check_initial_velocity(const TimeParameters &time, Model<dim> &model)
-    {
-      const double allowed =
-        model.state->mesh_after_step() == MeshAfterStep::reset ? 0.25 : 1e-6;
-      const std::vector<Tensor<1, dim>> given = model.motion->velocities();
-      set_first_target(time, model);
-      const auto       &held = model.motion->velocities();
-      std::vector<bool> follows(given.size(), false);
-      if (const auto *aggregates = model.state->strict_aggregates())
-        for (const auto &tie : aggregates->ties())
-          follows[tie.node] = true;
-      double       largest = 0, contradiction = 0;
-      unsigned int worst = 0;
-      for (unsigned int k = 0; k < given.size(); ++k)
-        {
-          largest = std::max({largest, given[k].norm(), held[k].norm()});
-          if (!follows[k] && (given[k] - held[k]).norm() > contradiction)
-            {
-              contradiction = (given[k] - held[k]).norm();
-              worst         = k;
-            }
-        }
-      const MPI_Comm communicator = model.space->communicator();
-      largest                     = Utilities::MPI::max(largest, communicator);
-      std::ostringstream text;
-      if (given.size() > 0 && given[worst].norm() > 0 &&
-          contradiction > allowed * largest)
-        text << "section 'Bodies', key 'Initial velocity': found ("
-             << given[worst] << ") at the node (" << std::setprecision(6)
-             << model.space->node_position(worst)
-             << "), where conditions want (" << held[worst]
-             << "), allowed: velocities that agree with what holds the body";
-      for (const std::string &message :
-           Utilities::MPI::all_gather(communicator, text.str()))
-        if (!message.empty())
-          throw InputError(message);
-    }
-
-
-
     /** Accelerations from the balance of momentum, in a step that has begun
      * and has a target. */
     template <int dim>
@@ -181,18 +124,22 @@ namespace moraine
      * this is the first stage with inertia. */
     template <int dim>
     void
-    start_motion(const Scene<dim>      &scene,
-                 const StageParameters &stage,
-                 Model<dim>            &model)
+    start_motion(const Scene<dim>         &scene,
+                 const StageParameters    &stage,
+                 Model<dim>               &model,
+                 std::vector<std::string> &notes)
     {
-      if (&stage == &scene.first_dynamic_stage())
+      const bool first = &stage == &scene.first_dynamic_stage();
+      if (first)
         model.motion->start(initial_velocity(scene, model.body_names));
       else
         model.motion->start([](const unsigned int, const Point<dim> &) {
           return Tensor<1, dim>();
         });
       model.motion->begin_step();
-      check_initial_velocity(stage.time, model);
+      const std::string jump = velocity_jump(stage, first, model);
+      if (!jump.empty())
+        notes.push_back(jump);
       find_accelerations(model);
     }
 
@@ -357,7 +304,7 @@ namespace moraine
         notes.push_back(describe_balance(stage, model));
       }
     if (stage.time.integrator.dynamic())
-      start_motion(scene, stage, model);
+      start_motion(scene, stage, model, notes);
     else
       check_that_it_is_held(stage, model);
     return notes;
@@ -447,7 +394,7 @@ namespace moraine
       notes.push_back(describe_balance(stage, model));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic && !before.time.integrator.dynamic())
-      start_motion(scene, stage, model);
+      start_motion(scene, stage, model, notes);
     else if (!dynamic)
       {
         if (before.time.integrator.dynamic())

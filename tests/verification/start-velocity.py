@@ -1,0 +1,157 @@
+# ranks: 1 2
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""A condition whose motion starts at a speed: a body with this velocity follows
+it, one with another is told to jump, and one that moves where it is held at rest
+is refused."""
+
+from math import pi, sin
+
+SCENE = """
+subsection Mesh
+  set Lower corner = {lower}, 0
+  set Upper corner = {upper}, 1
+  set Cell size = 0.5
+end
+subsection Method
+  set Method = finite element
+  set Mesh after step = keep
+end
+subsection Materials
+  subsection m
+    set Young modulus = 1e9
+    set Poisson ratio = 0
+    set Density = 1
+  end
+end
+subsection Bodies
+  subsection b
+    set Lower corner = 0, 0
+    set Upper corner = 4, 1
+    set Initial velocity = {velocity}; 0
+  end
+end
+{hand}
+subsection Grid conditions
+  {condition}
+  subsection low
+    set Side = bottom
+    set Components = y
+  end
+end
+subsection Time
+  set Integrator = {integrator}
+  set End time = 1
+  set Steps = 100
+end
+subsection Probes
+  subsection right
+    set Location = 4, 0.5
+    set Kind = interpolated
+  end
+end
+subsection Output
+  set Write = end
+end
+"""
+SIDE = """subsection hand
+    set Side = left
+    set Components = x
+    set Displacement = {motion}; 0
+  end"""
+SURFACE = """subsection Boundaries
+  subsection hand
+    set Body = b
+    set Part = left
+    set Constraint = roller
+    set Translation = {motion}; 0
+  end
+end"""
+SINE = "sin(2*pi*t)"
+
+
+def of(velocity, motion=SINE, surface=False, integrator="Newmark", **options):
+    """The bar is so stiff that both of its ends move alike."""
+    scene = folder / "scene.prm"
+    scene.write_text(SCENE.format(
+        velocity=velocity, integrator=integrator,
+        lower=-0.75 if surface else 0, upper=4.25 if surface else 4,
+        hand=SURFACE.format(motion=motion) if surface else "",
+        condition="" if surface else SIDE.format(motion=motion)))
+    return run(scene, **options)
+
+
+def jumps(result):
+    return [line.strip().split(None, 1)[1] for line in result.output.splitlines()
+            if "jumps" in line]
+
+
+for integrator in ("Newmark", "generalised-alpha", "Bathe", "energy-momentum"):
+    result = of("2*pi", integrator=integrator)
+    bound(f"{integrator}: displacement of the free end - exact",
+          max(abs(row["u_x at right"] - sin(2 * pi * row["t"]))
+              for row in result.history()), 1e-4)
+    text("  told", jumps(result))
+text("rounded to 4 digits: told", jumps(of("6.283")))
+for surface in (False, True):
+    for velocity in ("0", "2*pi", "7"):
+        name = "surface" if surface else "side"
+        text(f"{name}, velocity {velocity}: told",
+             jumps(of(velocity, surface=surface)))
+text("held at rest, velocity 1",
+     of("1", motion="0", expect=2).output.strip().split(": ", 2)[2])
+
+# A block that turns about its corner, held there by a hand that turns alike.
+spin = folder / "spin.prm"
+spin.write_text("""
+subsection Mesh
+  set Lower corner = 0, 0
+  set Upper corner = 1, 1
+  set Cell size = 0.25
+end
+subsection Method
+  set Method = finite element
+  set Strain = finite
+end
+subsection Materials
+  subsection m
+    set Young modulus = 1e7
+    set Poisson ratio = 0.3
+    set Density = 1
+  end
+end
+subsection Bodies
+  subsection b
+    set Shape = mesh
+    set Initial velocity = -2*pi*y; 2*pi*x
+  end
+end
+subsection Grid conditions
+  subsection hand
+    set Lower corner = -0.1, -0.1
+    set Upper corner = 0.3, 0.3
+    set Rotation angle = 360*t
+  end
+end
+subsection Time
+  set Integrator = energy-momentum
+  set End time = 1
+  set Steps = 100
+end
+subsection Probes
+  subsection far
+    set Location = 1, 1
+    set Kind = interpolated
+  end
+end
+subsection Output
+  set Write = end
+end
+""")
+result = run(spin)
+rows = result.history()
+bound("spin: far corner after a turn, from where it was",
+      max(abs(rows[-1][f"u_{c} at far"]) for c in "xy"), 1e-3)
+bound("spin: angular momentum over exact - 1",
+      max(abs(row["angular_momentum_z"] / (4 * pi / 3) - 1) for row in rows), 2e-3)
+text("spin: told", jumps(result))
