@@ -67,8 +67,14 @@ namespace moraine
                                      N.data(),
                                      gradients[g].data());
       }
-    find_cells();
-    find_carried_forces(context.state, context.motion != nullptr);
+    cells.clear();
+    if (context.motion)
+      find_recovered_forces(context.state);
+    else
+      {
+        find_cells();
+        find_carried_forces(context.state);
+      }
     return false;
   }
 
@@ -150,9 +156,9 @@ namespace moraine
 
 
   template <int dim>
+  template <class Stress>
   void
-  DoubleMapping<dim>::find_carried_forces(const State<dim> &state,
-                                          const bool        with_inertia)
+  DoubleMapping<dim>::carry(const State<dim> &state, const Stress &stress)
   {
     carried_forces.assign(space.n_nodes(), Tensor<1, dim>());
     StencilBlock<dim> stencil;
@@ -162,16 +168,37 @@ namespace moraine
         basis.evaluate(g, stencil);
         for (unsigned int p = 0; p < stencil.n_points; ++p)
           {
-            const unsigned int point = stencil.points[p];
-            const double       v     = state.integration_volume(point);
-            auto stress = points.stress_field()(points.values(point));
-            if (with_inertia)
-              stress -= state.stress_of_recovery(point);
+            const unsigned int          point = stencil.points[p];
+            const SymmetricTensor<2, 3> of_p  = stress(point);
             for (unsigned int a = 0; a < stencil.n_nodes; ++a)
               carried_forces[stencil.nodes[a]] -=
-                force_of_stress(v, stress, stencil.grad_N(p)[a]);
+                force_of_stress(state.integration_volume(point),
+                                of_p,
+                                stencil.grad_N(p)[a]);
           }
       }
+  }
+
+
+
+  template <int dim>
+  void
+  DoubleMapping<dim>::find_recovered_forces(const State<dim> &state)
+  {
+    carry(state, [&state](const unsigned int point) {
+      return -state.stress_of_recovery(point);
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  DoubleMapping<dim>::find_carried_forces(const State<dim> &state)
+  {
+    carry(state, [this](const unsigned int point) {
+      return points.stress_field()(points.values(point));
+    });
     GaussBlock block;
     for (const Cell &cell : cells)
       {
@@ -206,6 +233,15 @@ namespace moraine
                      block.stencil.n_nodes,
                      tangent);
         internal_force.add(context, block.stencil, tangent, local);
+        system.add(local, tangent && local.failure.empty());
+      }
+    const Basis<dim> &basis = context.state.point_basis();
+    StencilBlock<dim> stencil;
+    for (unsigned int g = 0; context.motion && g < basis.n_batches(); ++g)
+      {
+        basis.evaluate(g, stencil);
+        local.reinit(context.state, stencil.nodes, stencil.n_nodes, tangent);
+        internal_force.add(context, stencil, tangent, local);
         system.add(local, tangent && local.failure.empty());
       }
     for (unsigned int node = 0; node < carried_forces.size(); ++node)

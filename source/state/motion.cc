@@ -66,85 +66,6 @@ namespace moraine
 
 
   template <int dim>
-  typename Motion<dim>::Nodal
-  Motion<dim>::map_to_nodes(const Nodal *known) const
-  {
-    const GridSpace<dim> &space = state.grid();
-    const Basis<dim>     &basis = state.point_basis();
-    const unsigned int    n     = space.n_nodes();
-    NodeValues            masses(n);
-    Nodal                 sums{NodeValues(n),
-               NodeValues(n),
-               NodeValues(before_field.exists() ? n : 0)};
-    StencilBlock<dim>     block;
-    NodeValues            places; ///< of the nodes of a block
-    for (unsigned int g = 0; g < basis.n_batches(); ++g)
-      {
-        basis.evaluate(g, block);
-        if (gradient_field.exists())
-          {
-            places.resize(block.n_nodes);
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
-              places[k] = space.node_position(block.nodes[k]);
-          }
-        for (unsigned int p = 0; p < block.n_points; ++p)
-          {
-            const unsigned int point  = block.points[p];
-            const double      *values = points.values(point);
-            const double       m      = state.mass(point);
-            Tensor<1, dim>     V = v_field(values), A = a_field(values), B;
-            if (before_field.exists())
-              B = before_field(values);
-            if (known)
-              for (unsigned int k = 0; k < block.n_nodes; ++k)
-                {
-                  V -= block.N(p)[k] * known->v[block.nodes[k]];
-                  A -= block.N(p)[k] * known->a[block.nodes[k]];
-                  if (before_field.exists())
-                    B -= block.N(p)[k] * known->a_before[block.nodes[k]];
-                }
-            // The mean place of what nodes see of the point: with it the
-            // gradient gives no momentum.
-            Tensor<1, dim> centre;
-            for (unsigned int k = 0; k < places.size(); ++k)
-              centre += block.N(p)[k] * places[k];
-            Tensor<2, dim> G;
-            if (gradient_field.exists())
-              G = gradient_field(values);
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
-              {
-                const unsigned int node  = block.nodes[k];
-                const double       share = block.N(p)[k] * m;
-                masses[node][0] += share;
-                sums.v[node] += share * V;
-                sums.a[node] += share * A;
-                if (before_field.exists())
-                  sums.a_before[node] += share * B;
-                if (gradient_field.exists())
-                  sums.v[node] += share * (G * (places[k] - centre));
-              }
-          }
-      }
-    std::vector<NodeValues *> found{&sums.v, &sums.a};
-    if (before_field.exists())
-      found.push_back(&sums.a_before);
-    space.sum_over_ranks(masses);
-    const Aggregates<dim> *const aggregates = state.strict_aggregates();
-    for (NodeValues *values : found)
-      {
-        space.sum_over_ranks(*values);
-        for (unsigned int k = 0; k < n; ++k)
-          if (masses[k][0] > 0)
-            (*values)[k] /= masses[k][0];
-        if (aggregates)
-          aggregates->hand_over(space, masses, *values);
-      }
-    return sums;
-  }
-
-
-
-  template <int dim>
   void
   Motion<dim>::rest()
   {
@@ -223,48 +144,6 @@ namespace moraine
       return come[body] ? Tensor<1, dim>() : v[node];
     });
     interpolate(v, v_field);
-  }
-
-
-
-  template <int dim>
-  typename Motion<dim>::NodeValues
-  Motion<dim>::mean_of_bodies(
-    const std::function<Tensor<1, dim>(const unsigned int, const unsigned int)>
-      &velocity) const
-  {
-    // Weights by the size of functions: quadratic ones are below 0 in places.
-    const GridSpace<dim> &space = state.grid();
-    const Basis<dim>     &basis = state.point_basis();
-    NodeValues            masses(space.n_nodes()), mean(space.n_nodes());
-    NodeValues            of_body; ///< velocities of the nodes of a block
-    StencilBlock<dim>     block;
-    for (unsigned int g = 0; g < basis.n_batches(); ++g)
-      {
-        basis.evaluate(g, block);
-        of_body.resize(block.n_nodes);
-        for (unsigned int p = 0; p < block.n_points; ++p)
-          {
-            const unsigned int body = points.body(block.points[p]);
-            if (p == 0 || body != points.body(block.points[p - 1]))
-              for (unsigned int k = 0; k < block.n_nodes; ++k)
-                of_body[k] = velocity(body, block.nodes[k]);
-            const double m = state.mass(block.points[p]);
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
-              {
-                const unsigned int node  = block.nodes[k];
-                const double       share = m * std::abs(block.N(p)[k]);
-                masses[node][0] += share;
-                mean[node] += share * of_body[k];
-              }
-          }
-      }
-    for (NodeValues *values : {&mean, &masses})
-      space.sum_over_ranks(*values);
-    for (unsigned int k = 0; k < mean.size(); ++k)
-      if (masses[k][0] > 0)
-        mean[k] /= masses[k][0];
-    return mean;
   }
 
 
@@ -390,38 +269,6 @@ namespace moraine
     set_step_size(0);
     by_start = 1;
     prescribed.clear();
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::set_accelerations(const LA::Vector &values)
-  {
-    state.grid().node_values(values, a);
-    interpolate(a, a_field);
-  }
-
-
-
-  template <int dim>
-  void
-  Motion<dim>::interpolate(const NodeValues &values,
-                           const PointField<dim, dealii::Tensor<1, dim>> &field)
-  {
-    const Basis<dim> &basis = state.point_basis();
-    StencilBlock<dim> block;
-    for (unsigned int g = 0; g < basis.n_batches(); ++g)
-      {
-        basis.evaluate(g, block);
-        for (unsigned int p = 0; p < block.n_points; ++p)
-          {
-            Tensor<1, dim> value;
-            for (unsigned int k = 0; k < block.n_nodes; ++k)
-              value += block.N(p)[k] * values[block.nodes[k]];
-            field.store(value, points.values(block.points[p]));
-          }
-      }
   }
 
 

@@ -102,8 +102,17 @@ namespace moraine
     void
     find_cells();
 
+    /** Carry the force of stress(p) at points. */
+    template <class Stress>
     void
-    find_carried_forces(const State<dim> &state, const bool with_inertia);
+    carry(const State<dim> &state, const Stress &stress);
+
+    void
+    find_carried_forces(const State<dim> &state);
+
+    /** With inertia. */
+    void
+    find_recovered_forces(const State<dim> &state);
 
     void
     evaluate(const Cell &cell, GaussBlock &block) const;

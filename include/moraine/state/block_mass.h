@@ -40,8 +40,9 @@ namespace moraine
                 const Mass              &mass,
                 const bool               all)
     {
-      constexpr double   share = 1e-3;
-      const unsigned int n     = block.n_nodes;
+      constexpr double   share     = 1e-3;
+      constexpr double   round_off = 1e-10;
+      const unsigned int n         = block.n_nodes;
       lumped.assign(n, all);
       any = all;
       if (all)
@@ -58,7 +59,7 @@ namespace moraine
               least = std::min(least, N[a]);
             }
         }
-      if (least < 0)
+      if (least < -round_off)
         return;
       const auto [smallest, largest] =
         std::minmax_element(of_nodes.begin(), of_nodes.end());

@@ -268,7 +268,8 @@ namespace moraine
     Nodal
     at_end() const;
 
-    /** Take accelerations at the start of a step. Collective. */
+    /** Take accelerations at the start of a step; nodes without mass follow
+     * their points. Collective. */
     void
     set_accelerations(const LA::Vector &values);
 
@@ -356,9 +357,29 @@ namespace moraine
       return {rule.velocity(step_size, v[node], a[node], before, end), end};
     }
 
-    /** @f$S^+@f$ of what points carry, less what they get from @p known. */
+    /** @f$S^+@f$ of what points carry, less what they get from @p known.
+     * Collective. */
     Nodal
     map_to_nodes(const Nodal *known = nullptr) const;
+
+    /** What the p-th point of a block carries in @p field, less what it gets
+     * from @p known values of nodes, if any. */
+    dealii::Tensor<1, dim>
+    unknown_part(const PointField<dim, dealii::Tensor<1, dim>> &field,
+                 const NodeValues                              *known,
+                 const StencilBlock<dim>                       &block,
+                 const unsigned int                             p) const;
+
+    /** Add what points of this rank carry, times mass. @p masses are those of
+     * nodes, and as component 1 of all points that see each. */
+    void
+    add_momenta(const Nodal *known, NodeValues &masses, Nodal &sums) const;
+
+    /** Give @p massless nodes the motion of their points. Collective. */
+    void
+    extend_motion(const Nodal             *known,
+                  const std::vector<bool> &massless,
+                  Nodal                   &values) const;
 
     /** @f$u^T M w@f$ of the motion in the step. */
     struct KineticProducts
@@ -384,6 +405,28 @@ namespace moraine
       const std::function<dealii::Tensor<1, dim>(const unsigned int body,
                                                  const unsigned int node)>
         &velocity) const;
+
+    /** The masses of add_momenta(), of all ranks. Collective. */
+    NodeValues
+    node_masses() const;
+
+    /**
+     * The nodes of @p masses that points see at which functions are zero but
+     * for round-off: all their points lie on the opposite face of a cell. They
+     * have stiffness all the same. None if there are none on any rank.
+     * Collective.
+     */
+    std::vector<bool>
+    nodes_without_mass(const NodeValues &masses) const;
+
+    /** Give @p massless nodes the mean of value(block, p, k), of the p-th point
+     * at the k-th node of a block, weighted by gradients: to what a mean by
+     * functions tends as points come close to the face. Collective. */
+    template <class Value>
+    void
+    extend(const std::vector<bool> &massless,
+           const Value             &value,
+           NodeValues              &values) const;
 
     /** Give points the @p field that nodes have. */
     void
