@@ -107,22 +107,26 @@ METHODS = ("material point", "GIMP", "CPDI1", "finite element")
 # Shares of the length of the block.
 CELLS_ACROSS = {2: (2.3, 3.3, 4, 6, 10), 3: (3.3, 4, 5)}
 
+# Without multipliers a boundary gives way by the traction over its stiffness. On
+# slivers whose nodes are free, multipliers settle slowly and the passes end.
+LIMITS = {"weighted": 1e-5, "penalty": 1e-5,
+          "augmented Lagrangian without aggregation": 1e-3}
+
 for dim, n in ((2, 500), (3, 200)):
     rng = random.Random(dim)
-    worst = dict.fromkeys(ENFORCEMENTS, 0)
+    worst = {}
     met = 0
     for k in range(n if ranks == 1 else n // 20):
-        keys = {"enforcement": ENFORCEMENTS[k % 5], "method": METHODS[k // 5 % 4],
-                "aggregate": (0.1, 0.5, 0)[k // 20 % 3]}
+        keys = {"enforcement": ENFORCEMENTS[k % 5], "method": METHODS[k % 4],
+                "aggregate": (0.1, 0.5, 0)[k % 3]}
         path = folder / "block.prm"
         path.write_text(scene(dim, rng, rng.choice(CELLS_ACROSS[dim]), **keys))
         result = run(path)
         met += "move differently" in result.output
         name = keys["enforcement"]
-        worst[name] = max(worst[name], result.errors["r_u"])
-    for name in ENFORCEMENTS:
-        # Without multipliers the boundary gives way by the traction over its
-        # stiffness.
-        limit = {"weighted": 1, "penalty": 1}.get(name, 1e-10)
-        bound(f"{dim}D, {name}: worst r_u", worst[name], limit)
+        if name == "augmented Lagrangian" and keys["aggregate"] == 0:
+            name += " without aggregation"
+        worst[name] = max(worst.get(name, 0), result.errors["r_u"])
+    for name, r_u in sorted(worst.items()):
+        bound(f"{dim}D, {name}: worst r_u", r_u, LIMITS.get(name, 1e-10))
     text(f"{dim}D: runs in which boundaries let go", met)
