@@ -126,6 +126,7 @@ namespace moraine
   void
   add_boundary_point(const BoundaryPoint<dim>    &point,
                      const ConstraintState<dim>  &constraint,
+                     const double                 of_start,
                      const Enforcement           &how,
                      const LameConstants         &C,
                      const StrainMeasure          measure,
@@ -142,10 +143,16 @@ namespace moraine
     const auto           &M        = constraint.M;
     const Tensor<2, dim>  W        = weights(how, M);
     const unsigned int    n_nodes  = local.dofs.size() / dim;
-    const Tensor<1, dim>  traction = boundary_traction(
+    Tensor<1, dim>        traction = boundary_traction(
       point, constraint, how, C, measure, grad_du, mean_grad_du);
-    const Tensor<1, dim> violation =
+    Tensor<1, dim> violation =
       point.accumulated_violation + constraint.violation;
+    if (of_start > 0)
+      {
+        traction += of_start * (point.multiplier_at_start * point.normal) *
+                    constraint.push;
+        violation += of_start * point.accumulated_violation;
+      }
 
     // f[b*dim+j] = flux of the unit displacement j of node b
     std::vector<Tensor<1, dim>> &f        = fluxes;
@@ -204,14 +211,13 @@ namespace moraine
 
   template <int dim>
   void
-  add_turn_of_normal(const BoundaryPoint<dim>      &point,
+  add_turn_of_normal(const double                   traction_by_normal,
                      const SymmetricTensor<2, dim> &normal_gradient,
                      const double                  *N,
                      LocalSystem<dim>              &local)
   {
     const unsigned int            n_nodes = local.dofs.size() / dim;
-    const SymmetricTensor<2, dim> turn =
-      point.JxW * (point.multiplier * point.normal) * normal_gradient;
+    const SymmetricTensor<2, dim> turn = traction_by_normal * normal_gradient;
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int b = 0; b < n_nodes; ++b)
         for (unsigned int i = 0; i < dim; ++i)
@@ -267,6 +273,7 @@ namespace moraine
                                             const Tensor<2, dim> &);          \
   template void           add_boundary_point(const BoundaryPoint<dim> &,      \
                                              const ConstraintState<dim> &,    \
+                                             const double,                    \
                                              const Enforcement &,             \
                                              const LameConstants &,           \
                                              const StrainMeasure,             \
@@ -283,7 +290,7 @@ namespace moraine
                                            const Enforcement &,               \
                                            const LameConstants &,             \
                                            LocalSystem<dim> &);               \
-  template void           add_turn_of_normal(const BoundaryPoint<dim> &,      \
+  template void           add_turn_of_normal(const double,                    \
                                              const SymmetricTensor<2, dim> &, \
                                              const double *,                  \
                                              LocalSystem<dim> &);

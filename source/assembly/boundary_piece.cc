@@ -14,13 +14,13 @@ namespace moraine
   void
   BoundaryPiece<dim>::reinit(const ImplicitBoundary<dim> &boundary,
                              const StepContext<dim>      &context,
-                             const unsigned int           first)
+                             const unsigned int           first,
+                             const double                 share)
   {
     const auto &points = boundary.points();
     first_point        = first;
     cell_index         = points[first].cell;
     find_nodes(context.state);
-    const bool in_the_middle = context.share_of_step() < 1;
     increments.clear();
     constraints.clear();
     double missed = 0, area = 0;
@@ -30,9 +30,8 @@ namespace moraine
       {
         set_place(boundary, q);
         increments.push_back(increment_here(context.increments()));
-        constraints.push_back(boundary.constraint_state(points[q],
-                                                        increments.back().value,
-                                                        in_the_middle));
+        constraints.push_back(
+          boundary.constraint_state(points[q], increments.back().value, share));
         const ConstraintState<dim> &state = constraints.back();
         missed += points[q].JxW * (state.normal * state.violation);
         area += points[q].JxW;

@@ -98,6 +98,20 @@ namespace moraine
 
 
 
+    /** Of the step, along the normal that turns: see add_turn_of_normal(). */
+    template <int dim>
+    double
+    turning_force(const BoundaryPoint<dim> &point, const double of_start)
+    {
+      Tensor<1, dim> multiplier = point.multiplier;
+      if (of_start > 0)
+        multiplier =
+          (multiplier + of_start * point.multiplier_at_start) / (1. + of_start);
+      return point.JxW * (multiplier * point.normal);
+    }
+
+
+
     /** Of a place without functions, see evaluate_shapes(). */
     template <int dim>
     std::string
@@ -266,45 +280,15 @@ namespace moraine
 
 
   template <int dim>
-  void
-  BoundaryTerm<dim>::note_start(const StepContext<dim> &context)
-  {
-    if (context.share_of_step() < 1.)
-      return;
-    std::vector<ConstraintState<dim>> states;
-    evaluate(context, forces_at_start, states);
-    for (unsigned int q = 0; q < forces_at_start.size(); ++q)
-      forces_at_start[q] *= boundary.points()[q].JxW;
-    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
-      forces_at_start.push_back(
-        boundary.points()[boundary.slopes()[k].point].JxW *
-        slope_traction(context, k, 1.));
-  }
-
-
-
-  template <int dim>
-  double
-  BoundaryTerm<dim>::work_of_motion(const unsigned int    k,
-                                    const Tensor<1, dim> &force,
-                                    const Tensor<1, dim> &prescribed) const
-  {
-    if (forces_at_start.empty())
-      return force * prescribed;
-    return 0.5 * (forces_at_start[k] + force) * prescribed;
-  }
-
-
-
-  template <int dim>
   bool
   BoundaryTerm<dim>::symmetric(const StepContext<dim> &context) const
   {
     // At finite strain a flux and its adjoint refer to different places.
     const Enforcement &how = boundary.enforcement();
-    return how.w_free == 0 ||
-           (context.state.strain_measure() == StrainMeasure::small &&
-            how.adjoint_sign > 0);
+    return !acts_over_step(context) &&
+           (how.w_free == 0 ||
+            (context.state.strain_measure() == StrainMeasure::small &&
+             how.adjoint_sign > 0));
   }
 
 
@@ -336,11 +320,12 @@ namespace moraine
     LocalSystem<dim>            local;
     BoundaryPiece<dim>          piece;
     std::vector<Tensor<1, dim>> fluxes;
-    const auto                 &points = boundary.points();
-    Enforcement                 how    = boundary.enforcement();
+    const auto                 &points   = boundary.points();
+    Enforcement                 how      = boundary.enforcement();
+    const double                of_start = share_of_start(context);
     for (unsigned int q = 0; q < points.size();)
       {
-        piece.reinit(boundary, context, q);
+        piece.reinit(boundary, context, q, context.share_of_push());
         const LameConstants &C =
           context.cell_materials.elastic_stiffness(piece.cell());
         adapt_to_cell(context, piece.cell(), how);
@@ -355,6 +340,7 @@ namespace moraine
               local.failure = why_no_place(boundary.name(), points[q].x);
             add_boundary_point(points[q],
                                piece.constraint(q),
+                               of_start,
                                how,
                                C,
                                context.state.strain_measure(),
@@ -369,7 +355,7 @@ namespace moraine
             if (tangent && boundary.follows_curve() &&
                 points[q].multiplier.norm_square() > 0.)
               add_turn_of_normal(
-                points[q],
+                turning_force(points[q], of_start),
                 boundary.normal_gradient(points[q], piece.increment(q).value),
                 piece.N.data(),
                 local);
@@ -396,7 +382,7 @@ namespace moraine
     states.resize(points.size());
     for (unsigned int q = 0; q < points.size();)
       {
-        piece.reinit(boundary, context, q);
+        piece.reinit(boundary, context, q, context.share_of_step());
         adapt_to_cell(context, piece.cell(), how);
         for (; q < piece.end(); ++q)
           {

@@ -217,8 +217,48 @@ namespace moraine
     const double share = context.motion->integrator().start_forces();
     if (!(share > 0) || forces_in_the_middle())
       return;
-    forces.at_start = sum_of_kinds();
+    forces.at_start  = sum_of_kinds();
+    const auto which = [this](const auto &term) {
+      return term.acts_over_step(context);
+    };
+    forces.over_step.clear();
+    if (std::any_of(terms.begin(), terms.end(), [&](const auto &term) {
+          return which(*term);
+        }))
+      {
+        sums.begin(false);
+        add_terms(which, false);
+        forces.over_step     = sums.forces_of_this_rank();
+        LA::Vector over_step = state.grid().vector();
+        sums.end(over_step);
+        forces.at_start -= over_step;
+      }
     forces.at_start *= share;
+  }
+
+
+
+  template <int dim>
+  void
+  MechanicsSystem<dim>::count_work_over_step(
+    typename Motion<dim>::StepWorks &works) const
+  {
+    if (forces.over_step.empty())
+      return;
+    // All of it counts here, and half of what is counted at either end.
+    const double at_start = product(forces.over_step, state.nodal_increments());
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      if (terms[i]->acts_over_step(context))
+        {
+          const unsigned int kind     = unsigned(terms[i]->work_kind());
+          const double       of_force = forces.works_of_terms[i];
+          works.at_end[kind] +=
+            2 * terms[i]->work_of_step(context, of_force) - of_force;
+        }
+    works.at_start[unsigned(WorkKind::boundaries)] -= at_start;
+    if (!context.motion->prescribed_increments().empty())
+      works.on_prescribed_at_start -=
+        product(forces.over_step, context.motion->prescribed_increments());
   }
 
 
@@ -282,6 +322,7 @@ namespace moraine
           works.on_prescribed_at_start +=
             product(forces.by_kind[k], prescribed);
       }
+    count_work_over_step(works);
     if (!prescribed.empty())
       works.on_prescribed_at_end = work_on_prescribed();
     works.sum_over_ranks(state.grid().communicator());
@@ -366,6 +407,10 @@ namespace moraine
   MechanicsSystem<2>::weigh_forces_at_start();
   template void
   MechanicsSystem<3>::weigh_forces_at_start();
+  template void
+  MechanicsSystem<2>::count_work_over_step(Motion<2>::StepWorks &) const;
+  template void
+  MechanicsSystem<3>::count_work_over_step(Motion<3>::StepWorks &) const;
   template LA::Vector
   MechanicsSystem<2>::sum_of_kinds() const;
   template LA::Vector

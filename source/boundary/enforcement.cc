@@ -53,8 +53,9 @@ namespace moraine
       "it, unless it runs along the faces of the cell. places: the places that "
       "integrate exactly; cells of degree 1 that the surface cuts at an angle "
       "lock then with all but Nitsche's method. auto: mean, but places with "
-      "Nitsche's method, with degree 2 and, in dynamics but by "
-      "generalised-alpha (above a spectral radius of 0), for a roller on a curve.",
+      "Nitsche's method, with degree 2 and, for a roller on a curve in "
+      "dynamics, but by generalised-alpha (above a spectral radius of 0) and "
+      "by Newmark on nodes that stay with the material.",
       Patterns::Selection("auto|mean|places"));
   }
 

@@ -232,12 +232,11 @@ namespace moraine
   ConstraintState<dim>
   ImplicitBoundary<dim>::constraint_state(const BoundaryPoint<dim> &point,
                                           const Tensor<1, dim>     &du,
-                                          const bool in_the_middle) const
+                                          const double              share) const
   {
     ConstraintState<dim> state;
     state.place =
-      point.x + (kind.moves_with_points ? (in_the_middle ? 0.5 : 1.) * du :
-                                          point.prescribed);
+      point.x + (kind.moves_with_points ? share * du : point.prescribed);
     if (!point.holds)
       {
         state.normal = state.push = point.normal;
@@ -262,9 +261,9 @@ namespace moraine
         state.violation = state.M * (du - point.prescribed);
       }
     state.push = state.normal;
-    if (kind.projects && in_the_middle)
+    if (kind.projects && share < 1.)
       {
-        state.push += point.normal;
+        state.push = share * state.normal + (1. - share) * point.normal;
         state.push /= state.push.norm();
       }
     return state;

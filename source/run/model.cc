@@ -433,7 +433,20 @@ namespace moraine
     system->set_terms(terms_of(scene, stage));
     const bool dynamic = stage.time.integrator.dynamic();
     if (dynamic)
-      motion->set_integrator(TimeIntegrator(stage.time.integrator));
+      {
+        motion->balance_means(
+          stage.time.integrator.integrator == "Newmark" &&
+          !motion->points_carry() &&
+          state->mesh_after_step() != MeshAfterStep::keep &&
+          std::any_of(boundaries.begin(),
+                      boundaries.end(),
+                      [&stage](const auto &boundary) {
+                        return boundary.is_curved_roller() &&
+                               contains(stage.boundaries, boundary.name()) &&
+                               !contains(stage.absorbing, boundary.name());
+                      }));
+        motion->set_integrator(TimeIntegrator(stage.time.integrator));
+      }
     system->set_motion(dynamic ? motion.get() : nullptr);
   }
 

@@ -34,6 +34,7 @@ namespace moraine
               {"damping energy", unit, -work(WorkKind::damping)},
               {"energy lost in transfer", unit, works.lost_in_transfer},
               {"kinetic energy of nodes", unit, works.kinetic},
+              {"numerical damping", unit, works.numerical_damping()},
               {"energy out of balance", unit, works.out_of_balance()}};
     }
 

@@ -57,6 +57,7 @@ namespace moraine
               {"work_of_boundaries", W[unsigned(WorkKind::boundaries)]},
               {"absorbed", -W[unsigned(WorkKind::absorbed)]},
               {"lost_in_transfer", works.lost_in_transfer},
+              {"numerical_damping", works.numerical_damping()},
               {"balance_error",
                largest > 0 ? std::abs(works.out_of_balance()) / largest : 0.}};
     }

@@ -174,6 +174,7 @@ namespace moraine
   Motion<dim>::begin_step()
   {
     set_step_size(0);
+    from_conditions = 0;
     if (!points_carry())
       {
         v.resize(state.grid().n_nodes());
@@ -221,8 +222,9 @@ namespace moraine
       space.node_values(x, result);
       return result;
     };
-    v = constrained(v, std::nullopt);
-    a = constrained(a, std::nullopt);
+    const NodeValues before = points_carry() || !moves ? NodeValues() : v;
+    v                       = constrained(v, std::nullopt);
+    a                       = constrained(a, std::nullopt);
     if (rule.looks_back())
       a_before = constrained(a_before, std::nullopt);
     if (!(size > 0) || !moves)
@@ -237,6 +239,7 @@ namespace moraine
             v[k] += (4. * half[k] - prescribed[k]) / size;
             a[k] += 4. * (prescribed[k] - 2. * half[k]) / (size * size);
           }
+        count_kinetic_change(before);
         return;
       }
     const NodeValues first  = constrained(none, 1. / 3),
@@ -258,6 +261,7 @@ namespace moraine
         if (rule.looks_back())
           a_before[k] += at_start;
       }
+    count_kinetic_change(before);
   }
 
 

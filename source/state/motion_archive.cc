@@ -23,6 +23,7 @@ namespace moraine
                   energy);
     archive.write("motion/work_of_prescribed", done.of_prescribed, energy);
     archive.write("motion/lost_in_transfer", done.lost_in_transfer, energy);
+    archive.write("motion/lost_stored", done.lost_stored, energy);
     archive.write("motion/kinetic_at_start", done.kinetic_at_start, energy);
     archive.write("motion/kinetic", done.kinetic, energy);
     archive.write("motion/stored_at_start", done.stored_at_start, energy);
@@ -57,6 +58,7 @@ namespace moraine
     std::copy(works.begin(), works.end(), done.of_forces);
     done.of_prescribed    = archive.number("motion/work_of_prescribed");
     done.lost_in_transfer = archive.number("motion/lost_in_transfer");
+    done.lost_stored      = archive.number("motion/lost_stored");
     done.kinetic_at_start = archive.number("motion/kinetic_at_start");
     done.kinetic          = archive.number("motion/kinetic");
     done.stored_at_start  = archive.number("motion/stored_at_start");

@@ -16,14 +16,21 @@ namespace moraine
   using namespace dealii;
 
   double
+  Works::numerical_damping() const
+  {
+    double sum = kinetic_at_start - kinetic - (lost_in_transfer - lost_stored);
+    for (const double work : of_forces)
+      sum += work;
+    return sum;
+  }
+
+
+
+  double
   Works::out_of_balance() const
   {
-    double sum = kinetic_at_start - lost_in_transfer - kinetic +
-                 stored_at_start - stored - dissipated;
-    for (unsigned int k = 0; k < n_kinds; ++k)
-      if (WorkKind(k) != WorkKind::internal)
-        sum += of_forces[k];
-    return sum;
+    return stored_at_start - stored - lost_stored - dissipated -
+           of_forces[unsigned(WorkKind::internal)];
   }
 
 
@@ -101,14 +108,32 @@ namespace moraine
 
   template <int dim>
   void
+  Motion<dim>::count_kinetic_change(const NodeValues &before)
+  {
+    if (before.empty())
+      return;
+    const auto [v_before, v_now] =
+      mass_products<2>({{{&before, &before}, {&v, &v}}});
+    from_conditions += 0.5 * (v_now - v_before);
+  }
+
+
+
+  template <int dim>
+  void
   Motion<dim>::count(const StepWorks       &step,
                      const KineticProducts &products,
                      const Nodal           &end)
   {
+    const double kinetic = 0.5 * products.v_v;
     if (!done.begun)
-      done.kinetic_at_start = 0.5 * products.v_v;
+      done.kinetic_at_start = kinetic;
     else
-      done.lost_in_transfer += done.kinetic - 0.5 * products.v_v;
+      {
+        done.lost_in_transfer += done.kinetic - kinetic + from_conditions;
+        done.of_forces[unsigned(WorkKind::boundaries)] += from_conditions;
+        done.of_prescribed += from_conditions;
+      }
     // The parts of the forces at both ends in what moves the nodes.
     const double share   = rule.forces_in_the_middle() ? 0. : 0.5;
     double       missing = share * products.a_du;
@@ -130,9 +155,17 @@ namespace moraine
         done.of_prescribed += of_start + of_end;
         missing -= of_start;
       }
-    // Only Newmark's rule has accelerations that balance the forces.
-    if (points_carry() && rule.start_forces() == 0.)
-      done.lost_in_transfer -= missing;
+    // Only Newmark's rule has accelerations that balance the forces. Where
+    // nodes keep them, boundaries alone have other forces by now: their pieces
+    // were cut anew.
+    if (rule.start_forces() == 0.)
+      {
+        const unsigned int k = unsigned(WorkKind::boundaries);
+        if (points_carry())
+          done.lost_in_transfer -= missing;
+        else if (step.at_start[k] != 0. || step.at_end[k] != 0.)
+          done.of_forces[k] += missing;
+      }
     done.kinetic = 0.5 * products.v_v_end;
   }
 
@@ -148,7 +181,10 @@ namespace moraine
     if (!done.begun)
       done.stored_at_start = start;
     else
-      done.lost_in_transfer += done.stored - start;
+      {
+        done.lost_in_transfer += done.stored - start;
+        done.lost_stored += done.stored - start;
+      }
     done.begun  = true;
     done.stored = Utilities::MPI::sum(energies.stored, communicator);
     done.dissipated += Utilities::MPI::sum(energies.dissipated, communicator);
@@ -194,6 +230,10 @@ namespace moraine
   Motion<2>::mass_products(const std::array<Pair, 2> &) const;
   template std::array<double, 2>
   Motion<3>::mass_products(const std::array<Pair, 2> &) const;
+  template void
+  Motion<2>::count_kinetic_change(const NodeValues &);
+  template void
+  Motion<3>::count_kinetic_change(const NodeValues &);
   template void
   Motion<2>::count(const StepWorks &, const KineticProducts &, const Nodal &);
   template void

@@ -478,10 +478,9 @@ namespace
                 boundary.N(q)[a] * (turn * (node - centre) - (node - centre));
             }
           off_linear = std::max(off_linear, of_linear.norm());
-          off_turned =
-            std::max(off_turned,
-                     boundary.constraint_state(points[q], turned, false)
-                       .violation.norm());
+          off_turned = std::max(
+            off_turned,
+            boundary.constraint_state(points[q], turned, 1.).violation.norm());
           normal_gradients.push_back(
             boundary.normal_gradient(points[q], Tensor<1, 2>()));
         }

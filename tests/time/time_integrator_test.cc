@@ -54,6 +54,20 @@ namespace
   }
 } // namespace
 
+// Of means of both ends or of the end, the same rule.
+TEST(TimeIntegrator, MeansOfBothEndsAreTheSameRule)
+{
+  for (const auto &rule : {TimeIntegrator::newmark(0.25, 0.5),
+                           TimeIntegrator::newmark(0.3025, 0.6)})
+    {
+      const Oscillation of_end   = oscillate(rule, 20, 5),
+                        of_means = oscillate(rule.with_means(), 20, 5);
+      EXPECT_NEAR(of_means.period, of_end.period, 1e-12);
+      EXPECT_NEAR(of_means.u, of_end.u, 1e-11);
+      EXPECT_NEAR(of_means.v, of_end.v, 1e-11);
+    }
+}
+
 // Theory: omega' dt = acos(...) of the amplification matrix.
 TEST(TimeIntegrator, AverageAccelerationHasThePeriodOfTheory)
 {

@@ -49,6 +49,15 @@ bound("average acceleration, 100 periods: change of energy",
       max(abs(value / total[0] - 1) for value in total), 1e-10)
 bound("average acceleration, 100 periods: out of balance", imbalance(rows),
       1e-10)
+for integrator in ("generalised-alpha", "Bathe"):
+    result = run(bar, {"Time/Integrator": integrator, "Time/End time": 40,
+                       "Time/Steps": 200})
+    energy = result.summary["energy"]
+    bound(f"{integrator}: numerical damping over the energy that is gone - 1",
+          energy["numerical_damping"]
+          / (energy["kinetic_at_start"] + energy["strain_at_start"]
+             - energy["kinetic"] - energy["strain"]) - 1, 1e-9)
+    bound(f"{integrator}: out of balance", energy["balance_error"], 1e-10)
 
 for integrator, name in (("Newmark", "average acceleration"),
                          ("generalised-alpha", "generalised-alpha, 0.8"),

@@ -37,12 +37,14 @@ namespace moraine
                     const dealii::Tensor<2, dim> &grad_du,
                     const dealii::Tensor<2, dim> &mean_grad_du);
 
-  /** Adds the force of such a point and, if asked, its derivative. @p fluxes
-   * is scratch. */
+  /** Adds the force of such a point and, if asked, its derivative. @p of_start
+   * times the force at the start of the step comes to it, where it pushes now.
+   * @p fluxes is scratch. */
   template <int dim>
   void
   add_boundary_point(const BoundaryPoint<dim>            &point,
                      const ConstraintState<dim>          &constraint,
+                     const double                         of_start,
                      const Enforcement                   &enforcement,
                      const LameConstants                 &stiffness,
                      const StrainMeasure                  measure,
@@ -58,13 +60,13 @@ namespace moraine
   /** Adds to the derivative of such a point that its multiplier turns with the
    * normal of a curved wall, @f$-N_a N_b\, (t \cdot n) \nabla n@f$. Of the
    * penalty that is left out: before a step has found its way it is large.
-   * @param point of the surface, with its multiplier
+   * @param traction_by_normal JxW (t n)
    * @param normal_gradient see ImplicitBoundary::normal_gradient()
    * @param N functions of the nodes there
    * @param local to which it is added */
   template <int dim>
   void
-  add_turn_of_normal(const BoundaryPoint<dim>              &point,
+  add_turn_of_normal(const double                           traction_by_normal,
                      const dealii::SymmetricTensor<2, dim> &normal_gradient,
                      const double                          *N,
                      LocalSystem<dim>                      &local);

@@ -28,11 +28,13 @@ namespace moraine
       dealii::Tensor<2, dim> mean_gradient; ///< by which the volume changes
     };
 
-    /** Take the run of points in one cell that starts at point @p first. */
+    /** Take the run of points in one cell that starts at point @p first; a
+     * roller pushes at @p share of the step. */
     void
     reinit(const ImplicitBoundary<dim> &boundary,
            const StepContext<dim>      &context,
-           const unsigned int           first);
+           const unsigned int           first,
+           const double                 share);
 
     unsigned int
     begin() const

@@ -69,6 +69,22 @@ namespace moraine
     void
     note_start(const StepContext<dim> &context) override;
 
+    /** On a curved roller the force of the start would push along another
+     * normal than that of the end: places that change hands would make of the
+     * difference of both a moment about the centre of a circle. */
+    bool
+    acts_over_step(const StepContext<dim> &context) const override
+    {
+      return boundary.follows_curve() && context.motion &&
+             context.motion->integrator().start_forces() > 0;
+    }
+
+    /** Along the mean of the normals at both ends, so that a wall at rest does
+     * no work on what slides. */
+    double
+    work_of_step(const StepContext<dim> &context,
+                 const double            of_force) const override;
+
     void
     add(const StepContext<dim> &context,
         const bool              tangent,
@@ -185,6 +201,16 @@ namespace moraine
     work_of_motion(const unsigned int            k,
                    const dealii::Tensor<1, dim> &force,
                    const dealii::Tensor<1, dim> &prescribed) const;
+
+    /** What forces at the start of the step count beside those of its end, if
+     * add() has them. */
+    double
+    share_of_start(const StepContext<dim> &context) const
+    {
+      return acts_over_step(context) && context.step_size() > 0 ?
+               context.motion->integrator().start_forces() :
+               0.;
+    }
 
     /** Let @p how, that of the boundary, be that in a cell. */
     void

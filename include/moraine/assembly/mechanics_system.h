@@ -272,9 +272,14 @@ namespace moraine
     void
     find_forces_at_start();
 
-    /** Find the share of them that the time integrator asks for. */
+    /** Find the share of them that the time integrator asks for, without those
+     * of terms that act over the step. */
     void
     weigh_forces_at_start();
+
+    /** Let @p works have the work of such terms. */
+    void
+    count_work_over_step(typename Motion<dim>::StepWorks &works) const;
 
     /** Those of point terms, in one pass over the stencils. */
     void
@@ -337,6 +342,8 @@ namespace moraine
       std::array<double, Works::n_kinds>     works{};
       /** The same by term, if any stabilises too. */
       std::vector<double> works_of_terms;
+      /** Those at the start of terms that act over the step, of this rank. */
+      NodeValues over_step;
     };
 
     /** The sum of those at the start. Collective. */

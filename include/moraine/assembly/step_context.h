@@ -57,6 +57,16 @@ namespace moraine
       return motion && motion->integrator().forces_in_the_middle() ? 0.5 : 1.;
     }
 
+    /** Where in the step a curved roller pushes: 1, its end, or the place that
+     * weighs forces at both ends as the integrator does. */
+    double
+    share_of_push() const
+    {
+      return motion && !motion->integrator().forces_in_the_middle() ?
+               motion->integrator().divisor() :
+               share_of_step();
+    }
+
     /** Whether forces balance in the places at the end of the step, as at
      * finite strain; else in those at its start, about which they have moments.
      */

@@ -111,6 +111,22 @@ namespace moraine
     note_start(const StepContext<dim> &)
     {}
 
+    /** In dynamics: whether add() has its force of the whole step, so that the
+     * one at the start is not among those that the integrator adds. */
+    virtual bool
+    acts_over_step(const StepContext<dim> &) const
+    {
+      return false;
+    }
+
+    /** If so, the work of the step on this rank; @p of_force: that of the force
+     * that add() added. */
+    virtual double
+    work_of_step(const StepContext<dim> &, const double of_force) const
+    {
+      return of_force;
+    }
+
     /** Whether its forces depend on time alone, not on the trial state. */
     virtual bool
     is_dead() const

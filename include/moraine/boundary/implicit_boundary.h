@@ -245,11 +245,11 @@ namespace moraine
     move_target(const double t_end);
 
     /** The constraint at a point for the trial increment @p du there; @p
-     * in_the_middle says where a roller pushes. */
+     * share of the step is where a roller pushes. */
     ConstraintState<dim>
     constraint_state(const BoundaryPoint<dim>     &point,
                      const dealii::Tensor<1, dim> &du,
-                     const bool                    in_the_middle) const;
+                     const double                  share) const;
 
     /** @f$M@f$ for a normal. */
     dealii::SymmetricTensor<2, dim>
@@ -426,6 +426,13 @@ namespace moraine
       return constraint.kind == Constraint<dim>::roller;
     }
 
+    /** Whether its normal changes with the place of what slides. */
+    bool
+    is_curved_roller() const
+    {
+      return at_start.curved() && is_roller();
+    }
+
     /** How far the displacement relative to the surface moves what it holds at
      * @p point along the normal, from @p t_start to @p t_end. */
     double
@@ -500,12 +507,6 @@ namespace moraine
       std::vector<BoundarySlope<dim>> all;
       std::vector<double>             values; ///< of functions, as of Shapes
     };
-
-    bool
-    is_curved_roller() const
-    {
-      return at_start.curved() && is_roller();
-    }
 
     /** Be where the surface is at @p t. */
     void

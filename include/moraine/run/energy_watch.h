@@ -7,32 +7,42 @@
 #include <moraine/core/simulation_state.h>
 #include <moraine/state/motion.h>
 
+#include <functional>
 #include <string>
 
 namespace moraine
 {
+  /** Where energy without work comes from. */
+  enum class EnergySource
+  {
+    boundaries, ///< that hold
+    integrator,
+    transfers ///< of velocities and stresses between nodes and points
+  };
+
   /**
    * Looks for energy that nothing has given. With the kinetic energy T, the
-   * stored energy E and the dissipation D, a step has
+   * stored energy E and the dissipation D, the balance is
    *
-   * @f[ T + E + D = T_0 + E_0 + W_{loads} + W_{moved} + W_{absorbing}
-   *     + \text{errors} , @f]
+   * @f[ T + E + D = T_0 + E_0 + W_{loads} + W_{moved} + W_{absorbing} +
+   *     W_{damping} + \text{made} , @f]
    *
    * where @f$W_{moved}@f$ is the work of boundaries in the motion that is
-   * prescribed to them, and the rest of their work is an error: what only holds
-   * gives nothing. @f$G@f$, the largest that any of @f$T_0 + E_0@f$,
-   * @f$|W_{loads}|@f$, @f$|W_{moved}|@f$ and @f$W_{absorbing}@f$ has been, is
-   * all that one of them can have given; without errors
-   * @f$T + E + D \leq 4 G@f$.
+   * prescribed to them. What is made is the sum of three errors, which may
+   * cancel: the rest of the work of boundaries (what only holds gives nothing),
+   * less what the integrator takes, less what transfers lose. It is compared
+   * with @f$G@f$, the largest that any of @f$T_0 + E_0@f$,
+   * @f$|W_{loads}|@f$, @f$|W_{moved}|@f$ and @f$W_{absorbing}@f$ has been;
+   * without errors @f$T + E + D \leq 4 G@f$.
    */
   class EnergyWatch : public StatePart
   {
   public:
-    /** Less energy than @p round_off is not looked at. @p remedies: keys of
-     * section 'Method' that the scene can still change against energy from
-     * boundaries or transfers, empty if none. */
-    explicit EnergyWatch(const double       round_off,
-                         const std::string &remedies = "");
+    /** What helps, in words. */
+    using Remedy = std::function<std::string(const EnergySource)>;
+
+    /** Less energy than @p round_off is not looked at. */
+    EnergyWatch(const double round_off, const Remedy &remedy);
 
     /** Take the sums of @p works in dynamics up to time @p t and, of the step
      * that ended there, @p work_of_motions, by implicit boundaries in their
@@ -44,7 +54,7 @@ namespace moraine
     void
     motion_starts()
     {
-      given = moved = 0;
+      given = moved = allowed = last_made = 0;
     }
 
     /** Bodies come with energy, or go. */
@@ -54,9 +64,9 @@ namespace moraine
       starts_anew = true;
     }
 
-    /** That boundaries that hold, or transfers between nodes and points, have
-     * made more than a fifth of what was given in five steps in a row, and no
-     * less and less of it; once; or "". To be asked after each count(). */
+    /** That more than a twentieth of what was given was made in five steps in a
+     * row, and no less and less of it; once; or "". To be asked after each
+     * count(). */
     std::string
     warning();
 
@@ -72,26 +82,32 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
-    /** What they gave beyond the work of their motions [force length]. */
+    /** What boundaries gave beyond the work of their motions [force length]. */
     double
     made_by_boundaries() const;
+
+    /** By all three sources [force length]. */
+    double
+    made() const;
 
     /** Where most of the energy without work comes from, and what helps. */
     std::string
     cause() const;
 
-    const double      round_off;
-    const std::string of_method;          ///< the end of a sentence of remedies
-    double            given          = 0; ///< G [force length]
-    double            moved          = 0; ///< W_moved [force length]
-    double            total          = 0; ///< T + E + D [force length]
-    double            grows_since    = 0; ///< total > 4 G
-    bool              starts_anew    = false;
-    bool              told           = false; ///< by warning()
-    unsigned int      in_a_row       = 0;     ///< steps with much without work
-    double            share_at_first = 0; ///< of what was given, in the first
-    Works             works;
-    double            time = 0;
+    const double round_off;
+    const Remedy remedy;
+    double       given          = 0; ///< G [force length]
+    double       moved          = 0; ///< W_moved [force length]
+    double       allowed        = 0; ///< made() of bodies that came or went
+    double       last_made      = 0; ///< made() of the last count()
+    double       total          = 0; ///< T + E + D [force length]
+    double       grows_since    = 0; ///< total > 4 G
+    bool         starts_anew    = false;
+    bool         told           = false; ///< by warning()
+    unsigned int in_a_row       = 0;     ///< steps with much without work
+    double       share_at_first = 0;     ///< of what was given, in the first
+    Works        works;
+    double       time = 0;
   };
 } // namespace moraine
 

@@ -56,7 +56,7 @@ namespace moraine
      */
     std::vector<std::string>
     of_step(const TimeControl                      &time,
-            const IntegratorParameters             &integrator,
+            const IntegratorParameters             &rule,
             const std::vector<BoundaryReport<dim>> &reports,
             const double                            largest_motion,
             const double                            of_points);
@@ -101,8 +101,9 @@ namespace moraine
     std::string
     moved_far(const double t);
 
+    /** What the scene does not have yet against energy that is made. */
     std::string
-    energy_made(const double t, const IntegratorParameters &integrator);
+    remedy_of_energy(const EnergySource source) const;
 
     const Scene<dim>         &scene;
     const Model<dim>         &model;
@@ -120,10 +121,8 @@ namespace moraine
     SlideWatch                    slides;
     PassWatch<dim>                passes;
     EndWatch<dim>                 ends;
-    /** Energy that the integrator had made by the last step, over the largest
-     * part; in the first step none is told of. */
-    double share_made     = std::numeric_limits<double>::infinity();
-    bool   told_of_energy = false;
+    std::string                   integrator; ///< of the last step
+    std::string                   transfer;   ///< of velocities in it
   };
 } // namespace moraine
 

@@ -64,6 +64,7 @@ namespace moraine
      * accelerations that are out of balance after that, and as the weights of
      * points changed. */
     double lost_in_transfer = 0;
+    double lost_stored      = 0; ///< of that: stored energy
     double kinetic_at_start = 0;
     double kinetic          = 0; ///< of the nodes at the end of the last step
     double stored_at_start  = 0;
@@ -71,9 +72,14 @@ namespace moraine
     double dissipated       = 0; ///< by plastic strain
     bool   begun            = false;
 
-    /** What kinetic and stored energy and what was dissipated are less than
-     * works of all but internal forces say: energy that the integrator took, or
-     * made if negative. */
+    /** What the works of all forces are more than the change of kinetic energy:
+     * the integrator took it, or made it if negative. Zero for average
+     * acceleration and the rule of energy and momentum. */
+    double
+    numerical_damping() const;
+
+    /** What internal forces took is more than what was stored and dissipated:
+     * the error of the work of finite steps. */
     double
     out_of_balance() const;
 
@@ -232,11 +238,19 @@ namespace moraine
                rule.velocity_by_increment(step_size);
     }
 
+    /** Whether a rule of Newmark's that comes next balances the means of both
+     * ends, see TimeIntegrator::with_means(). */
+    void
+    balance_means(const bool yes)
+    {
+      balances_means = yes;
+    }
+
     /** Go on by another one. */
     void
     set_integrator(const TimeIntegrator &integrator)
     {
-      rule = integrator;
+      rule = balances_means ? integrator.with_means() : integrator;
     }
 
     const TimeIntegrator &
@@ -391,6 +405,12 @@ namespace moraine
     KineticProducts
     map_to_points(const Nodal &end);
 
+    /** Of the kinetic energy at the start of the step, what conditions gave to
+     * nodes that had the velocities @p before; none if that is empty.
+     * Collective. */
+    void
+    count_kinetic_change(const NodeValues &before);
+
     /** Count a step. Collective. */
     void
     count(const StepWorks       &step,
@@ -450,7 +470,9 @@ namespace moraine
     NodeValues                              v, a;
     NodeValues a_before;   ///< if some integrator looks back
     NodeValues prescribed; ///< increments, if any
-    double     step_size = 0;
+    double     step_size       = 0;
+    bool       balances_means  = false;
+    double     from_conditions = 0; ///< see count_kinetic_change()
     /** Of inertial_acceleration(), by @f$\Delta u - \Delta t\, v_n@f$,
      * @f$a_n@f$ and @f$a_{n-1}@f$. */
     double by_increment = 0, by_start = 0, by_before = 0;

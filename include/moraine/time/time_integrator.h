@@ -108,6 +108,20 @@ namespace moraine
     /** Of steps that are not divided, and of the first part of others. */
     explicit TimeIntegrator(const IntegratorParameters &parameters);
 
+    /**
+     * A rule of Newmark's as the balance of the means of both ends, @f$M (a_n +
+     * a_{n+1}) = f_n + f_{n+1}@f$. It is the same rule, but takes a force that
+     * acts over the whole step as one: the force of a constraint, of which the
+     * rule determines the mean alone, cannot alternate from step to step.
+     */
+    TimeIntegrator
+    with_means() const
+    {
+      TimeIntegrator rule(*this);
+      rule.alpha_m = rule.alpha_f = 0.5;
+      return rule;
+    }
+
     /** Whether the balance of momentum holds for forces in the middle of the
      * step, by velocities there; else for those at its end. */
     bool
