@@ -28,6 +28,10 @@ namespace moraine
     /** After that many rejections in a row, shorter steps are no cure. */
     constexpr unsigned int rejections_before_support = 2;
 
+    /** A node of a cell that is filled this much is touched by enough points.
+     */
+    constexpr double full_cell = 0.9;
+
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
 
@@ -509,6 +513,29 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Whether the largest unbalanced force is where material that may yield
+     * fills a cell: too few points are no cause there. Collective. */
+    template <int dim>
+    bool
+    yields_in_full_cell(const Scene<dim>   &scene,
+                        const Model<dim>   &model,
+                        const NewtonReport &report)
+    {
+      if (!scene.any_yields() ||
+          (report.status != NewtonStatus::diverged &&
+           report.status != NewtonStatus::too_many_iterations))
+        return false;
+      const auto found = largest_imbalance(*model.space,
+                                           *model.points,
+                                           model.system->residual());
+      return found && found->fullest > full_cell;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   StepDriver<dim>::reject(const NewtonReport &report,
@@ -523,7 +550,8 @@ namespace moraine
     const bool supported =
       model.state->mesh_after_step() == MeshAfterStep::reset &&
       (in_vain || n_rejections == rejections_before_support) &&
-      (hold_empty_parts(reason) ||
+      ((!yields_in_full_cell(scene, model, report) &&
+        hold_empty_parts(reason)) ||
        (!in_vain && !report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)

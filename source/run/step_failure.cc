@@ -46,27 +46,32 @@ namespace moraine
 
 
 
-    /** What points fill of the cells of a node, over these. */
+    /** What points fill of the cells of a node, over these, and of the one that
+     * is filled most. */
     template <int dim>
-    double
-    filled_part(const GridSpace<dim>          &space,
-                const PointSet<dim>           &points,
-                const types::global_dof_index &node_dof)
+    std::pair<double, double>
+    filled_parts(const GridSpace<dim>          &space,
+                 const PointSet<dim>           &points,
+                 const types::global_dof_index &node_dof)
     {
       const std::vector<double> filled = points.volumes_in_cells();
-      double                    volume = 0, sum = 0;
+      double                    volume = 0, sum = 0, fullest = 0;
       for (const auto &cell :
            space.mesh().triangulation().active_cell_iterators())
         if (cell->is_locally_owned() && space.is_active(cell))
           for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
             if (space.node_dof(space.cell_nodes(cell)[a]) == node_dof)
               {
-                volume += volume_of_cell(cell);
-                sum += filled[cell->active_cell_index()];
+                const double of_cell = volume_of_cell(cell);
+                const double in_cell = filled[cell->active_cell_index()];
+                volume += of_cell;
+                sum += in_cell;
+                fullest = std::max(fullest, in_cell / of_cell);
               }
-      volume = Utilities::MPI::sum(volume, space.communicator());
-      sum    = Utilities::MPI::sum(sum, space.communicator());
-      return volume > 0 ? std::min(sum / volume, 1.) : 1.;
+      volume  = Utilities::MPI::sum(volume, space.communicator());
+      sum     = Utilities::MPI::sum(sum, space.communicator());
+      fullest = Utilities::MPI::max(fullest, space.communicator());
+      return {volume > 0 ? std::min(sum / volume, 1.) : 1., fullest};
     }
 
 
@@ -108,15 +113,15 @@ namespace moraine
 
 
   template <int dim>
-  std::string
-  place_of_imbalance(const GridSpace<dim> &space,
-                     const PointSet<dim>  &points,
-                     const LA::Vector     &residual)
+  std::optional<Imbalance<dim>>
+  largest_imbalance(const GridSpace<dim> &space,
+                    const PointSet<dim>  &points,
+                    const LA::Vector     &residual)
   {
     const auto [node, square] = largest_force(space, residual);
     const double largest = Utilities::MPI::max(square, space.communicator());
     if (largest == 0)
-      return "";
+      return {};
     // Of ranks with the same force the first unknown counts.
     const bool                    here = square == largest;
     const types::global_dof_index dof =
@@ -129,12 +134,26 @@ namespace moraine
                                        space.node_position(node)[d] :
                                        0.,
                                      space.communicator());
+    const auto [filled, fullest] = filled_parts(space, points, dof);
+    return Imbalance<dim>{place, filled, fullest};
+  }
+
+
+
+  template <int dim>
+  std::string
+  place_of_imbalance(const GridSpace<dim> &space,
+                     const PointSet<dim>  &points,
+                     const LA::Vector     &residual)
+  {
+    const auto found = largest_imbalance(space, points, residual);
+    if (!found)
+      return "";
     std::ostringstream text;
     text << "; the largest unbalanced force is at (" << std::setprecision(6);
     for (unsigned int d = 0; d < dim; ++d)
-      text << (d > 0 ? ", " : "") << place[d];
-    text << "), where points fill "
-         << std::lround(100 * filled_part(space, points, dof))
+      text << (d > 0 ? ", " : "") << found->place[d];
+    text << "), where points fill " << std::lround(100 * found->filled)
          << " % of the cells";
     return text.str();
   }
@@ -212,15 +231,17 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                          \
-  template std::string place_of_imbalance(const GridSpace<dim> &, \
-                                          const PointSet<dim> &,  \
-                                          const LA::Vector &);    \
-  template std::string cause_of_unsolved(const Model<dim> &,      \
-                                         const bool,              \
-                                         const bool);             \
-  template std::string point_that_leaves(const Model<dim> &,      \
-                                         const TimeControl &,     \
+#define INSTANTIATE(dim)                                                \
+  template std::optional<Imbalance<dim>> largest_imbalance(             \
+    const GridSpace<dim> &, const PointSet<dim> &, const LA::Vector &); \
+  template std::string place_of_imbalance(const GridSpace<dim> &,       \
+                                          const PointSet<dim> &,        \
+                                          const LA::Vector &);          \
+  template std::string cause_of_unsolved(const Model<dim> &,            \
+                                         const bool,                    \
+                                         const bool);                   \
+  template std::string point_that_leaves(const Model<dim> &,            \
+                                         const TimeControl &,           \
                                          const LA::Vector &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -382,11 +382,13 @@ namespace moraine
     if (const std::string saw = doubt_of_saw(scene.method, signs); !saw.empty())
       return {saw};
     std::vector<std::string> doubts;
-    for (const std::string &doubt :
-         {doubt_of_cuts(scene.method, signs),
-          doubt_of_error(scene.method, model, error)})
-      if (!doubt.empty())
-        doubts.push_back(doubt);
+    // Of waves the end is one moment, which may have next to no stress.
+    if (!model.system->step_context().motion)
+      for (const std::string &doubt :
+           {doubt_of_cuts(scene.method, signs),
+            doubt_of_error(scene.method, model, error)})
+        if (!doubt.empty())
+          doubts.push_back(doubt);
     if (doubts.empty() && may_lock_unseen(scene))
       doubts.push_back(
         "method '" + scene.method.method +

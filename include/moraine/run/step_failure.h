@@ -6,18 +6,31 @@
 
 #include <moraine/run/model.h>
 
+#include <optional>
 #include <string>
 
 namespace moraine
 {
-  /**
-   * Where the forces of a step that failed are out of balance most, and how
-   * much of the cells around that node points fill: "; the largest unbalanced
-   * force is at (1, 2), where points fill 3 % of the cells". Empty if no force
-   * is a finite number above zero. Collective.
-   *
-   * @p residual has the forces of the owned unknowns.
+  /** The node where the forces of a step that failed are out of balance most.
    */
+  template <int dim>
+  struct Imbalance
+  {
+    dealii::Point<dim> place;
+    double             filled; ///< part of the cells around it that points fill
+    double             fullest; ///< the same of the one that is filled most
+  };
+
+  /** None if no force is a finite number above zero; @p residual has the forces
+   * of the owned unknowns. Collective. */
+  template <int dim>
+  std::optional<Imbalance<dim>>
+  largest_imbalance(const GridSpace<dim> &space,
+                    const PointSet<dim>  &points,
+                    const LA::Vector     &residual);
+
+  /** The same in words: "; the largest unbalanced force is at (1, 2), where
+   * points fill 3 % of the cells", or empty. Collective. */
   template <int dim>
   std::string
   place_of_imbalance(const GridSpace<dim> &space,

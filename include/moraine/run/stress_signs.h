@@ -51,7 +51,8 @@ namespace moraine
   /** That nothing has acted; or that results look as if volume locked or cells
    * were crossed, as if they depended on where the mesh cuts the material, or
    * as if cells did not resolve them, and which keys help; nothing where there
-   * is next to no stress. Collective.
+   * is next to no stress. With inertia, of the first of these alone.
+   * Collective.
    *
    * @param scene method and keys
    * @param model after the last step
