@@ -26,7 +26,7 @@ namespace moraine
     constexpr double allowed_of_points = 0.25;
 
     /** Of sizes that are the same. */
-    constexpr double round_off = 1e-9;
+    constexpr double same_size = 1e-9;
 
     /** Of the first step: over this time the mean velocity of what is
      * prescribed is its derivative at the start. */
@@ -71,7 +71,7 @@ namespace moraine
                    const double      size_2,
                    const Point<dim> &place_2)
       {
-        if (std::abs(size_1 - size_2) > round_off * std::max(size_1, size_2))
+        if (std::abs(size_1 - size_2) > same_size * std::max(size_1, size_2))
           return size_1 > size_2;
         for (unsigned int d = 0; d < dim; ++d)
           if (place_1[d] != place_2[d])
