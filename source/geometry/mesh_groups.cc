@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace moraine
@@ -114,19 +113,35 @@ namespace moraine
                                simplex.begin(), simplex.end())),
                              boxes.size());
         tree = pack_rtree(boxes);
+        for (const auto &cell : mesh->triangulation().active_cell_iterators())
+          of_centres.push_back(from_rim(cell->center()));
       }
 
       double
       level(const Point<dim> &p) const override
       {
         const auto found = mesh->cell_around(p);
-        double     least = std::numeric_limits<double>::infinity();
-        for (auto near = tree.qbegin(bgi::nearest(p, rim.size()));
-             near != tree.qend() &&
-             boost::geometry::distance(near->first, p) < least;
-             ++near)
-          least = std::min(least, distance_from<dim>(rim[near->second], p));
-        return found && is_of_group(found->first) ? least : -least;
+        if (!found)
+          return -from_rim(p);
+        const auto  &cell = found->first;
+        const double sign = is_of_group(cell) ? 1. : -1.;
+        // Far from the rim a bound will do, which needs no search.
+        const double bound =
+          of_centres[cell->active_cell_index()] - p.distance(cell->center());
+        return sign * (bound > 0.5 * mesh->cell_size() ? bound : from_rim(p));
+      }
+
+      bool
+      covers(const Point<dim> &p, const double margin) const override
+      {
+        return distance(p, 0.) > -margin;
+      }
+
+      double
+      distance(const Point<dim> &p, const double) const override
+      {
+        const auto found = mesh->cell_around(p);
+        return found && is_of_group(found->first) ? from_rim(p) : -from_rim(p);
       }
 
       Overlap
@@ -186,6 +201,22 @@ namespace moraine
         return ids.count(cell->material_id()) > 0;
       }
 
+      double
+      from_rim(const Point<dim> &p) const
+      {
+        // The face with the nearest box is near; none nearer is beyond it.
+        double least = 0;
+        for (const auto &face :
+             tree | bgi::adaptors::queried(bgi::nearest(p, 1)))
+          least = distance_from<dim>(rim[face.second], p);
+        BoundingBox<dim> around(std::make_pair(p, p));
+        around.extend(least);
+        for (const auto &face :
+             tree | bgi::adaptors::queried(bgi::intersects(around)))
+          least = std::min(least, distance_from<dim>(rim[face.second], p));
+        return least;
+      }
+
       /** Whether a polytope lies in a cell but for round-off. */
       template <class Cell>
       bool
@@ -208,6 +239,7 @@ namespace moraine
       /** The outer faces, in 3D as two triangles each, and where they are. */
       std::vector<std::array<Point<dim>, dim>>         rim;
       RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
+      std::vector<double> of_centres; ///< how far those of cells are from it
     };
   } // namespace
 
