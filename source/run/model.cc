@@ -441,7 +441,9 @@ namespace moraine
           std::any_of(boundaries.begin(),
                       boundaries.end(),
                       [&stage](const auto &boundary) {
+                        // Nitsche's fluxes would alternate with it.
                         return boundary.is_curved_roller() &&
+                               !boundary.enforcement().is_nitsche() &&
                                contains(stage.boundaries, boundary.name()) &&
                                !contains(stage.absorbing, boundary.name());
                       }));
