@@ -41,8 +41,10 @@ namespace moraine
 
   template <int dim>
   std::vector<Effect>
-  DoubleMapping<dim>::effects(const StepContext<dim> &) const
+  DoubleMapping<dim>::effects(const StepContext<dim> &context) const
   {
+    if (context.motion)
+      return {{"internal force", "", ""}};
     return {{"internal force, stiffness at Gauss points", "", ""}};
   }
 

@@ -269,43 +269,16 @@ namespace moraine
 
 
   template <int dim>
-  double
-  GlobalSystem<dim>::largest_diagonal() const
+  void
+  GlobalSystem<dim>::scale_tied_rows()
   {
     double largest = 0;
     for (const auto dof : space->locally_owned())
       largest = std::max(largest, std::abs(sum_of_matrices->diag_element(dof)));
-    return Utilities::MPI::max(largest, space->communicator());
-  }
-
-
-
-  template <int dim>
-  void
-  GlobalSystem<dim>::scale_tied_rows()
-  {
-    const double largest = largest_diagonal();
+    largest = Utilities::MPI::max(largest, space->communicator());
     for (const auto dof : tied_rows)
       sum_of_matrices->set(dof, dof, largest);
     sum_of_matrices->compress(VectorOperation::insert);
-  }
-
-
-
-  template <int dim>
-  void
-  GlobalSystem<dim>::fill_empty_rows(LA::Vector &forces)
-  {
-    constexpr double round_off = 1e-12;
-    const double     largest   = largest_diagonal();
-    for (const auto dof : space->locally_owned())
-      if (sum_of_matrices->diag_element(dof) <= round_off * largest)
-        {
-          sum_of_matrices->set(dof, dof, largest);
-          forces[dof] = 0;
-        }
-    sum_of_matrices->compress(VectorOperation::insert);
-    forces.compress(VectorOperation::insert);
   }
 
 

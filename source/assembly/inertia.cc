@@ -44,9 +44,37 @@ namespace moraine
         if (tangent)
           mass.add_matrix(N, m, masses);
       }
+    hold_massless_nodes(context, block, tangent, local);
     if (tangent)
       local.add_in_all_directions(motion.inertial_acceleration_by_increment(),
                                   masses);
+  }
+
+
+
+  template <int dim>
+  void
+  Inertia<dim>::hold_massless_nodes(const StepContext<dim>  &context,
+                                    const StencilBlock<dim> &block,
+                                    const bool               tangent,
+                                    LocalSystem<dim>        &local) const
+  {
+    constexpr double   next_to_none = 1e-10;
+    const Motion<dim> &motion       = *context.motion;
+    for (unsigned int a = 0; a < block.n_nodes; ++a)
+      {
+        if (!motion.is_massless(block.nodes[a]))
+          continue;
+        double m = 0;
+        for (unsigned int p = 0; p < block.n_points; ++p)
+          m += next_to_none * context.state.mass(block.points[p]);
+        const Tensor<1, dim> change =
+          accelerations[a] - motion.accelerations()[block.nodes[a]];
+        for (unsigned int d = 0; d < dim; ++d)
+          local.force[dim * a + d] -= m * change[d];
+        if (tangent)
+          masses[a * block.n_nodes + a] += m;
+      }
   }
 
 

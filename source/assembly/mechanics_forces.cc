@@ -296,7 +296,6 @@ namespace moraine
     sums.end(result);
     result += sum_of_kinds();
     constraints.condense(result);
-    sums.fill_empty_rows(result);
     return result;
   }
 

@@ -179,6 +179,9 @@ namespace moraine
       {
         v.resize(state.grid().n_nodes());
         a.resize(state.grid().n_nodes());
+        if (!massless_found)
+          find_massless(node_masses());
+        massless_found = true;
         if (before_field.exists())
           a_before.resize(state.grid().n_nodes());
         return;

@@ -54,6 +54,7 @@ namespace moraine
   Motion<dim>::read(const Archive &archive)
   {
     const auto &works = archive.numbers("motion/works");
+    massless_found    = false;
     AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
     std::copy(works.begin(), works.end(), done.of_forces);
     done.of_prescribed    = archive.number("motion/work_of_prescribed");

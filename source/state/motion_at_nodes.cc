@@ -31,7 +31,7 @@ namespace moraine
 
   template <int dim>
   typename Motion<dim>::Nodal
-  Motion<dim>::map_to_nodes(const Nodal *known) const
+  Motion<dim>::map_to_nodes(const Nodal *known)
   {
     const GridSpace<dim> &space = state.grid();
     const unsigned int    n     = space.n_nodes();
@@ -51,9 +51,9 @@ namespace moraine
           if (masses[k][0] > 0)
             (*sums)[k] /= masses[k][0];
       }
-    const std::vector<bool> massless = nodes_without_mass(masses);
+    find_massless(masses);
     if (!massless.empty())
-      extend_motion(known, massless, values);
+      extend_motion(known, values);
     if (const auto *aggregates = state.strict_aggregates())
       for (NodeValues *of_nodes : found)
         aggregates->hand_over(space, masses, *of_nodes);
@@ -123,9 +123,7 @@ namespace moraine
 
   template <int dim>
   void
-  Motion<dim>::extend_motion(const Nodal             *known,
-                             const std::vector<bool> &massless,
-                             Nodal                   &values) const
+  Motion<dim>::extend_motion(const Nodal *known, Nodal &values) const
   {
     const auto velocity = [&](const StencilBlock<dim> &block,
                               const unsigned int       p,
@@ -148,13 +146,10 @@ namespace moraine
         return unknown_part(field, of_known, block, p);
       };
     };
-    extend(massless, velocity, values.v);
-    extend(massless,
-           acceleration(a_field, known ? &known->a : nullptr),
-           values.a);
+    extend(velocity, values.v);
+    extend(acceleration(a_field, known ? &known->a : nullptr), values.a);
     if (before_field.exists())
-      extend(massless,
-             acceleration(before_field, known ? &known->a_before : nullptr),
+      extend(acceleration(before_field, known ? &known->a_before : nullptr),
              values.a_before);
   }
 
@@ -188,12 +183,12 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<bool>
-  Motion<dim>::nodes_without_mass(const NodeValues &masses) const
+  void
+  Motion<dim>::find_massless(const NodeValues &masses)
   {
-    constexpr double  round_off = 1e-12;
-    bool              any       = false;
-    std::vector<bool> massless(masses.size());
+    constexpr double round_off = 1e-12;
+    bool             any       = false;
+    massless.resize(masses.size());
     for (unsigned int k = 0; k < masses.size(); ++k)
       {
         massless[k] =
@@ -202,7 +197,6 @@ namespace moraine
       }
     if (!Utilities::MPI::logical_or(any, state.grid().communicator()))
       massless.clear();
-    return massless;
   }
 
 
@@ -210,9 +204,7 @@ namespace moraine
   template <int dim>
   template <class Value>
   void
-  Motion<dim>::extend(const std::vector<bool> &massless,
-                      const Value             &value,
-                      NodeValues              &values) const
+  Motion<dim>::extend(const Value &value, NodeValues &values) const
   {
     // By the gradient alone a point in the corner of a cell would give nothing
     // to the opposite corner.
@@ -253,7 +245,7 @@ namespace moraine
   typename Motion<dim>::NodeValues
   Motion<dim>::mean_of_bodies(
     const std::function<Tensor<1, dim>(const unsigned int, const unsigned int)>
-      &velocity) const
+      &velocity)
   {
     const GridSpace<dim> &space  = state.grid();
     const Basis<dim>     &basis  = state.point_basis();
@@ -283,9 +275,9 @@ namespace moraine
     for (unsigned int k = 0; k < mean.size(); ++k)
       if (masses[k][0] > 0)
         mean[k] /= masses[k][0];
-    if (const auto massless = nodes_without_mass(masses); !massless.empty())
+    find_massless(masses);
+    if (!massless.empty())
       extend(
-        massless,
         [&](const auto &block, const unsigned int p, const unsigned int k) {
           return velocity(points.body(block.points[p]), block.nodes[k]);
         },
@@ -300,14 +292,12 @@ namespace moraine
   Motion<dim>::set_accelerations(const LA::Vector &values)
   {
     state.grid().node_values(values, a);
-    const auto massless = nodes_without_mass(node_masses());
     for (unsigned int k = 0; k < massless.size(); ++k)
       if (massless[k])
         a[k] = Tensor<1, dim>();
     interpolate(a, a_field);
     if (!massless.empty())
       extend(
-        massless,
         [&](const auto &block, const unsigned int p, const unsigned int) {
           return a_field(points.values(block.points[p]));
         },
@@ -339,22 +329,22 @@ namespace moraine
 
 
   template typename Motion<2>::Nodal
-  Motion<2>::map_to_nodes(const Nodal *) const;
+  Motion<2>::map_to_nodes(const Nodal *);
   template typename Motion<2>::NodeValues
   Motion<2>::mean_of_bodies(
-    const std::function<Tensor<1, 2>(const unsigned int, const unsigned int)> &)
-    const;
+    const std::function<Tensor<1, 2>(const unsigned int, const unsigned int)>
+      &);
   template void
   Motion<2>::set_accelerations(const LA::Vector &);
   template void
   Motion<2>::interpolate(const NodeValues &,
                          const PointField<2, Tensor<1, 2>> &);
   template typename Motion<3>::Nodal
-  Motion<3>::map_to_nodes(const Nodal *) const;
+  Motion<3>::map_to_nodes(const Nodal *);
   template typename Motion<3>::NodeValues
   Motion<3>::mean_of_bodies(
-    const std::function<Tensor<1, 3>(const unsigned int, const unsigned int)> &)
-    const;
+    const std::function<Tensor<1, 3>(const unsigned int, const unsigned int)>
+      &);
   template void
   Motion<3>::set_accelerations(const LA::Vector &);
   template void

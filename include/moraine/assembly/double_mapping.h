@@ -31,9 +31,11 @@ namespace moraine
    *
    * The stress that points are given at the end of the step is that of their
    * own strain (Basis::strain_basis()), not that of the Gauss points. The
-   * difference is out of balance until the next step balances it. With inertia
-   * it would feed waves with energy; there @f$\sigma_n@f$ in the first sum is
-   * without State::stress_of_recovery() at small strain.
+   * difference is out of balance until the next step balances it.
+   *
+   * With inertia the difference of both stiffnesses would be a damping of either
+   * sign. There all of the force is integrated over points by their own
+   * functions, at small strain without State::stress_of_recovery().
    *
    * Points of a material that is linear at small strain cost the sums over
    * @f$w_{pg}@f$ alone; others ask the material once for each Gauss point of

@@ -83,11 +83,6 @@ namespace moraine
     void
     end(LA::Vector &forces);
 
-    /** Give rows with nothing on the diagonal but round-off the largest one,
-     * and no force. Collective. */
-    void
-    fill_empty_rows(LA::Vector &forces);
-
     /** @f$\sum f^2@f$ of what this rank added to the nodes of each body: the
      * size of forces that may cancel. */
     const std::vector<double> &
@@ -180,10 +175,6 @@ namespace moraine
     /** Add the pairs of the nodes in by_column to rows in memory. */
     void
     add_to_rows(const LocalSystem<dim> &local);
-
-    /** Of all ranks. Collective. */
-    double
-    largest_diagonal() const;
 
     /** Rows of what follows others have nothing but a diagonal, the mean of
      * cells that may hold next to nothing. Give them the largest of all, so

@@ -42,6 +42,14 @@ namespace moraine
         LocalSystem<dim>        &local) const override;
 
   private:
+    /** Let nodes that have stiffness without mass keep their acceleration,
+     * where nothing else says how they move: with next to no mass. */
+    void
+    hold_massless_nodes(const StepContext<dim>  &context,
+                        const StencilBlock<dim> &block,
+                        const bool               tangent,
+                        LocalSystem<dim>        &local) const;
+
     // Scratch.
     mutable BlockMass<dim>                      mass;
     mutable std::vector<dealii::Tensor<1, dim>> accelerations;

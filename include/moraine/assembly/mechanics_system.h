@@ -92,8 +92,7 @@ namespace moraine
      * the accelerations at the start:
      * @f[ M \delta a = f(t_n, u_n, v_n) - M a_n . @f]
      * The step must have a target, which has given held nodes their
-     * @f$v_n@f$ and @f$a_n@f$; it needs a new one after that. Nodes without
-     * mass get no @f$\delta a@f$.
+     * @f$v_n@f$ and @f$a_n@f$; it needs a new one after that.
      * @return the right-hand side, condensed. Collective.
      */
     LA::Vector

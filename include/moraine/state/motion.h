@@ -292,6 +292,15 @@ namespace moraine
     double
     error_of_increment() const;
 
+    /** Whether all points that see a node lie where its functions are zero, but
+     * for round-off: on the opposite face of a cell. It has stiffness, but no
+     * mass. */
+    bool
+    is_massless(const unsigned int node) const
+    {
+      return !massless.empty() && massless[node];
+    }
+
     /** Whether points carry the motion from step to step, not nodes. */
     bool
     points_carry() const
@@ -374,7 +383,7 @@ namespace moraine
     /** @f$S^+@f$ of what points carry, less what they get from @p known.
      * Collective. */
     Nodal
-    map_to_nodes(const Nodal *known = nullptr) const;
+    map_to_nodes(const Nodal *known = nullptr);
 
     /** What the p-th point of a block carries in @p field, less what it gets
      * from @p known values of nodes, if any. */
@@ -389,11 +398,9 @@ namespace moraine
     void
     add_momenta(const Nodal *known, NodeValues &masses, Nodal &sums) const;
 
-    /** Give @p massless nodes the motion of their points. Collective. */
+    /** Give massless nodes the motion of their points. Collective. */
     void
-    extend_motion(const Nodal             *known,
-                  const std::vector<bool> &massless,
-                  Nodal                   &values) const;
+    extend_motion(const Nodal *known, Nodal &values) const;
 
     /** @f$u^T M w@f$ of the motion in the step. */
     struct KineticProducts
@@ -424,29 +431,22 @@ namespace moraine
     mean_of_bodies(
       const std::function<dealii::Tensor<1, dim>(const unsigned int body,
                                                  const unsigned int node)>
-        &velocity) const;
+        &velocity);
 
     /** The masses of add_momenta(), of all ranks. Collective. */
     NodeValues
     node_masses() const;
 
-    /**
-     * The nodes of @p masses that points see at which functions are zero but
-     * for round-off: all their points lie on the opposite face of a cell. They
-     * have stiffness all the same. None if there are none on any rank.
-     * Collective.
-     */
-    std::vector<bool>
-    nodes_without_mass(const NodeValues &masses) const;
+    /** Find those by @p masses. Collective. */
+    void
+    find_massless(const NodeValues &masses);
 
-    /** Give @p massless nodes the mean of value(block, p, k), of the p-th point
+    /** Give massless nodes the mean of value(block, p, k), of the p-th point
      * at the k-th node of a block, weighted by gradients: to what a mean by
      * functions tends as points come close to the face. Collective. */
     template <class Value>
     void
-    extend(const std::vector<bool> &massless,
-           const Value             &value,
-           NodeValues              &values) const;
+    extend(const Value &value, NodeValues &values) const;
 
     /** Give points the @p field that nodes have. */
     void
@@ -470,9 +470,12 @@ namespace moraine
     NodeValues                              v, a;
     NodeValues a_before;   ///< if some integrator looks back
     NodeValues prescribed; ///< increments, if any
-    double     step_size       = 0;
-    bool       balances_means  = false;
-    double     from_conditions = 0; ///< see count_kinetic_change()
+    /** Of nodes; empty if no rank has one. */
+    std::vector<bool> massless;
+    bool              massless_found  = false; ///< where nodes keep the motion
+    double            step_size       = 0;
+    bool              balances_means  = false;
+    double            from_conditions = 0; ///< see count_kinetic_change()
     /** Of inertial_acceleration(), by @f$\Delta u - \Delta t\, v_n@f$,
      * @f$a_n@f$ and @f$a_{n-1}@f$. */
     double by_increment = 0, by_start = 0, by_before = 0;
