@@ -6,11 +6,13 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
 #include <moraine/core/words.h>
+#include <moraine/geometry/mesh_groups.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 
 namespace moraine
@@ -58,20 +60,31 @@ namespace moraine
     std::map<std::string, ShapeParameters<dim>> parameters;
     for (const auto &[name, body] : scene.bodies)
       parameters[name] = body.shape;
-    return make_shapes<dim>(
-      parameters,
-      "Bodies",
-      [&scene](const std::vector<std::string> &groups,
-               const std::string              &section) {
-        if (scene.mesh.type != "file")
-          reject(section,
-                 "Group",
-                 list_of(groups),
-                 "nothing; only a mesh of type 'file' has groups of cells");
-        if (!scene.mesh_groups)
-          scene.mesh_groups = std::make_shared<MeshGroups<dim>>(scene.mesh);
-        return scene.mesh_groups->shape(groups, section);
-      });
+    // One reading of the file serves all bodies.
+    std::unique_ptr<const MeshGroups<dim>> of_mesh;
+    const auto of_groups = [&](const std::vector<std::string> &groups,
+                               const std::string              &section) {
+      if (scene.mesh.type != "file")
+        reject(section,
+               "Group",
+               list_of(groups),
+               "nothing; only a mesh of type 'file' has groups of cells");
+      const auto body =
+        std::find_if(scene.bodies.begin(),
+                     scene.bodies.end(),
+                     [&](const auto &named) {
+                       return "Bodies/" + named.first == section;
+                     });
+      ShapePointer<dim> &shape = body->second.of_groups;
+      if (!shape)
+        {
+          if (!of_mesh)
+            of_mesh = std::make_unique<MeshGroups<dim>>(scene.mesh);
+          shape = of_mesh->shape(groups, section);
+        }
+      return shape;
+    };
+    return make_shapes<dim>(parameters, "Bodies", of_groups);
   }
 
 

@@ -92,7 +92,8 @@ def refused(key, value, settings=STEPS, stages=False):
     ok = (len(lines) == 1 and
           f"section '{section}', key '{name}'" in lines[0] and
           "not a finite number, at" in lines[0])
-    text(f"{key} = {value}" + (", stages" if stages else ""),
+    text(f"{key} = {value}" + (", stages" if stages else "") +
+         (", followed by the mesh" if "Mesh motion/Follow" in settings else ""),
          "named" if ok else f"NO: {lines}")
 
 
@@ -105,6 +106,10 @@ for where in ("Boundaries/end", "Boundaries/base", "Grid conditions/side"):
         for value in (NEVER, LATER):
             refused(f"{where}/Translation", f"{value}; 0", settings, stages)
             refused(f"{where}/Rotation angle", value, settings, stages)
+
+for value in (NEVER, LATER):
+    refused("Boundaries/end/Translation", f"0; {value}",
+            {**STEPS, "Mesh motion/Follow": "end"})
 
 for load in ("weight", "pressure", "place", "points"):
     for value in (NEVER, LATER, PLACE):

@@ -86,7 +86,8 @@ namespace moraine
    * @return the volumes of the bodies, over all ranks. That of a straight-sided
    * body is exact but for round-off.
    * @throws InputError if shapes overlap, a listed point lies outside the mesh
-   * or is given twice, a body has no point, or a bounded shape lies partly outside the mesh.
+   * or is given twice, a body has no point, or a bounded shape lies partly
+   * outside the mesh.
    */
   template <int dim>
   std::vector<double>

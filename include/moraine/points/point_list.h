@@ -39,7 +39,8 @@ namespace moraine
   /**
    * The points of a CSV file: a header `x,y,volume` (3D: `x,y,z,volume`) and,
    * if wanted, names of more columns, which points carry along; then one point
-   * per row. Empty lines and a byte-order mark are skipped. The origin of a point is file and line.
+   * per row. Empty lines and a byte-order mark are skipped. The origin of a
+   * point is file and line.
    *
    * Throws InputError, with file and line, for a header that is different, a
    * row with a wrong number of values, a value that is not a finite number, a

@@ -4,7 +4,6 @@
 #ifndef moraine_run_scene_h
 #define moraine_run_scene_h
 
-#include <moraine/geometry/mesh_groups.h>
 #include <moraine/geometry/shape_library.h>
 #include <moraine/core/input_file.h>
 #include <moraine/material/material_library.h>
@@ -24,7 +23,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,6 +46,9 @@ namespace moraine
     std::string               initial_velocity;
     InitialStressParameters   initial_stress;
     DampingParameters         damping;
+
+    /** That of the groups of cells it names, once it is asked for. */
+    mutable ShapePointer<dim> of_groups;
 
     /** Whether the cells of the mesh give the body its points. */
     bool
@@ -130,9 +131,6 @@ namespace moraine
     ExactSolutionParameters<dim>        exact;
     StrengthReductionParameters         strength_reduction;
     StudyParameters                     study;
-
-    /** Of the mesh file, read when first asked for. */
-    mutable std::shared_ptr<const MeshGroups<dim>> mesh_groups;
 
     /** Whether there is a stage with inertia. */
     bool
