@@ -246,8 +246,16 @@ namespace moraine
     double value = std::numeric_limits<double>::infinity();
     for (const auto &[shape, inside, along, reach] : limits)
       if (along == Along::beside)
-        value =
-          std::min(value, level_near(*shape, x, normal, reach, tolerance));
+        {
+          const double round_off =
+            std::ldexp(coordinate_magnitude<dim>(x), -46);
+          value = std::min(value,
+                           level_near(*shape,
+                                      x,
+                                      normal,
+                                      reach,
+                                      std::max(tolerance, round_off)));
+        }
       else
         for (const auto &[side, other] : {std::make_pair(-1., Along::outer),
                                           std::make_pair(1., Along::inner)})

@@ -368,12 +368,13 @@ namespace moraine
             polygon.push_back(frame.to_plane(x));
           if (is_cut_exactly(extent, frame, normal, polygon, tolerance))
             {
-              for (const auto &part : parts_beside(*extent.limits[0].shape,
-                                                   frame,
-                                                   normal,
-                                                   polygon,
-                                                   round_off,
-                                                   tolerance))
+              for (const auto &part :
+                   parts_beside(*extent.limits[0].shape,
+                                frame,
+                                normal,
+                                polygon,
+                                round_off,
+                                std::max(tolerance, round_off)))
                 {
                   parts.emplace_back();
                   for (const auto &p : part)
