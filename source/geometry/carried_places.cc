@@ -54,9 +54,6 @@ namespace moraine
 
 
 
-    /** Of a cell: a body further away than this is not at a surface. */
-    constexpr double largest_gap = 0.5;
-
     /** Of cells in which a surface whose pieces cannot be cut exactly ends:
      * halvings that bring the end to 1e-4 of a cell, in 3D to 3e-2. */
     template <int dim>

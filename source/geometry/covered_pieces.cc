@@ -21,10 +21,6 @@ namespace moraine
     /** Of a cell: a gap between surface and body that is none. */
     constexpr double small_gap = 0.1;
 
-    /** Of a cell: a body further away than this is not held by a surface in
-     * its cells. */
-    constexpr double largest_gap = 0.5;
-
 
 
     /** They see all but the last tenth of a part. */

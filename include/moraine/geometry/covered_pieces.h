@@ -12,6 +12,9 @@
 
 namespace moraine
 {
+  /** Of a cell: a body further away than this is not at a surface in it. */
+  inline constexpr double largest_gap = 0.5;
+
   /** Whether a body covers a place, or would if it were larger by a margin
    * [length]. */
   template <int dim>
