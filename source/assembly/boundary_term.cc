@@ -515,21 +515,28 @@ namespace moraine
         const auto          &point = boundary.points()[q];
         const Tensor<1, dim> force = point.JxW * tractions[q];
         prepared.reaction += force;
-        prepared.force_magnitude += force.norm();
         prepared.work_of_motion += work_of_motion(q, force, point.prescribed);
         prepared.moment += moment(context, states[q].place, force);
         prepared.violation =
           std::max(prepared.violation, states[q].violation.norm());
         violations.push_back(states[q].violation);
-        if (point.holds)
-          held_places.push_back({point.cell,
-                                 q,
-                                 states[q].place,
-                                 force,
-                                 states[q].normal,
-                                 states[q].M,
-                                 point.body_area});
+        held_places.push_back({point.cell,
+                               q,
+                               states[q].place,
+                               force,
+                               states[q].normal,
+                               states[q].M,
+                               point.body_area});
       }
+    prepared.force_magnitude =
+      force_magnitude(context.state.grid(), held_places);
+    held_places.erase(
+      std::remove_if(held_places.begin(),
+                     held_places.end(),
+                     [this](const HeldPlace &place) {
+                       return !boundary.points()[place.number].holds;
+                     }),
+      held_places.end());
     const auto of_slopes = prepare_slopes(context, states);
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);

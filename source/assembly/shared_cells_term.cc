@@ -303,12 +303,14 @@ namespace moraine
       {
         const BoundaryTerm<dim> &boundary = *boundaries[b];
         BoundaryReport<dim>      of{boundary.name(), {}, 0., 0., 0., 0.};
+        const GridSpace<dim>    &space = context.state.grid();
+        of.force_magnitude = boundary.force_magnitude(space, held[b]) -
+                             boundary.force_magnitude(space, boundary.held());
         for (unsigned int q = 0; q < held[b].size(); ++q)
           {
             const auto          &before = boundary.held()[q];
             const Tensor<1, dim> change = held[b][q].force - before.force;
             of.reaction += change;
-            of.force_magnitude += held[b][q].force.norm() - before.force.norm();
             of.moment += boundary.moment(context, before.x, change);
           }
         changes.push_back(of);

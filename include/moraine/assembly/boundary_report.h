@@ -23,8 +23,8 @@ namespace moraine
      * origin; in 3D the component along the axis. Places and axis are those in
      * which forces balance, see StepContext::balances_at_end(). */
     double moment;
-    /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation.
-     */
+    /** @f$\int |t|\,d\Gamma@f$ or @f$\sum_a |f_a|@f$, without cancellation;
+     * see BoundaryTerm::force_magnitude(). */
     double force_magnitude;
     /** Of these forces in the motion that is prescribed in the step; of nodes
      * Works::of_prescribed has it. */

@@ -155,6 +155,16 @@ namespace moraine
       return held_places;
     }
 
+    /**
+     * @f$\int |t|\,d\Gamma@f$ of forces of this boundary at places, without
+     * what alternates between pieces, as multipliers do: @f$\sum_a |\sum_q N_a
+     * f_q|@f$, the forces turned with their normals to the mean one at the
+     * node; this rank's part. Collective.
+     */
+    double
+    force_magnitude(const GridSpace<dim>         &space,
+                    const std::vector<HeldPlace> &places) const;
+
     /** Of the nodes of the cell, at such a place. */
     const double *
     functions(const HeldPlace &place) const
