@@ -200,8 +200,8 @@ TEST(SurfaceLibrary, RimsOfBodies)
   for (const std::string name : {"all", "file"})
     EXPECT_EQ(complaint_of("set Body = " + name),
               here + "key 'Body': found '" + name +
-                "', allowed: a body with a rim; points of a file and the whole "
-                "mesh have none");
+                "', allowed: a body with a rim; points of a file and cells "
+                "of the mesh have none");
 }
 
 TEST(RigidMotion, PosesAndBack)
