@@ -241,7 +241,7 @@ TEST(Motion, ArchivesKeepNodesAndWorks)
   EXPECT_TRUE(archive_of(*other.motion) != kept);
   other.motion->read(kept);
   EXPECT_TRUE(archive_of(*other.motion) == kept);
-  EXPECT_EQ(other.motion->works().of_forces[2], 5.);
+  EXPECT_EQ(other.motion->works().of_forces[1], 4.);
   const double n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   EXPECT_EQ(other.motion->works().stored_at_start, n_ranks);
   EXPECT_EQ(other.motion->works().stored, 2 * n_ranks);

@@ -66,8 +66,7 @@ namespace moraine
 
   /**
    * The points of a surface in a cell that are to be kept. Where only some are,
-   * as a body ends there, the cell is halved, by default four times in 2D and
-   * twice in 3D.
+   * as a body ends there, the cell is halved.
    * What is nearer to a face of the cell than all points is not seen: 7 % of
    * the cell size with 4 points in each direction.
    *
@@ -76,6 +75,7 @@ namespace moraine
    * @param n_gauss points in each direction of a piece of the whole cell
    * @param keep says of a point whether it is kept; may be asked twice
    * @param points they are added to
+   * @param n_halvings of a cell in which a body ends
    */
   template <int dim>
   void
