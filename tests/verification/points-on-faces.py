@@ -57,10 +57,12 @@ for method in ("material point", "DM"):
          [{"Method/Method": method, "Time/Velocity transfer": transfer,
            "Time/Steps": steps}
           for transfer, steps in itertools.product(TRANSFERS, (12, 24))], BLOCKS)
+# Nodes of next to no mass make more of the round-off that Newton's method leaves.
 fall("finite strain, other rules",
      [{"Method/Strain": "finite", "Solver/Tolerance": 1e-12, **settings} for settings in (
          {}, {"Time/Mass": "lumped"}, {"Time/Integrator": "generalised-alpha"},
-         {"Time/Integrator": "Bathe"}, {"Time/Integrator": "energy-momentum"})], BLOCKS)
+         {"Time/Integrator": "Bathe"}, {"Time/Integrator": "energy-momentum"})], BLOCKS,
+     allowed=(1e-7, 1e-5))
 fall("3D", [{"Time/Velocity transfer": transfer} for transfer in ("APIC", "FLIP")],
      BLOCKS[1:5], dim=3)
 
