@@ -69,7 +69,7 @@ def show(title, settings, expect=0):
 
 
 for method in ("GIMP", "material point"):
-    show(method, {"Method/Method": method})
+    show(method, {"Method/Method": method, "Time/End time": 4.5})
 # Few steps of a weight that goes on growing: it slides between two of them, and goes
 # on faster than before.
 show("few steps", {"Method/Method": "GIMP", "Method/Strain": "finite",
