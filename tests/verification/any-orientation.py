@@ -117,7 +117,7 @@ for dim, n in ((2, 500), (3, 200)):
     rng = random.Random(dim)
     worst = {}
     met = 0
-    for k in range(n if ranks == 1 else n // 20):
+    for k in range(n if ranks == 1 else n // 12):
         keys = {"enforcement": ENFORCEMENTS[k % 5], "method": METHODS[k % 4],
                 "aggregate": (0.1, 0.5, 0)[k % 3]}
         path = folder / "block.prm"
