@@ -212,7 +212,7 @@ namespace moraine
                    const dealii::Tensor<1, dim> &force,
                    const dealii::Tensor<1, dim> &prescribed) const;
 
-    /** What forces at the start of the step count beside those of its end, if
+    /** The weight of forces at the start of the step against its end, if
      * add() has them. */
     double
     share_of_start(const StepContext<dim> &context) const

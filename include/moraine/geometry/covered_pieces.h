@@ -58,7 +58,7 @@ namespace moraine
   ShapePointer<dim>
   united(const std::vector<ShapePointer<dim>> &shapes);
 
-  /** What of surfaces is in a body or at it, or at most @p reach [length] off
+  /** The part of surfaces in a body or at it, or at most @p reach [length] off
    * on either side where the rim of the body runs along them. */
   template <int dim>
   Extent<dim>

@@ -129,7 +129,7 @@ namespace moraine
            const unsigned int              n_gauss,
            std::vector<SurfacePoint<dim>> &out) const = 0;
 
-    /** What of the surface is within @p extent, too; null if pieces() cannot
+    /** The part of the surface within @p extent; null if pieces() cannot
      * cut that exactly. */
     virtual std::shared_ptr<const Surface<dim>>
     within(const Extent<dim> &extent) const
@@ -229,7 +229,7 @@ namespace moraine
     Extent
     seen_from(const Placement<dim> &placement) const;
 
-    /** What is within both. */
+    /** The intersection with another extent. */
     Extent
     and_within(const Extent &other) const;
 

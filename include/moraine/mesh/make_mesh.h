@@ -29,7 +29,7 @@ namespace moraine
   make_mesh(const MeshParameters<dim>  &parameters,
             dealii::Triangulation<dim> &triangulation);
 
-  /** What users call groups of cells, and their material ids. */
+  /** Names of groups of cells, and their material ids. */
   using CellGroups =
     std::vector<std::pair<std::string, dealii::types::material_id>>;
 

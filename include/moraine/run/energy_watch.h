@@ -38,7 +38,7 @@ namespace moraine
   class EnergyWatch : public StatePart
   {
   public:
-    /** What helps, in words. */
+    /** A remedy, in words. */
     using Remedy = std::function<std::string(const EnergySource)>;
 
     /** Less energy than @p round_off is not looked at. */
@@ -82,7 +82,7 @@ namespace moraine
     read(const Archive &archive) override;
 
   private:
-    /** What boundaries gave beyond the work of their motions [force length]. */
+    /** Work of boundaries beyond that of their motions [force length]. */
     double
     made_by_boundaries() const;
 
