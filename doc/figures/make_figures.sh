@@ -79,7 +79,7 @@ done
 last() { find "$1" -name '*.vtu' | sort | tail -n 1; }
 
 # What 'moraine plot' does.
-moraine_plot() { /usr/bin/python3 "$figures/../../source/run/plot.py" "$@"; }
+moraine_plot() { /usr/bin/python3 "$figures/../../source/output/plot.py" "$@"; }
 
 # render NAME ...: draw fields of VTU files as NAME.png
 render() { moraine_plot "${@:2}" -o "$figures/$1.png"; }

@@ -18,7 +18,7 @@
 #include <moraine/run/narrow_gaps.h>
 #include <moraine/run/near_bodies.h>
 #include <moraine/run/removed_bodies.h>
-#include <moraine/run/scene_conditions.h>
+#include <moraine/scene/scene_conditions.h>
 #include <moraine/run/point_volumes.h>
 #include <moraine/run/skipped_tables.h>
 #include <moraine/run/thin_bodies.h>

@@ -7,7 +7,7 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
 #include <moraine/geometry/overburden.h>
-#include <moraine/run/scene_bodies.h>
+#include <moraine/scene/scene_bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>

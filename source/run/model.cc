@@ -12,9 +12,9 @@
 #include <moraine/core/words.h>
 #include <moraine/geometry/covered_pieces.h>
 #include <moraine/run/initial_stress.h>
-#include <moraine/run/scene_bodies.h>
-#include <moraine/run/scene_conditions.h>
-#include <moraine/run/scene_mesh_motion.h>
+#include <moraine/scene/scene_bodies.h>
+#include <moraine/scene/scene_conditions.h>
+#include <moraine/scene/scene_mesh_motion.h>
 
 #include <algorithm>
 #include <cmath>

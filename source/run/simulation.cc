@@ -4,13 +4,13 @@
 #include <moraine/run/simulation.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/exit.h>
 #include <moraine/core/memory.h>
 #include <moraine/core/version.h>
 #include <moraine/output/on_root.h>
 #include <moraine/run/checkpoints.h>
-#include <moraine/run/command_line.h>
 #include <moraine/run/console_report.h>
-#include <moraine/run/located.h>
+#include <moraine/scene/located.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
 #include <moraine/run/step_driver.h>

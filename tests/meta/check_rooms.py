@@ -28,8 +28,12 @@ MAY_INCLUDE = {
     "assembly": ["mesh", "material", "solver", "geometry", "points", "basis",
                  "state", "boundary", "load"],
     "output": ["mesh", "points", "basis"],
+    "scene": ["mesh", "material", "solver", "time", "geometry", "points",
+              "basis", "state", "boundary", "load", "assembly", "output"],
     "run": ["mesh", "material", "solver", "time", "geometry", "points",
-            "basis", "state", "boundary", "load", "assembly", "output"],
+            "basis", "state", "boundary", "load", "assembly", "output",
+            "scene"],
+    "study": ["output", "scene", "run"],
 }
 ROOMS = list(MAY_INCLUDE)
 
@@ -89,7 +93,7 @@ GOOD = {
     "include/moraine/mesh/a.h": "#include <moraine/core/b.h>\n",
     "source/mesh/a.cc": "#include <moraine/mesh/a.h>\n"
                         "#include <deal.II/distributed/shared_tria.h>\n",
-    "source/run/main.cc": "#include <moraine/output/x.h>\n",
+    "source/main.cc": "#include <moraine/study/x.h>\n",
     "source/geometry/a.cc": "#include <moraine/mesh/a.h>\n",
     "source/load/a.cc": "#include <moraine/points/a.h>\n",
     "source/precompiled.h": "#include <deal.II/base/tensor.h>\n",
@@ -100,6 +104,7 @@ DEFECTS = [
     {"source/mesh/c.cc": "#  include \"moraine/solver/b.h\"\n"},
     {"source/core/c.cc": "#include <moraine/mesh/a.h>\n"},
     {"source/attic/c.cc": "int a;\n"},
+    {"source/scene/c.cc": "#include <moraine/run/a.h>\n"},
     {"source/run/c.cc": "#include <moraine/attic/a.h>\n"},
     {"source/run/c.cc": "#include <p4est.h>\n"},
     {"source/mesh/c.cc": "#include <moraine/geometry/a.h>\n"},

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/core/object_error.h>
-#include <moraine/run/located.h>
+#include <moraine/scene/located.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/core/exceptions.h>
-#include <moraine/run/study_expansion.h>
+#include <moraine/study/study_expansion.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #define moraine_run_condition_checks_h
 
 #include <moraine/run/model.h>
-#include <moraine/run/scene.h>
+#include <moraine/scene/scene.h>
 
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/bodies.h>
-#include <moraine/run/scene.h>
+#include <moraine/scene/scene.h>
 
 #include <deal.II/base/timer.h>
 

@@ -5,7 +5,7 @@
 #define moraine_run_resume_h
 
 #include <moraine/output/checkpoint_files.h>
-#include <moraine/run/scene.h>
+#include <moraine/scene/scene.h>
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #ifndef moraine_run_skipped_tables_h
 #define moraine_run_skipped_tables_h
 
-#include <moraine/run/scene.h>
+#include <moraine/scene/scene.h>
 
 #include <string>
 #include <vector>

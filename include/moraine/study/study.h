@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_study_study_h
+#define moraine_study_study_h
+
+#include <moraine/core/console.h>
+#include <moraine/core/input_file.h>
+#include <moraine/output/summary.h>
+#include <moraine/scene/study_parameters.h>
+#include <moraine/study/study_report.h>
+
+#include <mpi.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * The cases of a study: every combination of the choices in the scene, for
+   * every series of section `Study/Series` if there are any. The choice of the
+   * series comes first, with the path "Series".
+   *
+   * @throw InputError for mistakes in the choices or in a series.
+   */
+  std::vector<StudyCase>
+  study_cases(const InputFile &input);
+
+  /**
+   * Simulate a scene without output. How it failed is the status of the
+   * summary, "wrong input" if by a mistake in the scene; what fails before the
+   * first step has no version. Collective.
+   */
+  Summary
+  summary_of_case(const InputFile &input, const MPI_Comm &communicator);
+
+  /**
+   * Make the folder of a study, or take the one that is there, and keep the
+   * input in it as study.prm. Collective.
+   * @throw InputError if it holds a study and @p overwrite is not set, or if
+   * it cannot be made.
+   */
+  void
+  make_study_folder(const std::string &folder,
+                    const InputFile   &input,
+                    const bool         overwrite,
+                    const MPI_Comm    &communicator);
+
+  /**
+   * Runs the cases of a study one after the other in this process and keeps,
+   * in the output folder, study.csv (rewritten after each case), and at the end
+   * study.gp and study.png, error against unknowns and against wall time.
+   *
+   * A case that fails is a row whose status says so. Peak memory is that of
+   * the case where the system lets us reset it, and else of all so far. A case
+   * below 0.1 s is run five times, and the run with the median time counts. A
+   * first case below 10 s is run once more before, because the first run of a
+   * process takes longer.
+   */
+  class Study
+  {
+  public:
+    /**
+     * Read all cases.
+     * @throw InputError for a mistake in the text of any of them, if what is to
+     * be plotted differs between them, or if the folder holds a study and @p
+     * overwrite is not set.
+     */
+    Study(const InputFile   &input,
+          const std::string &folder,
+          const bool         overwrite,
+          const MPI_Comm    &communicator,
+          Console           &console);
+
+    /** @return an exit code: that of the case that went worst. */
+    int
+    run();
+
+  private:
+    StudyResult
+    run_case(const std::size_t i);
+
+    /** The run with the median time of as many as its time asks for. */
+    StudyResult
+    measured_case(const std::size_t i);
+
+    /** Wall time of the slowest rank. Collective. */
+    double
+    longest_time(const StudyResult &result) const;
+
+    /** By what case @p i is measured against. */
+    std::optional<double>
+    error_of(const Summary &summary, const std::size_t i) const;
+
+    StudyReport
+    report() const;
+
+    std::string            folder;
+    MPI_Comm               communicator;
+    Console               &console;
+    std::vector<StudyCase> cases;
+    /** Of each case; only reference values may differ. */
+    std::vector<StudyParameters> parameters;
+    std::vector<StudyResult>     results;
+  };
+} // namespace moraine
+
+#endif

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/scene/scene.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
+#include <moraine/scene/renamed_keys.h>
+#include <moraine/scene/scene_bodies.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  MeshMotionParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Follow",
+                      follow,
+                      "The mesh moves as a rigid body after each step, by the "
+                      "prescribed motion of this boundary or grid condition. "
+                      "If left out, it stays.");
+    prm.add_parameter("Stretch between",
+                      stretch,
+                      "Names of two boundaries or grid conditions: the mesh is "
+                      "stretched uniformly between them, so that it goes with "
+                      "both.");
+  }
+
+
+
+  void
+  OutputParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Directory",
+                      directory,
+                      "Folder for the results; output/<name of the scene> if "
+                      "left out.");
+    prm.add_parameter(
+      "Points",
+      points,
+      "Write the points as VTU, and their domains if they have any.");
+    prm.add_parameter("Mesh", mesh, "Write the active cells as VTU.");
+    prm.add_parameter("Residuals",
+                      residuals,
+                      "Print the residual at the start of each step and after "
+                      "each Newton iteration (relative to the forces).");
+    times.add_parameters(prm);
+  }
+
+
+
+  unsigned int
+  dimension_of(const InputFile &input)
+  {
+    const std::string text = input.get("", "Dimension", "2");
+    if (text != "2" && text != "3")
+      throw InputError(place("", "Dimension") + ": found '" + text +
+                       "', allowed: 2, 3");
+    return text == "3" ? 3 : 2;
+  }
+
+
+
+  namespace
+  {
+    template <class Parameters>
+    void
+    take_names(const InputFile                                 &input,
+               const std::string                               &section,
+               std::vector<std::pair<std::string, Parameters>> &list)
+    {
+      for (const std::string &name : input.names_in(section))
+        list.emplace_back(name, Parameters());
+    }
+
+
+
+    template <class List>
+    std::vector<std::string>
+    names_of(const List &list)
+    {
+      std::vector<std::string> names;
+      for (const auto &[name, parameters] : list)
+        names.push_back(name);
+      return names;
+    }
+
+
+
+    template <class List, class Declare>
+    void
+    in_subsections(ParameterHandler  &prm,
+                   const std::string &section,
+                   List              &list,
+                   const Declare     &declare)
+    {
+      prm.enter_subsection(section);
+      for (auto &[name, parameters] : list)
+        {
+          prm.enter_subsection(name);
+          declare(parameters);
+          prm.leave_subsection();
+        }
+      prm.leave_subsection();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Scene<dim>::Scene(const InputFile &input)
+  {
+    take_names(input, "Materials", materials);
+    take_names(input, "Bodies", bodies);
+    take_names(input, "Boundaries", boundaries);
+    take_names(input, "Grid conditions", grid_conditions);
+    take_names(input, "Loads", loads);
+    for (const std::string &name : input.names_in("Probes"))
+      {
+        probes.emplace_back();
+        probes.back().name = name;
+      }
+    take_names(input, "Stages", stages);
+    take_names(input, "Study/Series", study.series);
+    declare();
+    refuse_old_names(input);
+    const auto given = input.parse(prm);
+    locate_files(input);
+    complete_stages(given,
+                    time,
+                    {names_of(boundaries),
+                     names_of(grid_conditions),
+                     names_of(loads),
+                     simulated_bodies(*this)},
+                    stages);
+    if (method.strain_measure() == StrainMeasure::finite || any_yields() ||
+        conserves_energy())
+      choose_enforcement("augmented Lagrangian", input);
+    else if (is_dynamic())
+      choose_enforcement("symmetric Nitsche", input);
+    if (method.volumetric_strain == "auto")
+      choose_volumetric_strain(given);
+    check(input, given);
+  }
+
+
+
+  template <int dim>
+  const StageParameters &
+  Scene<dim>::first_dynamic_stage() const
+  {
+    for (const auto &[name, stage] : stages)
+      if (stage.time.integrator.dynamic())
+        return stage;
+    return stages.front().second;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::any_yields() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const auto &named) { return named.second.yields(); });
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::is_dynamic() const
+  {
+    return first_dynamic_stage().time.integrator.dynamic();
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::conserves_energy() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+      return named.second.time.integrator.integrator == "energy-momentum";
+    });
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::divides_steps() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+      return named.second.time.integrator.first_part() < 1.;
+    });
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::absorbs_later(const std::string &name) const
+  {
+    // What absorbs once does so to the end.
+    return contains(stages.back().second.absorbing, name);
+  }
+
+
+
+  template <int dim>
+  const StageParameters &
+  Scene<dim>::first_absorbing_stage(const std::string &name) const
+  {
+    const auto is_active = [&](const StageParameters &stage) {
+      return contains(stage.boundaries, name) ||
+             contains(stage.grid_conditions, name);
+    };
+    // Either the constraint is to absorb or it becomes that.
+    for (const auto &[stage_name, stage] : stages)
+      if (is_active(stage) &&
+          (contains(stage.absorbing, name) || !absorbs_later(name)))
+        return stage;
+    return stages.back().second;
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::locate_files(const InputFile &input)
+  {
+    const auto folder  = std::filesystem::path(input.name()).parent_path();
+    const auto located = [&](const std::string &key, std::string &file) {
+      const std::string path = (folder / file).string();
+      prm.set(key, std::filesystem::absolute(path).string());
+      file = path;
+    };
+    prm.enter_subsection("Bodies");
+    for (auto &[name, body] : bodies)
+      if (body.shape.is_point_file())
+        {
+          prm.enter_subsection(name);
+          located("Point file", body.shape.texts.at("Point file"));
+          prm.leave_subsection();
+        }
+    prm.leave_subsection();
+    prm.enter_subsection("Mesh");
+    if (!mesh.file.empty())
+      located("File", mesh.file);
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_enforcement(const std::string &if_left_out,
+                                 const InputFile   &input)
+  {
+    prm.enter_subsection("Boundaries");
+    for (auto &[name, boundary] : boundaries)
+      {
+        if (boundary.constraint == "absorbing")
+          continue;
+        const std::string section = "Boundaries/" + name;
+        prm.enter_subsection(name);
+        if (!input.has(section, "Enforcement"))
+          prm.set("Enforcement", if_left_out);
+        if (if_left_out == "augmented Lagrangian" &&
+            boundary.enforcement.enforcement == if_left_out &&
+            !input.has(section, "Band width"))
+          prm.set("Band width", 0.01);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_volumetric_strain(
+    const std::vector<InputFile::Entry> &given)
+  {
+    const bool hardly_changes =
+      std::any_of(materials.begin(), materials.end(), [](const auto &named) {
+        return named.second.hardly_changes_volume();
+      });
+    const bool is_damped =
+      std::any_of(given.begin(), given.end(), [](const auto &entry) {
+        return contains({"Stiffness damping", "Damping ratio"}, entry.key);
+      });
+    prm.enter_subsection("Method");
+    prm.set("Volumetric strain",
+            hardly_changes && method.can_average_volume() &&
+                !conserves_energy() && !is_damped ?
+              std::string("cell mean") :
+              std::string("pointwise"));
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  Scene<dim>::Scene()
+  {
+    const std::string name = "<name>";
+    materials.emplace_back(name, MaterialParameters());
+    bodies.emplace_back(name, BodyParameters<dim>());
+    boundaries.emplace_back(name, BoundaryParameters<dim>());
+    grid_conditions.emplace_back(name, GridConditionParameters<dim>());
+    loads.emplace_back(name, LoadParameters<dim>());
+    stages.emplace_back(name, StageParameters());
+    probes.emplace_back();
+    probes.back().name = name;
+    study.series.emplace_back(name, std::string());
+    declare();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::declare()
+  {
+    prm.add_parameter("Dimension",
+                      dimension,
+                      "2 (plane strain) or 3.",
+                      patterns::integer_in_range(2, 3));
+    prm.add_parameter("Title", title, "Shown at the start of a run.");
+
+    const auto section = [this](const std::string &name, auto &parameters) {
+      prm.enter_subsection(name);
+      parameters.add_parameters(prm);
+      prm.leave_subsection();
+    };
+    const auto add_all = [this](auto &parameters) {
+      parameters.add_parameters(prm);
+    };
+    section("Mesh", mesh);
+    section("Method", method);
+    in_subsections(prm, "Materials", materials, add_all);
+    in_subsections(prm, "Bodies", bodies, add_all);
+    in_subsections(prm, "Boundaries", boundaries, add_all);
+    in_subsections(prm, "Grid conditions", grid_conditions, add_all);
+    in_subsections(prm, "Loads", loads, add_all);
+    section("Mesh motion", mesh_motion);
+    section("Time", time);
+    in_subsections(prm, "Stages", stages, add_all);
+    prm.enter_subsection("Solver");
+    newton.add_parameters(prm);
+    linear_solver.add_parameters(prm);
+    prm.leave_subsection();
+    section("Output", output);
+    prm.enter_subsection("Probes");
+    for (auto &probe : probes)
+      section(probe.name, probe);
+    prm.leave_subsection();
+    section("Exact solution", exact);
+    section("Strength reduction", strength_reduction);
+    prm.enter_subsection("Study");
+    study.add_parameters(prm);
+    in_subsections(prm, "Series", study.series, [this](std::string &settings) {
+      prm.add_parameter(
+        "Settings",
+        settings,
+        "Of 'moraine study': 'Section/Key = value' separated by ';', with "
+        "choices {{a|b}} if wanted. A '*' stands for every name.");
+    });
+    prm.leave_subsection();
+  }
+
+
+
+  template class Scene<2>;
+  template class Scene<3>;
+} // namespace moraine

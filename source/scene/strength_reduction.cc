@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/scene/strength_reduction.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
+
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string section = "Strength reduction";
+
+
+
+    std::string
+    as_text(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
+  } // namespace
+
+
+
+  void
+  StrengthReductionParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Factor",
+      factor,
+      "The shear strength of the materials is divided by it, from the start "
+      "on: with von Mises the yield stress at every plastic strain.",
+      patterns::positive());
+    prm.add_parameter("Materials",
+                      materials,
+                      "Names of the materials whose strength is divided, "
+                      "separated by commas; all that have one if left out.");
+    prm.add_parameter(
+      "Lower factor",
+      lower_factor,
+      "Of 'moraine study' with 'Kind = factor of safety': a factor at which the "
+      "scene finds equilibrium up to its end time. At small strain its points "
+      "stay where they are unless 'Mesh after step' says otherwise.",
+      patterns::positive());
+    prm.add_parameter("Upper factor",
+                      upper_factor,
+                      "Of 'moraine study' with 'Kind = factor of safety': one "
+                      "at which it does not.",
+                      patterns::positive());
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Of 'moraine study' with 'Kind = factor of safety': the "
+                      "interval between both is halved until it is no longer "
+                      "than this.",
+                      patterns::positive());
+  }
+
+
+
+  void
+  StrengthReductionParameters::check(
+    const std::vector<std::pair<std::string, MaterialParameters>> &all,
+    const bool searches) const
+  {
+    std::vector<std::string> names, with_strength;
+    for (const auto &[name, parameters] : all)
+      {
+        names.push_back(name);
+        if (make_material(parameters, "Materials/" + name)
+              ->with_strength_over(factor))
+          with_strength.push_back(name);
+      }
+    for (const std::string &name : materials)
+      {
+        if (!contains(names, name))
+          reject(section,
+                 "Materials",
+                 name,
+                 "names of materials" + suggest(name, names));
+        if (!contains(with_strength, name))
+          reject(section,
+                 "Materials",
+                 name,
+                 "materials that have a shear strength: " +
+                   list_of(with_strength));
+      }
+    if (with_strength.empty() && (searches || factor != 1))
+      throw InputError(
+        searches ? place("Study", "Kind") +
+                     ": found 'factor of safety', allowed: only with a "
+                     "material that has a shear strength" :
+                   place(section, "Factor") + ": found '" + as_text(factor) +
+                     "', allowed: 1; no material has a shear strength");
+    if (!(upper_factor > lower_factor))
+      reject(section,
+             "Upper factor",
+             as_text(upper_factor),
+             "a number above 'Lower factor', " + as_text(lower_factor));
+  }
+
+
+
+  std::shared_ptr<const Material>
+  StrengthReductionParameters::reduced(
+    const std::string                     &name,
+    const std::shared_ptr<const Material> &material) const
+  {
+    if (factor == 1 || (!materials.empty() && !contains(materials, name)))
+      return material;
+    const auto weaker = material->with_strength_over(factor);
+    return weaker ? weaker : material;
+  }
+} // namespace moraine

@@ -1,0 +1,540 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/study/study_report.h>
+
+#include <moraine/core/arithmetic.h>
+#include <moraine/core/atomic_file.h>
+#include <moraine/core/words.h>
+
+#include <deal.II/base/table_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace moraine
+{
+  using namespace dealii;
+  namespace fs = std::filesystem;
+
+  std::string
+  text_of(const double value, const unsigned int digits)
+  {
+    std::ostringstream text;
+    text << std::setprecision(digits) << value;
+    return text.str();
+  }
+
+
+
+  std::string
+  one_word(const std::string &text)
+  {
+    std::string word = "'";
+    for (const char c : text)
+      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+  }
+
+
+
+  namespace
+  {
+    /** Columns in the order in which the cases bring them. */
+    void
+    add_columns(std::vector<std::string>       &columns,
+                const std::vector<std::string> &more)
+    {
+      for (const std::string &name : more)
+        if (!contains(columns, name))
+          columns.push_back(name);
+    }
+
+
+
+    std::string
+    csv_cell(const std::string &text)
+    {
+      if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+      std::string cell = "\"";
+      for (const char c : text)
+        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+      return cell + "\"";
+    }
+
+
+
+    /** Everything a row has, by column. */
+    std::vector<std::pair<std::string, std::string>>
+    cells_of(const StudyResult &result)
+    {
+      const Summary &summary = result.summary;
+      auto           cells   = result.study_case.choices;
+      const auto     number  = [&cells](const std::string &name,
+                                   const double       value) {
+        cells.emplace_back(name, text_of(value, 10));
+      };
+      cells.emplace_back("status", summary.status);
+      cells.emplace_back("message", summary.message);
+      if (summary.version.empty())
+        return cells;
+      if (result.error)
+        number("error", *result.error);
+      for (const auto &[name, value] : summary.errors)
+        if (value)
+          number(name, *value);
+      for (const auto &[name, value] : summary.probes)
+        number(name, value);
+      number("wall_seconds", summary.wall_seconds);
+      for (const auto &[name, seconds] : summary.timings)
+        number("seconds in " + name, seconds);
+      number("cells", summary.sizes.cells);
+      number("active_cells", summary.sizes.active_cells);
+      number("unknowns", summary.sizes.unknowns);
+      number("points", summary.sizes.points);
+      number("time", summary.time);
+      number("steps", summary.steps);
+      number("rejected_steps", summary.rejected_steps);
+      number("newton_iterations", summary.newton_iterations);
+      number("linear_iterations", summary.linear.iterations);
+      if (summary.linear.condition_number)
+        number("condition_number", *summary.linear.condition_number);
+      number("bytes_per_point", summary.sizes.bytes_per_point);
+      number("peak_memory_mib", summary.sizes.peak_memory_mib);
+      number("ranks", summary.sizes.ranks);
+      cells.emplace_back("version", summary.version);
+      return cells;
+    }
+
+
+
+    /** Key of the choice in which two cases differ, if it is one alone. */
+    std::string
+    only_difference(const StudyCase &a, const StudyCase &b)
+    {
+      std::string path;
+      if (a.choices.size() != b.choices.size())
+        return "";
+      for (std::size_t c = 0; c < a.choices.size(); ++c)
+        if (a.choices[c] != b.choices[c])
+          {
+            if (!path.empty() || a.choices[c].first != b.choices[c].first)
+              return "";
+            path = a.choices[c].first;
+          }
+      return path;
+    }
+
+
+
+    /**
+     * The first numbers in which two texts differ: 10 and 20 of "2: 10: 72" and
+     * "2: 20: 144"; zeros if there are none.
+     */
+    std::pair<double, double>
+    differing_numbers(const std::string &a, const std::string &b)
+    {
+      const auto numbers_of = [](std::string text) {
+        for (char &c : text)
+          if (std::string(",;:").find(c) != std::string::npos)
+            c = ' ';
+        std::vector<double> numbers;
+        std::istringstream  in(text);
+        for (std::string word; in >> word;)
+          numbers.push_back(number_from(word).value_or(0.));
+        return numbers;
+      };
+      const auto x = numbers_of(a), y = numbers_of(b);
+      for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+        if (x[i] != y[i])
+          return {x[i], y[i]};
+      return {0., 0.};
+    }
+
+
+
+    /** Whether it says how large cells are. */
+    bool
+    sizes_cells(const InputFile::Entry &entry)
+    {
+      return entry.section == "Mesh" && contains({"Cell size",
+                                                  "Cells",
+                                                  "Refinements",
+                                                  "Arguments",
+                                                  "Extrusion layers"},
+                                                 entry.key);
+    }
+
+
+
+    /** Whether it says how long steps are. */
+    bool
+    sizes_steps(const InputFile::Entry &entry)
+    {
+      return contains({"Steps", "Largest step", "Arc length"}, entry.key) &&
+             (entry.section == "Time" ||
+              (entry.section.rfind("Stages/", 0) == 0 &&
+               names_choice("Time", entry.section)));
+    }
+
+
+
+    /**
+     * |ln(v/v0)| of the first value that differs between two cases of a study
+     * and for which @p counts: whether it is a choice or has its constants from
+     * one. 0 if there is none.
+     */
+    double
+    difference_of_sizes(const InputFile &a,
+                        const InputFile &b,
+                        bool (*counts)(const InputFile::Entry &))
+    {
+      for (const InputFile::Entry &entry : a.entries())
+        if (counts(entry))
+          {
+            const auto [v0, v1] =
+              differing_numbers(a.require(entry.section, entry.key),
+                                b.get(entry.section, entry.key, ""));
+            if (entry.key == "Refinements" && v0 != v1)
+              return std::abs(v1 - v0) * std::log(2.);
+            if (v0 != v1 && v0 > 0 && v1 > 0)
+              return std::abs(std::log(v1 / v0));
+          }
+      return 0.;
+    }
+
+
+
+    /**
+     * ln(e0/e) / |ln(v/v0)|, where e0 belongs to the last result before with
+     * another value of key @p path and all other choices equal, and v are sizes
+     * of cells or, if these are equal, of steps. Nothing if that key changes
+     * neither.
+     */
+    std::string
+    observed_order(const std::vector<StudyResult> &results,
+                   const std::size_t               now,
+                   const std::string              &path)
+    {
+      const StudyResult &result = results[now];
+      for (std::size_t i = now; i-- > 0;)
+        {
+          const StudyResult &before = results[i];
+          if (only_difference(before.study_case, result.study_case) != path)
+            continue;
+          if (!before.error || !result.error || !(*before.error > 0) ||
+              !(*result.error > 0))
+            return "";
+          const InputFile &a         = before.study_case.input;
+          const InputFile &b         = result.study_case.input;
+          const double     of_cells  = difference_of_sizes(a, b, sizes_cells);
+          const bool       has_cells = of_cells > 0;
+          const double     difference =
+            has_cells ? of_cells : difference_of_sizes(a, b, sizes_steps);
+          const auto count = [has_cells](const Summary &summary) -> double {
+            return has_cells ? summary.sizes.unknowns : summary.steps;
+          };
+          const double n0 = count(before.summary), n1 = count(result.summary);
+          if (!(difference > 0) || n0 == n1)
+            return "";
+          return text_of(std::log(*before.error / *result.error) / difference *
+                           (n1 < n0 ? -1 : 1),
+                         3);
+        }
+      return "";
+    }
+
+
+
+    bool
+    is_less_fine(const StudyResult *a, const StudyResult *b)
+    {
+      return std::make_pair(a->summary.sizes.unknowns, a->summary.steps) <
+             std::make_pair(b->summary.sizes.unknowns, b->summary.steps);
+    }
+
+
+
+    /** For gnuplot, which has no way to put an apostrophe into it. */
+    std::string
+    single_quoted(std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\'', ' ');
+      return "'" + text + "'";
+    }
+  } // namespace
+
+
+
+  void
+  StudyReport::write_csv() const
+  {
+    std::vector<std::string> columns;
+    for (const StudyResult &result : results)
+      {
+        std::vector<std::string> names;
+        for (const auto &cell : cells_of(result))
+          names.push_back(cell.first);
+        add_columns(columns, names);
+      }
+    AtomicFile file((fs::path(folder) / "study.csv").string());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      file.stream() << (c > 0 ? "," : "") << csv_cell(columns[c]);
+    for (const StudyResult &result : results)
+      {
+        const auto cells = cells_of(result);
+        file.stream() << '\n';
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          {
+            file.stream() << (c > 0 ? "," : "");
+            for (const auto &[name, text] : cells)
+              if (name == columns[c])
+                file.stream() << csv_cell(text);
+          }
+      }
+    file.stream() << '\n';
+    file.commit();
+  }
+
+
+
+  void
+  StudyReport::print_table(Console &console) const
+  {
+    const auto paths = choice_paths(cases);
+    const bool conditioned =
+      std::any_of(results.begin(), results.end(), [](const auto &result) {
+        return result.summary.linear.condition_number.has_value();
+      });
+    TableHandler table;
+    for (std::size_t i = 0; i < results.size(); ++i)
+      {
+        const StudyResult &result  = results[i];
+        const Summary     &summary = result.summary;
+        const bool         ok      = summary.status == "ok";
+        const auto or_dash = [](const bool has, const std::string &text) {
+          return has && !text.empty() ? text : std::string("-");
+        };
+        for (const std::string &path : paths)
+          {
+            const std::string key = path.substr(path.rfind('/') + 1);
+            const bool        once =
+              std::count_if(paths.begin(), paths.end(), [&](const auto &other) {
+                return names_choice(key, other);
+              }) == 1;
+            table.add_value(once ? key : path,
+                            or_dash(true, value_of(result.study_case, path)));
+          }
+        table.add_value("error",
+                        or_dash(result.error.has_value(),
+                                text_of(result.error.value_or(0.), 4)));
+        table.add_value(
+          "order",
+          or_dash(true, observed_order(results, i, refined_choice(cases))));
+        table.add_value("seconds",
+                        or_dash(ok, text_of(summary.wall_seconds, 3)));
+        table.add_value("unknowns",
+                        or_dash(ok, std::to_string(summary.sizes.unknowns)));
+        table.add_value("points",
+                        or_dash(ok, std::to_string(summary.sizes.points)));
+        table.add_value("MiB",
+                        or_dash(ok, text_of(summary.sizes.peak_memory_mib, 4)));
+        table.add_value("Newton",
+                        or_dash(ok, std::to_string(summary.newton_iterations)));
+        table.add_value("linear",
+                        or_dash(ok, std::to_string(summary.linear.iterations)));
+        if (conditioned)
+          table.add_value(
+            "condition",
+            or_dash(summary.linear.condition_number.has_value(),
+                    text_of(summary.linear.condition_number.value_or(0.), 3)));
+        table.add_value("status", summary.status);
+      }
+    std::ostringstream text;
+    table.write_text(text, TableHandler::org_mode_table);
+    console << '\n'
+            << text.str() << '\n'
+            << "  rows in " << (fs::path(folder) / "study.csv").string()
+            << std::endl;
+  }
+
+
+
+  std::vector<StudyReport::Curve>
+  StudyReport::curves() const
+  {
+    auto keys = Utilities::split_string_list(group_by, ',');
+    if (keys.empty())
+      for (const std::string &path : choice_paths(cases))
+        if (path != refined_choice(cases))
+          keys.push_back(path);
+    std::vector<Curve> all;
+    for (const StudyResult &result : results)
+      {
+        if (!result.error || !(*result.error > 0))
+          continue;
+        std::string name;
+        for (const std::string &key : keys)
+          {
+            const std::string value = value_of(result.study_case, key);
+            if (!value.empty())
+              name += (name.empty() ? "" : ", ") +
+                      (key == "Series" ?
+                         value :
+                         key.substr(key.rfind('/') + 1) + " = " + value);
+          }
+        auto curve = std::find_if(all.begin(), all.end(), [&](const auto &c) {
+          return c.name == name;
+        });
+        if (curve == all.end())
+          curve = all.insert(all.end(), {name, {}});
+        curve->results.push_back(&result);
+      }
+    for (Curve &curve : all)
+      std::stable_sort(curve.results.begin(),
+                       curve.results.end(),
+                       is_less_fine);
+    return all;
+  }
+
+
+
+  std::vector<std::vector<unsigned int>>
+  StudyReport::panels_of(const std::vector<Curve> &all) const
+  {
+    std::vector<std::vector<unsigned int>> chosen;
+    for (const std::string &panel : Utilities::split_string_list(panels, ';'))
+      {
+        chosen.emplace_back();
+        const auto beginnings = Utilities::split_string_list(panel, '|');
+        for (unsigned int c = 0; c < all.size(); ++c)
+          if (std::any_of(beginnings.begin(),
+                          beginnings.end(),
+                          [&](const std::string &begin) {
+                            return all[c].name.rfind(begin, 0) == 0;
+                          }))
+            chosen.back().push_back(c);
+      }
+    if (std::all_of(chosen.begin(), chosen.end(), [](const auto &panel) {
+          return panel.empty();
+        }))
+      for (unsigned int c = 0; c < all.size(); ++c)
+        {
+          if (chosen.empty() || chosen.back().size() == most_curves)
+            chosen.emplace_back();
+          chosen.back().push_back(c);
+        }
+    // Nobody tells more curves apart.
+    std::vector<std::vector<unsigned int>> readable;
+    for (const auto &panel : chosen)
+      for (std::size_t c = 0; c < panel.size(); c += most_curves)
+        readable.emplace_back(panel.begin() + c,
+                              panel.begin() +
+                                std::min<std::size_t>(c + most_curves,
+                                                      panel.size()));
+    return readable;
+  }
+
+
+
+  std::string
+  StudyReport::error_label() const
+  {
+    std::string shown = error;
+    for (const StudyResult &result : results)
+      if (shown.empty() && result.error)
+        shown = result.summary.errors.front().first;
+    if (shown.rfind("probe ", 0) == 0)
+      return "relative error of " + shown.substr(6) + " [-]";
+    if (!reference.empty())
+      return shown + " / " + reference + " [-]";
+    return shown + (shown == "max_u" ? " [length]" :
+                    shown == "max_sigma" || shown == "mean_sigma" ?
+                                       " [stress]" :
+                                       " [-]");
+  }
+
+
+
+  void
+  StudyReport::write_script(const std::vector<Curve> &all) const
+  {
+    AtomicFile    file((fs::path(folder) / "study.gp").string());
+    std::ostream &out = file.stream();
+    for (std::size_t c = 0; c < all.size(); ++c)
+      {
+        out << "$curve" << c << " << EOD\n";
+        for (const StudyResult *result : all[c].results)
+          out << result->summary.sizes.unknowns << ' '
+              << text_of(result->summary.wall_seconds, 6) << ' '
+              << text_of(*result->error, 10) << '\n';
+        out << "EOD\n";
+      }
+    const auto panel_list = panels_of(all);
+    out << "set terminal pngcairo size 1400," << 40 + 460 * panel_list.size()
+        << " font ',12'\n"
+        << "set output 'study.png'\n"
+        << "set multiplot layout " << panel_list.size() << ",2 title "
+        << single_quoted(title) << " noenhanced\n"
+        << "set ylabel " << single_quoted(error_label()) << " noenhanced\n"
+        << "set logscale xy\nset format xy '10^{%T}'\nset grid\n"
+        << "set colorsequence podo\n";
+    // Both panels of a row are as wide; names of curves are right of them.
+    for (const auto &panel : panel_list)
+      for (const bool over_time : {false, true})
+        {
+          out << "set xlabel " << (over_time ? "'wall time [s]'" : "'unknowns'")
+              << '\n'
+              << (over_time ? "set lmargin at screen 0.43\n"
+                              "set rmargin at screen 0.72\n"
+                              "set key outside right top noenhanced\n" :
+                              "set lmargin at screen 0.065\n"
+                              "set rmargin at screen 0.355\nunset key\n")
+              << "plot ";
+          for (std::size_t k = 0; k < panel.size(); ++k)
+            {
+              const std::string &name = all[panel[k]].name;
+              out << (k > 0 ? ", \\\n     " : "") << "$curve" << panel[k]
+                  << " using " << (over_time ? 2 : 1)
+                  << ":3 with linespoints lw 1.5 lt " << k + 1 << " pt "
+                  << k + 4 << " title "
+                  << single_quoted(name.empty() ? "all" : name);
+            }
+          out << '\n';
+        }
+    out << "unset multiplot\n";
+    file.commit();
+  }
+
+
+
+  void
+  StudyReport::plot(Console &console) const
+  {
+    const auto all = curves();
+    if (all.empty())
+      {
+        console << "  no plot: no case has an error above zero (an exact "
+                   "solution, or a probe with a reference, gives one)"
+                << std::endl;
+        return;
+      }
+    write_script(all);
+    const std::string command =
+      "cd " + one_word(folder) + " && gnuplot study.gp";
+    if (std::system(("command -v gnuplot >/dev/null 2>&1")) != 0)
+      console << "  no picture: gnuplot is not installed; later: " << command
+              << std::endl;
+    else if (std::system(command.c_str()) != 0)
+      console << "  no picture: gnuplot failed; try: " << command << std::endl;
+    else
+      console << "  plot in " << (fs::path(folder) / "study.png").string()
+              << std::endl;
+  }
+} // namespace moraine
