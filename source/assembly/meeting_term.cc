@@ -206,14 +206,11 @@ namespace moraine
         const std::string two =
           name(meeting.first) + " and " + name(meeting.second);
         std::ostringstream text;
-        text << two << ": they move differently, and a cell at (" << meeting.x
-             << ") cannot follow both";
+        text << "they move differently in a cell at (" << meeting.x << ")";
         if (meeting.cells.size() > 1)
-          text << " (nor can " << meeting.cells.size() - 1 << " more)";
-        text << "; what is left of them there is not held, and keeps the "
-                "traction that it has, so that between them is a gap up to a "
-                "cell wide: smaller cells narrow it";
-        notes.push_back({"meeting of " + two, "note", text.str()});
+          text << " and " << meeting.cells.size() - 1 << " more";
+        text << ", which cannot follow both; smaller cells narrow the gap";
+        notes.push_back({two, "note", text.str()});
       }
     return notes;
   }

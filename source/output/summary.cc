@@ -24,6 +24,23 @@ namespace moraine
     }
 
     Json
+    list_of(const std::vector<Finding> &findings)
+    {
+      Json list = Json::array();
+      for (const Finding &finding : findings)
+        {
+          Json one;
+          one["id"]     = finding.id;
+          one["object"] = finding.object;
+          one["value"]  = finding.value;
+          one["limit"]  = finding.limit;
+          one["text"]   = finding.text;
+          list.push_back(one);
+        }
+      return list;
+    }
+
+    Json
     to_json(const Summary &summary)
     {
       Json json;
@@ -51,6 +68,9 @@ namespace moraine
           {"share_of_work", summary.quality.ghost_term->of_work}});
       if (summary.quality.stress_error)
         json["estimated_stress_error"] = *summary.quality.stress_error;
+      json["largest_displacement"] = summary.quality.largest_displacement;
+      if (summary.quality.plastic_share)
+        json["plastic_share"] = *summary.quality.plastic_share;
       json["bytes_per_point"] = summary.sizes.bytes_per_point;
       json["peak_memory_mib"] = summary.sizes.peak_memory_mib;
       json["wall_seconds"]    = summary.wall_seconds;
@@ -58,7 +78,9 @@ namespace moraine
       json["effects"]         = summary.effects;
       json["linear_solvers"]  = summary.linear.solvers;
       if (!summary.warnings.empty())
-        json["warnings"] = summary.warnings;
+        json["warnings"] = list_of(summary.warnings);
+      if (!summary.hints.empty())
+        json["hints"] = list_of(summary.hints);
       if (!summary.errors.empty())
         {
           Summary::List<Json> errors;

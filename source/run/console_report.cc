@@ -5,6 +5,7 @@
 
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
+#include <moraine/diagnostics/catalogue.h>
 #include <moraine/output/on_root.h>
 #include <moraine/run/resume.h>
 
@@ -102,14 +103,12 @@ namespace moraine
 
   template <int dim>
   void
-  ConsoleReport<dim>::describe(const std::vector<std::string> &notes)
+  ConsoleReport<dim>::describe()
   {
     introduce();
     describe_method();
     describe_bodies();
     describe_conditions();
-    for (const std::string &note : notes)
-      console << "  note        " << note << '\n';
     for (unsigned int k = 0; k < scene.stages.size(); ++k)
       describe_stage(k);
     console << "" << std::flush;
@@ -270,8 +269,6 @@ namespace moraine
       Utilities::MPI::broadcast(model.space->communicator(),
                                 static_cast<unsigned int>(console.log_size()));
     archive.write("console/bytes_of_log", size);
-    archive.write("console/points_returned", n_returned);
-    archive.write("console/told_of_far_domains", has_far_domains ? 1u : 0u);
   }
 
 
@@ -280,8 +277,6 @@ namespace moraine
   void
   ConsoleReport<dim>::read(const Archive &archive)
   {
-    n_returned      = archive.integer("console/points_returned");
-    has_far_domains = archive.integer("console/told_of_far_domains") != 0;
     on_root(model.space->communicator(), [&]() {
       console.continue_log(
         (std::filesystem::path(options.output_directory) / "log.txt").string(),
@@ -301,12 +296,13 @@ namespace moraine
         text << std::setprecision(8) << "no way on from t = " << step.t_start
              << "; came to rest at an equilibrium " << *step.pseudo_transient
              << " away";
-        note(text.str());
+        in_detail([&]() { note(text.str()); });
       }
     print_step(step, scene.output.residuals, console.stream());
-    note_domains();
-    for (const std::string &text : model.probes->news())
-      note(text);
+    in_detail([this]() {
+      for (const std::string &text : model.probes->news())
+        note(text);
+    });
   }
 
 
@@ -380,26 +376,36 @@ namespace moraine
 
   template <int dim>
   void
-  ConsoleReport<dim>::note_domains()
+  ConsoleReport<dim>::in_detail(const std::function<void()> &print)
   {
-    const MPI_Comm communicator = model.space->communicator();
-    const auto     n_far =
-      Utilities::MPI::sum(model.basis->n_far_domains(), communicator);
-    if (n_far > 0 && !has_far_domains)
-      note(std::to_string(n_far) +
-           " domains reach beyond the cells around their point; of more cells "
-           "than that they see only those of their corners" +
-           (scene.method.chosen().can_split_domains &&
-                !scene.method.splits_domains() ?
-              " (Method / Split domains = true halves them)" :
-              ""));
-    has_far_domains = has_far_domains || n_far > 0;
-    const auto n_back =
-      Utilities::MPI::sum(model.points->n_returned(), communicator);
-    if (n_back > n_returned)
-      note(std::to_string(n_back - n_returned) +
-           " points that ended outside the mesh were returned to its edge");
-    n_returned = n_back;
+    if (options.verbosity != Verbosity::verbose)
+      console.set_quiet(true);
+    print();
+    console.set_quiet(options.verbosity == Verbosity::quiet);
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print(const Finding &finding)
+  {
+    console << "  " << std::setw(12) << std::left
+            << (diagnostic(finding.id, "").severity == Severity::warning ?
+                  "warning" :
+                  "hint")
+            << std::right << finding.id
+            << (finding.object.empty() ? "" : " (" + finding.object + ")")
+            << ": " << finding.text << '\n';
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::finding(const Finding &finding)
+  {
+    in_detail([&]() { print(finding); });
   }
 
 
@@ -408,14 +414,27 @@ namespace moraine
   void
   ConsoleReport<dim>::run_ends(const Summary &summary, const RunCounts &counts)
   {
-    print_timings(summary);
+    in_detail([&]() {
+      print_timings(summary);
+      print_counts(summary, counts);
+      if (!summary.energy.empty())
+        print_energy(summary);
+    });
+    print_results(summary);
     if (!summary.errors.empty())
       print_errors(summary);
-    if (!summary.energy.empty())
-      print_energy(summary);
     console.set_quiet(false);
-    console << "\n  " << summary.steps << " steps, " << summary.rejected_steps
-            << " rejected, "
+    print_warnings(summary);
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_counts(const Summary   &summary,
+                                   const RunCounts &counts)
+  {
+    console << "\n  " << summary.rejected_steps << " rejected steps, "
             << (summary.n_pseudo_transient > 0 ?
                   std::to_string(summary.n_pseudo_transient) +
                     " pseudo-transient, " :
@@ -424,22 +443,74 @@ namespace moraine
             << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
             << std::setprecision(4) << summary.sizes.peak_memory_mib
             << " MiB at most\n";
-    if (summary.quality.stress_error)
-      console << "  estimated error of stress: "
-              << per_cent(*summary.quality.stress_error)
-              << " in the energy norm\n";
     if (summary.quality.ghost_term)
       console << "  ghost term: at most " << std::setprecision(2)
               << 100 * summary.quality.ghost_term->of_forces
               << " % of the forces and "
               << 100 * summary.quality.ghost_term->of_work
               << " % of the work of a step\n";
-    if (options.verbosity == Verbosity::quiet) // these have not been seen
-      for (const std::string &warning : summary.warnings)
-        note(warning);
-    if (summary.status != "ok")
-      console << "  ended early: " << summary.message << '\n';
-    console << "" << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_results(const Summary &summary)
+  {
+    const auto line = [this](const std::string &what) -> std::ostream & {
+      return console << "  " << std::setw(24) << std::left << what
+                     << std::right << std::setprecision(5);
+    };
+    console << "\n  results at t = " << std::setprecision(6) << summary.time
+            << '\n';
+    for (const auto &[name, force] : summary.reactions)
+      {
+        line("force of " + name);
+        for (const double component : force)
+          console << ' ' << std::setw(12) << component;
+        console << '\n';
+      }
+    for (const auto &[name, value] : summary.probes)
+      line(name) << ' ' << std::setw(12) << value << '\n';
+    line("largest displacement")
+      << ' ' << std::setw(12) << summary.quality.largest_displacement << '\n';
+    if (summary.quality.plastic_share)
+      line("plastic share of bodies")
+        << ' ' << std::setw(12) << per_cent(*summary.quality.plastic_share)
+        << '\n';
+    if (summary.quality.stress_error)
+      line("error of stress")
+        << ' ' << std::setw(12) << per_cent(*summary.quality.stress_error)
+        << " (estimate, energy norm)\n";
+  }
+
+
+
+  template <int dim>
+  void
+  ConsoleReport<dim>::print_warnings(const Summary &summary)
+  {
+    for (const Finding &finding : summary.warnings)
+      print(finding);
+    const bool ended = summary.status == "ok";
+    console << "  " << (ended ? "done" : "ended early") << ": "
+            << summary.steps << (summary.steps == 1 ? " step" : " steps")
+            << " in " << std::setprecision(3) << summary.wall_seconds << " s";
+    if (!summary.warnings.empty())
+      {
+        console << ", " << summary.warnings.size()
+                << (summary.warnings.size() == 1 ? " warning: " :
+                                                   " warnings: ");
+        std::vector<std::string> names;
+        for (const Finding &finding : summary.warnings)
+          names.push_back(finding.id + (finding.object.empty() ?
+                                          "" :
+                                          " (" + finding.object + ")"));
+        console << list_of(names) << "; see 'moraine explain ID'";
+      }
+    if (!ended)
+      console << "; " << summary.message;
+    console.stream() << std::endl;
   }
 
 

@@ -30,7 +30,6 @@ namespace moraine
         archive.write("run/largest_shares_of_ghost_term",
                       std::vector<double>{counts.ghost_term->of_forces,
                                           counts.ghost_term->of_work});
-      archive.write_lines("run/warnings", counts.warnings);
     }
 
 
@@ -54,7 +53,6 @@ namespace moraine
           const auto &shares = archive.numbers(ghost_shares);
           counts.ghost_term  = {shares[0], shares[1]};
         }
-      counts.warnings = archive.lines("run/warnings");
       return counts;
     }
 
@@ -124,7 +122,11 @@ namespace moraine
     buckling.write(archive);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
-    checks.write(archive);
+    archive.write("run/motion_of_last_step",
+                  std::vector<double>{node_motion, point_motion},
+                  2,
+                  "length");
+    diagnostics.ledger.write(archive);
     model.linear_solver->write(archive);
   }
 
@@ -165,7 +167,10 @@ namespace moraine
       }
     sums         = read_counts(archive);
     last_reports = read_reports<dim>(archive);
-    checks.read(archive);
+    const auto &motions = archive.numbers("run/motion_of_last_step", 2);
+    node_motion         = motions[0];
+    point_motion        = motions[1];
+    diagnostics.ledger.read(archive);
     model.linear_solver->read(archive);
   }
 

@@ -52,7 +52,7 @@ namespace moraine
 
   template <int dim>
   bool
-  StepDriver<dim>::hold_empty_parts(const std::string &reason)
+  StepDriver<dim>::hold_empty_parts()
   {
     if (method.fictitious_stiffness > 0 ||
         sums.n_fictitious_stiffness ==
@@ -73,13 +73,6 @@ namespace moraine
       return false;
     support->set_fraction(fraction);
     ++sums.n_fictitious_stiffness;
-    std::ostringstream text;
-    text << reason
-         << ": in case too few points touch some nodes, empty parts of cells "
-            "have from here on "
-         << fraction
-         << " of the material's stiffness (Method / Fictitious stiffness)";
-    tell(text.str());
     return true;
   }
 
@@ -92,10 +85,6 @@ namespace moraine
     if (!support || support->stiffness_fraction() == accepted_fraction)
       return false;
     support->set_fraction(accepted_fraction);
-    std::ostringstream text;
-    text << "the stiffness of empty parts of cells is no cure, it is "
-         << accepted_fraction << " of the material's again";
-    tell(text.str());
     return true;
   }
 
@@ -108,6 +97,16 @@ namespace moraine
     if (!support)
       return;
     accepted_fraction = support->stiffness_fraction();
+    if (accepted_fraction > 0)
+      diagnostics.report({"fictitious-stiffness",
+                          "",
+                          accepted_fraction,
+                          0,
+                          "too few points touch some nodes: from t = " +
+                            short_number(time_control.time()) +
+                            " empty parts of cells have " +
+                            short_number(accepted_fraction) +
+                            " of the material's stiffness"});
     // What was no cure for this step may be one for a later one.
     sums.n_fictitious_stiffness =
       std::upper_bound(std::begin(automatic_fictitious_stiffness),
@@ -123,7 +122,7 @@ namespace moraine
   template bool
   StepDriver<2>::may_support_more() const;
   template bool
-  StepDriver<2>::hold_empty_parts(const std::string &);
+  StepDriver<2>::hold_empty_parts();
   template bool
   StepDriver<2>::take_back_support();
   template void
@@ -133,7 +132,7 @@ namespace moraine
   template bool
   StepDriver<3>::may_support_more() const;
   template bool
-  StepDriver<3>::hold_empty_parts(const std::string &);
+  StepDriver<3>::hold_empty_parts();
   template bool
   StepDriver<3>::take_back_support();
   template void

@@ -23,21 +23,6 @@ namespace moraine
 {
   using namespace dealii;
 
-  template <int dim>
-  bool
-  absorbs_in(const StageParameters        &stage,
-             const Scene<dim>             &scene,
-             const AbsorbingBoundary<dim> &boundary)
-  {
-    const std::string &name = boundary.name();
-    return contains(boundary.is_on_side() ? stage.grid_conditions :
-                                            stage.boundaries,
-                    name) &&
-           (contains(stage.absorbing, name) || !scene.absorbs_later(name));
-  }
-
-
-
   namespace
   {
     /** Of a cell without points over that of one with points. */
@@ -501,49 +486,30 @@ namespace moraine
 
 
   template <int dim>
-  double
-  Model<dim>::largest_modulus() const
+  typename Facts<dim>::Objects
+  Model<dim>::objects(const Scene<dim> &scene) const
   {
-    double largest = 0;
-    for (const auto &material : materials)
-      {
-        const LameConstants C = material->elastic_stiffness();
-        largest               = std::max(largest, C.lambda + 2 * C.mu);
-      }
-    return largest;
+    return {scene,
+            bodies,
+            body_names,
+            present,
+            materials,
+            *mesh,
+            *space,
+            *points,
+            *basis,
+            *state,
+            motion.get(),
+            boundaries,
+            grid_conditions,
+            absorbing_boundaries,
+            loads,
+            mesh_motion,
+            *system};
   }
 
 
 
-  template <int dim>
-  std::vector<GridCondition<dim>>
-  acting_conditions(const std::vector<GridCondition<dim>> &conditions,
-                    const StageParameters                 &stage)
-  {
-    std::vector<GridCondition<dim>> acting;
-    for (const auto &condition : conditions)
-      if (contains(stage.grid_conditions, condition.name) &&
-          !contains(stage.absorbing, condition.name))
-        acting.push_back(condition);
-    return acting;
-  }
-
-
-
-  template std::vector<GridCondition<2>>
-  acting_conditions(const std::vector<GridCondition<2>> &,
-                    const StageParameters &);
-  template std::vector<GridCondition<3>>
-  acting_conditions(const std::vector<GridCondition<3>> &,
-                    const StageParameters &);
-  template bool
-  absorbs_in(const StageParameters &,
-             const Scene<2> &,
-             const AbsorbingBoundary<2> &);
-  template bool
-  absorbs_in(const StageParameters &,
-             const Scene<3> &,
-             const AbsorbingBoundary<3> &);
   template struct Model<2>;
   template struct Model<3>;
 } // namespace moraine

@@ -8,14 +8,15 @@
 #include <moraine/core/memory.h>
 #include <moraine/core/version.h>
 #include <moraine/output/on_root.h>
+#include <moraine/diagnostics/catalogue.h>
+#include <moraine/diagnostics/stress.h>
 #include <moraine/run/checkpoints.h>
 #include <moraine/run/console_report.h>
 #include <moraine/scene/located.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
+#include <moraine/run/stage_start.h>
 #include <moraine/run/step_driver.h>
-#include <moraine/run/strain_signs.h>
-#include <moraine/run/stress_signs.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -64,6 +65,35 @@ namespace moraine
 
 
 
+    /** The largest displacement of points, and the share of the volume that has
+     * yielded. */
+    template <int dim>
+    void
+    add_motion(const Model<dim> &model, Summary &summary)
+    {
+      const PointSet<dim> &points       = *model.points;
+      const MPI_Comm       communicator = model.space->communicator();
+      const auto           u            = points.displacement_field();
+      double               largest      = 0;
+      std::vector<double>  volumes(2, 0.); // all, yielded
+      const auto           plastic =
+        points.fields().find(FieldName<dim, double>{"plastic_strain", "-"});
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        {
+          largest = std::max(largest, u(points.values(p)).norm());
+          volumes[0] += points.volume(p);
+          if (plastic.exists() && plastic(points.values(p)) > 0)
+            volumes[1] += points.volume(p);
+        }
+      summary.quality.largest_displacement =
+        Utilities::MPI::max(largest, communicator);
+      Utilities::MPI::sum(volumes, communicator, volumes);
+      if (plastic.exists())
+        summary.quality.plastic_share = volumes[1] / volumes[0];
+    }
+
+
+
     template <int dim>
     void
     add_results(const Scene<dim>      &scene,
@@ -78,7 +108,8 @@ namespace moraine
                       exact,
                       driver.time().time(),
                       model.state->mesh_after_step() != MeshAfterStep::keep);
-      summary.quality.stress_error = stress_error(model);
+      summary.quality.stress_error = stress_error(driver.facts());
+      add_motion(model, summary);
       if (model.system->step_context().motion)
         summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
@@ -146,7 +177,6 @@ namespace moraine
       summary.linear.solvers          = model.linear_solver->choices();
       for (const Effect &effect : model.system->effects())
         summary.effects.push_back(effect.name);
-      summary.warnings = counts.warnings;
       add_timings(model, times, counts, summary);
       add_results(scene, model, driver, summary);
       return summary;
@@ -315,16 +345,12 @@ namespace moraine
       summary.message        = message;
       summary.no_equilibrium = no_equilibrium;
       if (summary.steps > 0)
-        for (const auto &doubts :
-             {doubts_of_stress(scene, model, summary.quality.stress_error),
-              doubts_of_strain(model),
-              driver.buckling_watch().doubts()})
-          for (const std::string &doubt : doubts)
-            {
-              summary.warnings.push_back(doubt);
-              for (RunObserver<dim> *observer : observers)
-                observer->note(doubt);
-            }
+        driver.ask_at_end(summary.quality.stress_error);
+      for (const Finding &finding : driver.findings())
+        (diagnostic(finding.id, "").severity == Severity::warning ?
+           summary.warnings :
+           summary.hints)
+          .push_back(finding);
       for (RunObserver<dim> *observer : observers)
         observer->run_ends(summary, driver.counts());
       return summary;
@@ -344,6 +370,7 @@ namespace moraine
     RunFolder                           folder(options, communicator);
     std::unique_ptr<Scene<dim>>         scene;
     std::unique_ptr<Model<dim>>         model;
+    std::optional<Diagnostics<dim>>     diagnostics;
     std::unique_ptr<ConsoleReport<dim>> report;
     std::optional<ResultFiles<dim>>     files;
     std::unique_ptr<StepDriver<dim>>    driver;
@@ -366,15 +393,25 @@ namespace moraine
                                                         *model,
                                                         options,
                                                         console);
+          diagnostics.emplace(model->objects(*scene));
+          diagnostics->listener = [&](const Finding &finding) {
+            report->finding(finding);
+          };
           if (options.saved)
             report->introduce();
           else
-            report->describe(begin_first_step(*scene, *model));
+            {
+              begin_first_step(*scene, *model, *diagnostics);
+              report->describe();
+            }
           if (folder.directory)
             observers.push_back(
               &files.emplace(*scene, *model, *folder.directory, times.parts));
           observers.push_back(report.get());
-          driver = std::make_unique<StepDriver<dim>>(*scene, *model, observers);
+          driver = std::make_unique<StepDriver<dim>>(*scene,
+                                                     *model,
+                                                     *diagnostics,
+                                                     observers);
           if (options.saved)
             {
               driver->read(options.saved->state);
@@ -435,9 +472,13 @@ namespace moraine
     RunTimes         times;
     const Scene<dim> scene(input);
     Model<dim>       model(scene, communicator, times.parts);
-    RunOptions       options;
-    ConsoleReport<dim>(scene, model, options, console)
-      .describe(begin_first_step(scene, model));
+    RunOptions         options;
+    ConsoleReport<dim> report(scene, model, options, console);
+    Diagnostics<dim>   diagnostics(model.objects(scene));
+    begin_first_step(scene, model, diagnostics);
+    report.describe();
+    for (const Finding &finding : diagnostics.ledger.findings())
+      report.print(finding);
     if (scene.stages.size() > 1)
       console << "  what begins in a later stage is looked at as it begins\n";
   }

@@ -9,7 +9,7 @@
 #include <moraine/core/words.h>
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/step_failure.h>
-#include <moraine/run/strain_signs.h>
+#include <moraine/run/stage_start.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -34,9 +34,6 @@ namespace moraine
 
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
-
-    /** A ghost term that takes more of the work is told of. */
-    constexpr double told_ghost_share = 0.01;
 
     /** The user wants the step under way to be given up. */
     struct Interruption
@@ -86,6 +83,7 @@ namespace moraine
   template <int dim>
   StepDriver<dim>::StepDriver(const Scene<dim>                      &scene,
                               Model<dim>                            &model,
+                              Diagnostics<dim>                      &diagnostics,
                               const std::vector<RunObserver<dim> *> &observers)
     : scene(scene)
     , method(scene.method)
@@ -94,7 +92,7 @@ namespace moraine
     , communicator(model.space->communicator())
     , newton(scene.newton)
     , time_control(times_of(scene.stages))
-    , checks(scene, model)
+    , diagnostics(diagnostics)
     , buckling(model, scene.linear_solver)
   {
     if (model.mesh_motion.moves())
@@ -141,7 +139,7 @@ namespace moraine
       {
         if (is_to_end())
           return false;
-        RunCounts before = sums;
+        const RunCounts before = sums;
         try
           {
             advance();
@@ -149,9 +147,7 @@ namespace moraine
         catch (const Interruption &)
           {
             undo();
-            // What was told is not told again.
-            before.warnings = sums.warnings;
-            sums            = before;
+            sums = before;
             return false;
           }
         if (after_step && !time_control.between_parts())
@@ -215,9 +211,7 @@ namespace moraine
     else if (!first_step)
       model.system->begin_step(time_control.time(),
                                [this]() { model.linear_solver->clear(); });
-    for (const std::string &warning :
-         checks.of_begun_step(scene.stages[stage].second, time_control.time()))
-      warn(warning);
+    ask(When::step_begins);
     for (unsigned int n_rejections = 0;;)
       {
         if (n_rejections > 0 && is_to_end())
@@ -261,23 +255,19 @@ namespace moraine
          << parameters.time.end_time;
     text << change_of_bodies(parameters, before);
     tell(text.str());
-    checks.stage_begins(parameters.bodies != before.bodies,
-                        parameters.time.integrator.dynamic() &&
-                          !before.time.integrator.dynamic());
     if (parameters.reset_displacements)
       {
         buckling.displacements_begin_anew();
-        for (const std::string &doubt : doubts_of_strain(model))
-          warn(doubt);
+        ask(When::strains_end);
       }
-    std::vector<std::string> notes;
+    diagnostics.stage_begins(parameters.bodies != before.bodies,
+                             parameters.time.integrator.dynamic() &&
+                               !before.time.integrator.dynamic());
     lasting.keep([&]() {
-      notes = begin_stage(scene, stage, model);
+      begin_stage(scene, stage, model, diagnostics);
       if (support)
         add_support(accepted_fraction, false);
     });
-    for (const std::string &note : notes)
-      tell(note);
     stage_is_begun = true;
   }
 
@@ -302,7 +292,7 @@ namespace moraine
         count(report);
         if (report.status != NewtonStatus::linear_solver_failed ||
             !model.linear_solver->solves_directly() ||
-            !hold_empty_parts(report.message))
+            !hold_empty_parts())
           return report;
       }
   }
@@ -390,17 +380,17 @@ namespace moraine
     const std::string leaves = point_that_leaves(model, time_control, x);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
-    const double largest = largest_norm(increments, communicator);
+    node_motion = largest_norm(increments, communicator);
     // Nodes with next to no material can be flung further than any of it.
-    const double of_points =
+    point_motion =
       model.boundaries.empty() ?
-        largest :
+        node_motion :
         largest_norm(model.state->point_increments(), communicator);
     const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
     buckling.try_step(x,
                       !leaves.empty() || time_control.trial_ends_run(),
                       !dynamic,
-                      largest);
+                      node_motion);
     if (!leaves.empty())
       {
         buckling.keep_step();
@@ -421,9 +411,9 @@ namespace moraine
                                MeshAfterStep::follow_material ?
                              move_of_nodes(*model.space) :
                              PlaceFunction<dim>());
-    const std::string held    = share_of_ghost_term();
-    const double      t_start = time_control.time();
-    const double      growth  = allowed_growth(x);
+    count_ghost_term();
+    const double t_start = time_control.time();
+    const double growth  = allowed_growth(x);
     lasting.keep([&]() {
       last_reports = model.system->accept(x);
       model.probes->keep_step();
@@ -435,24 +425,16 @@ namespace moraine
     keep_support();
 
     buckling.keep_step();
-    for (const std::string &warning :
-         checks.of_step(time_control,
-                        scene.stages[stage].second.time.integrator,
-                        last_reports,
-                        largest,
-                        of_points))
-      warn(warning);
-    if (!held.empty())
-      warn(held);
+    ask(When::step_ends);
     std::optional<double> distance;
     if (was_pseudo_transient)
       {
         ++sums.n_pseudo_transient;
-        distance = largest;
+        distance = node_motion;
       }
     tell_of_step(
       {time_control, t_start, report, last_reports, increments, distance});
-    const std::string failure = checks.failure();
+    const std::string failure = diagnostics.failure();
     if (!failure.empty())
       throw ComputationError(failure);
   }
@@ -485,30 +467,65 @@ namespace moraine
 
 
   template <int dim>
-  std::string
-  StepDriver<dim>::share_of_ghost_term()
+  void
+  StepDriver<dim>::ask(const When                   when,
+                       const std::optional<double> &stress_error)
   {
+    typename Facts<dim>::Moment moment;
+    moment.stage         = &scene.stages[stage].second;
+    moment.t             = time_control.time();
+    moment.node_motion   = node_motion;
+    moment.point_motion  = point_motion;
+    moment.stress_error  = stress_error;
+    moment.follows_path  = time_control.follows_path();
+    moment.between_parts = time_control.between_parts();
+    if (stage > 0)
+      moment.before = &scene.stages[stage - 1].second;
+    if (when == When::step_ends)
+      moment.reports = &last_reports;
+    const bool was_apart = diagnostics.ledger.has("separation");
+    diagnostics.ask(when, moment);
+    if (!was_apart && method.separation == "stop")
+      for (const Finding &finding : diagnostics.ledger.findings())
+        if (finding.id == "separation")
+          throw ComputationError("body '" + finding.object + "': " +
+                                 finding.text);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::ask_at_end(const std::optional<double> &stress_error)
+  {
+    ask(When::strains_end);
+    ask(When::end, stress_error);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::count_ghost_term()
+  {
+    constexpr double allowed = 0.05;
     if (!method.has_ghost_term())
-      return "";
+      return;
     const auto   share = model.system->share([](const Term<dim> &term) {
       return dynamic_cast<const GhostTerm<dim> *>(&term) != nullptr;
     });
     GhostShares &largest =
       sums.ghost_term ? *sums.ghost_term : sums.ghost_term.emplace();
-    const double before = largest.of_work;
-    largest.of_forces   = std::max(largest.of_forces, share.of_forces);
-    largest.of_work     = std::max(largest.of_work, share.of_work);
-    if (before > told_ghost_share || !(largest.of_work > told_ghost_share))
-      return "";
-    std::ostringstream text;
-    text << "the ghost term took " << std::setprecision(2)
-         << 100 * largest.of_work
-         << " % of the work of the step to t = " << std::setprecision(6)
-         << time_control.trial_time()
-         << ": nodes of cut cells move otherwise than the cells beside them; a "
-            "larger 'Ghost factor' or 'Cut cells = aggregation' in section "
-            "'Method' ties them more";
-    return text.str();
+    largest.of_forces = std::max(largest.of_forces, share.of_forces);
+    largest.of_work   = std::max(largest.of_work, share.of_work);
+    if (share.of_work > allowed)
+      diagnostics.report({"ghost-term",
+                          "",
+                          share.of_work,
+                          allowed,
+                          "the ghost term took " + per_cent(share.of_work) +
+                            " of the work of a step; raise 'Ghost factor', or "
+                            "use 'Cut cells = aggregation'"});
   }
 
 
@@ -551,7 +568,7 @@ namespace moraine
       model.state->mesh_after_step() == MeshAfterStep::reset &&
       (in_vain || n_rejections == rejections_before_support) &&
       ((!yields_in_full_cell(scene, model, report) &&
-        hold_empty_parts(reason)) ||
+        hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)
@@ -662,16 +679,6 @@ namespace moraine
     const double tolerance  = scene.stages[stage].second.time.error_tolerance;
     return tolerance > 0 ? margin * std::cbrt(tolerance / error_of_step(x)) :
                            std::numeric_limits<double>::infinity();
-  }
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::warn(const std::string &text)
-  {
-    sums.warnings.push_back(text);
-    tell(text);
   }
 
 

@@ -173,7 +173,7 @@ namespace moraine
 
 
   template <int dim>
-  std::string
+  std::optional<Finding>
   velocity_jump(const StageParameters &stage,
                 const bool             first,
                 Model<dim>            &model)
@@ -205,21 +205,22 @@ namespace moraine
       model.state->mesh_after_step() == MeshAfterStep::reset ?
               allowed_of_points :
               allowed_at_nodes;
-    if (!(Utilities::MPI::max(difference.size(), communicator) >
-          allowed *
-            Utilities::MPI::max(difference.largest_velocity, communicator)))
-      return "";
+    const double share =
+      Utilities::MPI::max(difference.size(), communicator) /
+      Utilities::MPI::max(difference.largest_velocity, communicator);
+    if (!(share > allowed))
+      return {};
     const std::string found =
       Utilities::MPI::all_gather(communicator, text.str())[rank];
     if (found.rfind("section", 0) == 0)
       throw InputError(found);
-    return found;
+    return Finding{"velocity-jump", "", share, allowed, found};
   }
 
 
 
 #define INSTANTIATE(dim)                                      \
-  template std::string velocity_jump(const StageParameters &, \
+  template std::optional<Finding> velocity_jump(const StageParameters &, \
                                      const bool,              \
                                      Model<dim> &);           \
   template void        set_first_target(const TimeParameters &, Model<dim> &);

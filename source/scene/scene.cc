@@ -49,6 +49,10 @@ namespace moraine
                       residuals,
                       "Print the residual at the start of each step and after "
                       "each Newton iteration (relative to the forces).");
+    prm.add_parameter("Silence",
+                      silence,
+                      "Ids of diagnostics that are not asked, separated by "
+                      "commas; see doc/diagnostics.md.");
     times.add_parameters(prm);
   }
 

@@ -10,6 +10,7 @@
 #include <moraine/core/memory.h>
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
+#include <moraine/diagnostics/catalogue.h>
 #include <moraine/scene/located.h>
 #include <moraine/scene/parameter_reference.h>
 #include <moraine/run/resume.h>
@@ -62,6 +63,10 @@ namespace moraine
          "",
          "every parameter with default, allowed values and text",
          {"--dimension"}},
+        {"explain",
+         "[ID]",
+         "cause, size and cure of a diagnostic; all of them without ID",
+         {}},
         {"plot",
          "OUTPUT",
          "pictures of a finished run: fields, and curves of its history",
@@ -406,6 +411,17 @@ namespace moraine
           return dimension_of(input) == 2 ? run_scene<2>(arguments, input) :
                                             run_scene<3>(arguments, input);
         });
+      if (arguments.command == "explain")
+        {
+          if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+            {
+              if (arguments.file.empty())
+                print_catalogue(std::cout);
+              else
+                std::cout << explanation(arguments.file);
+            }
+          return done;
+        }
       if (arguments.command == "resume")
         return resume(arguments);
       if (arguments.command == "study")

@@ -30,10 +30,12 @@ MAY_INCLUDE = {
     "output": ["mesh", "points", "basis"],
     "scene": ["mesh", "material", "solver", "time", "geometry", "points",
               "basis", "state", "boundary", "load", "assembly", "output"],
+    "diagnostics": ["mesh", "material", "time", "geometry", "points", "basis",
+                    "state", "boundary", "load", "assembly", "scene"],
     "run": ["mesh", "material", "solver", "time", "geometry", "points",
             "basis", "state", "boundary", "load", "assembly", "output",
-            "scene"],
-    "study": ["output", "scene", "run"],
+            "scene", "diagnostics"],
+    "study": ["output", "scene", "diagnostics", "run"],
 }
 ROOMS = list(MAY_INCLUDE)
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
+#include <moraine/run/stage_start.h>
 #include <moraine/run/step_driver.h>
 
 #include <gtest/gtest.h>
@@ -117,8 +118,9 @@ end
       const Scene<2> scene(input);
       Model<2>       model(scene, MPI_COMM_WORLD, timer);
       Fastest        fastest(model);
-      StepDriver<2>  driver(scene, model, {&fastest});
-      begin_first_step(scene, model);
+      Diagnostics<2> diagnostics(model.objects(scene));
+      StepDriver<2>  driver(scene, model, diagnostics, {&fastest});
+      begin_first_step(scene, model, diagnostics);
       EXPECT_TRUE(driver.run());
       EXPECT_EQ(driver.time().n_rejected(), 0u);
       EXPECT_EQ(driver.counts().n_fictitious_stiffness, 0u);

@@ -3,6 +3,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/interrupt.h>
+#include <moraine/run/stage_start.h>
 #include <moraine/run/step_driver.h>
 
 #include <gtest/gtest.h>
@@ -138,9 +139,10 @@ end
                 dealii::TimerOutput::wall_times)
         , model(scene, MPI_COMM_WORLD, timer)
         , listener(model)
-        , driver(scene, model, {&listener})
+        , diagnostics(model.objects(scene))
+        , driver(scene, model, diagnostics, {&listener})
       {
-        begin_first_step(scene, model);
+        begin_first_step(scene, model, diagnostics);
       }
 
       Archive
@@ -156,6 +158,7 @@ end
       dealii::TimerOutput timer;
       Model<2>            model;
       Listener            listener;
+      Diagnostics<2>      diagnostics;
       StepDriver<2>       driver;
     };
   } // namespace

@@ -4,6 +4,8 @@
 #ifndef moraine_output_summary_h
 #define moraine_output_summary_h
 
+#include <moraine/core/finding.h>
+
 #include <mpi.h>
 
 #include <cstdint>
@@ -56,6 +58,10 @@ namespace moraine
       std::optional<GhostShares> ghost_term;
       /** See estimated_stress_error(). */
       std::optional<double> stress_error;
+      /** Of points [length]. */
+      double largest_displacement = 0;
+      /** Of the volume of all bodies; left out if nothing can yield. */
+      std::optional<double> plastic_share;
     };
 
     /** "ok", "not converged", "interrupted" or "failed". */
@@ -80,8 +86,8 @@ namespace moraine
     /** Names of the effects simulated. */
     std::vector<std::string> effects;
     LinearSystems            linear;
-    /** What may make results less than they look; left out if nothing. */
-    std::vector<std::string> warnings;
+    /** What diagnostics found; left out if nothing. */
+    std::vector<Finding> warnings, hints;
     /** Left out if the scene has no exact solution. */
     List<std::optional<double>> errors;
     /** Last values of the probes by column name. */

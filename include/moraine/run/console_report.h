@@ -10,6 +10,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,17 @@ namespace moraine
     void
     introduce();
 
-    /** What will be simulated, and what the user should know of it. */
+    /** What will be simulated. */
     void
-    describe(const std::vector<std::string> &notes);
+    describe();
+
+    /** A finding as it comes: in the log, with verbose on the console. */
+    void
+    finding(const Finding &finding);
+
+    /** Its line on the console. */
+    void
+    print(const Finding &finding);
 
     StatePart *
     record() override
@@ -82,10 +91,6 @@ namespace moraine
     void
     describe_conditions();
 
-    /** Say what became of domains and points in the last step. Collective. */
-    void
-    note_domains();
-
     /** ", about 3 min left"; nothing before the first step is done. */
     std::string
     time_left(const TimeControl &time) const;
@@ -101,6 +106,19 @@ namespace moraine
     print_energy(const Summary &summary);
 
     void
+    print_counts(const Summary &summary, const RunCounts &counts);
+
+    void
+    print_results(const Summary &summary);
+
+    void
+    print_warnings(const Summary &summary);
+
+    /** Run @p print with the log alone, or with verbose on the console, too. */
+    void
+    in_detail(const std::function<void()> &print);
+
+    void
     print_timings(const Summary &summary);
 
     void
@@ -112,8 +130,6 @@ namespace moraine
     Console          &console;
     dealii::Timer     since_start;
     double            begun; ///< TimeControl::coordinate()
-    unsigned int      n_returned      = 0;
-    bool              has_far_domains = false;
   };
 } // namespace moraine
 

@@ -5,6 +5,7 @@
 #define moraine_run_model_h
 
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/diagnostics/facts.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/bodies.h>
 #include <moraine/scene/scene.h>
@@ -41,9 +42,9 @@ namespace moraine
     void
     set_stage(const Scene<dim> &scene, const unsigned int k);
 
-    /** Of the materials, the largest @f$\lambda + 2\mu@f$ [stress]. */
-    double
-    largest_modulus() const;
+    /** What diagnostics read of it. */
+    typename Facts<dim>::Objects
+    objects(const Scene<dim> &scene) const;
 
     std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
@@ -88,43 +89,6 @@ namespace moraine
     /** Of each body, as drawn; empty of those that do not come later. */
     std::vector<std::vector<typename PointSet<dim>::Record>> later;
   };
-
-  /** Of @p conditions those that prescribe displacements in @p stage. */
-  template <int dim>
-  std::vector<GridCondition<dim>>
-  acting_conditions(const std::vector<GridCondition<dim>> &conditions,
-                    const StageParameters                 &stage);
-
-  /** Whether a boundary absorbs in a stage. */
-  template <int dim>
-  bool
-  absorbs_in(const StageParameters        &stage,
-             const Scene<dim>             &scene,
-             const AbsorbingBoundary<dim> &boundary);
-
-  /**
-   * Find cells and pieces for the first step, and what cannot be right: that
-   * boundaries touch a body and have it on their inner side, that what is
-   * prescribed has a value at every step, that loads act on something and that
-   * every body is held. Collective.
-   *
-   * @return what the user should know, sentence by sentence.
-   * @throws InputError, ComputationError for a body that is not held.
-   */
-  template <int dim>
-  std::vector<std::string>
-  begin_first_step(const Scene<dim> &scene, Model<dim> &model);
-
-  /**
-   * The same for stage @p k, in a step that has begun after the last one of the
-   * stage before: what ends, what acts, and what carries on.
-   *
-   * @return what the user should know, sentence by sentence.
-   * @throws InputError, ComputationError. Collective.
-   */
-  template <int dim>
-  std::vector<std::string>
-  begin_stage(const Scene<dim> &scene, const unsigned int k, Model<dim> &model);
 } // namespace moraine
 
 #endif

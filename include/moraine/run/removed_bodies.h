@@ -4,37 +4,21 @@
 #ifndef moraine_run_removed_bodies_h
 #define moraine_run_removed_bodies_h
 
+#include <moraine/core/finding.h>
 #include <moraine/run/model.h>
 
-#include <string>
-#include <vector>
+#include <optional>
 
 namespace moraine
 {
   /**
-   * Add to @p notes which loads and boundaries of the stage @p before and of
-   * @p stage lie on bodies that go between them, and get hold of what is
-   * beside, in the same cells; and which forces on points go with theirs, or
-   * act again after theirs went. In a step that has begun with the bodies of
-   * the stage before. Collective.
+   * Remove the places of absorbing boundaries that lie on bodies which @p stage
+   * does not have, before they go. Collective.
+   * @return what was lost, if anything
    */
   template <int dim>
-  void
-  tell_of_removed_bodies(const StageParameters    &stage,
-                         const StageParameters    &before,
-                         const Model<dim>         &model,
-                         std::vector<std::string> &notes);
-
-  /**
-   * Take from absorbing boundaries the places on bodies that go, and add to @p
-   * notes how much that is. At the same time as tell_of_removed_bodies().
-   * Collective.
-   */
-  template <int dim>
-  void
-  remove_absorbing_places(const StageParameters    &stage,
-                          Model<dim>               &model,
-                          std::vector<std::string> &notes);
+  std::optional<Finding>
+  remove_absorbing_places(const StageParameters &stage, Model<dim> &model);
 } // namespace moraine
 
 #endif

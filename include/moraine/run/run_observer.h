@@ -30,8 +30,6 @@ namespace moraine
     unsigned int n_fictitious_stiffness = 0;
     /** If the scene has a ghost term. */
     std::optional<GhostShares> ghost_term;
-    /** What may make results less than they look. */
-    std::vector<std::string> warnings;
   };
 
   /** A step that was just accepted. */

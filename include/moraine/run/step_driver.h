@@ -6,9 +6,9 @@
 
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/core/simulation_state.h>
+#include <moraine/diagnostics/diagnostics.h>
 #include <moraine/run/buckling_watch.h>
 #include <moraine/run/run_observer.h>
-#include <moraine/run/step_checks.h>
 #include <moraine/state/last_increment.h>
 
 #include <functional>
@@ -29,6 +29,7 @@ namespace moraine
     /** The model is ready for its first step, see begin_first_step(). */
     StepDriver(const Scene<dim>                      &scene,
                Model<dim>                            &model,
+               Diagnostics<dim>                      &diagnostics,
                const std::vector<RunObserver<dim> *> &observers);
 
     /**
@@ -92,10 +93,20 @@ namespace moraine
       return stage_is_begun;
     }
 
-    const BucklingWatch<dim> &
-    buckling_watch() const
+    /** Ask the diagnostics of the end of the run. Collective. */
+    void
+    ask_at_end(const std::optional<double> &stress_error);
+
+    const std::vector<Finding> &
+    findings() const
     {
-      return buckling;
+      return diagnostics.ledger.findings();
+    }
+
+    const Facts<dim> &
+    facts() const
+    {
+      return diagnostics.facts();
     }
 
   private:
@@ -150,13 +161,13 @@ namespace moraine
     count(const NewtonReport &report);
 
     /**
-     * Too few points may touch some nodes, for @p reason: give empty parts of
-     * cells a stiffness from now on, or more of it.
+     * Too few points may touch some nodes: give empty parts of cells a
+     * stiffness from now on, or more of it.
      * @return whether that is new.
      * @throw ComputationError if a body is not held.
      */
     bool
-    hold_empty_parts(const std::string &reason);
+    hold_empty_parts();
 
     /**
      * No stiffness of empty parts let the step end: go back to the one that
@@ -173,10 +184,6 @@ namespace moraine
     /** Whether empty parts have a stiffness that may still be raised. */
     bool
     may_support_more() const;
-
-    /** Tell, and let it stand in the summary. */
-    void
-    warn(const std::string &text);
 
     /** A note for the observers. */
     void
@@ -205,10 +212,16 @@ namespace moraine
     std::string
     error_too_large(const NewtonReport &report, const LA::Vector &x) const;
 
-    /** Count what a ghost term has of the step that is to be accepted. @return
-     * what to warn of, or "". Collective. */
-    std::string
-    share_of_ghost_term();
+    /** Count the share of a ghost term in the step that is to be accepted.
+     * Collective. */
+    void
+    count_ghost_term();
+
+    /** Ask the diagnostics; with the largest motions of nodes and points in the
+     * last step. @throws ComputationError if the run cannot go on. */
+    void
+    ask(const When                   when,
+        const std::optional<double> &stress_error = std::nullopt);
 
     void
     accept(const NewtonReport &report,
@@ -250,7 +263,9 @@ namespace moraine
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
-    StepChecks<dim>                       checks;
+    Diagnostics<dim>                     &diagnostics;
+    double                                node_motion  = 0; ///< of the last step
+    double                                point_motion = 0; ///< the same
     BucklingWatch<dim>                    buckling;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;

@@ -4,9 +4,10 @@
 #ifndef moraine_run_velocity_jump_h
 #define moraine_run_velocity_jump_h
 
+#include <moraine/core/finding.h>
 #include <moraine/run/model.h>
 
-#include <string>
+#include <optional>
 
 namespace moraine
 {
@@ -19,7 +20,7 @@ namespace moraine
    * holds it at rest; in the @p first motion of a scene alone.
    */
   template <int dim>
-  std::string
+  std::optional<Finding>
   velocity_jump(const StageParameters &stage,
                 const bool             first,
                 Model<dim>            &model);

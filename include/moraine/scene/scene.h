@@ -78,7 +78,9 @@ namespace moraine
     bool        points    = true;
     bool        mesh      = true;
     bool        residuals = false;
-    OutputTimes times;
+    /** Ids of diagnostics that are not asked. */
+    std::vector<std::string> silence;
+    OutputTimes              times;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
