@@ -77,10 +77,10 @@ namespace moraine
       json["timings"]         = object_of(summary.timings);
       json["effects"]         = summary.effects;
       json["linear_solvers"]  = summary.linear.solvers;
-      if (!summary.warnings.empty())
-        json["warnings"] = list_of(summary.warnings);
-      if (!summary.hints.empty())
-        json["hints"] = list_of(summary.hints);
+      if (!summary.found.warnings.empty())
+        json["warnings"] = list_of(summary.found.warnings);
+      if (!summary.found.hints.empty())
+        json["hints"] = list_of(summary.found.hints);
       if (!summary.errors.empty())
         {
           Summary::List<Json> errors;

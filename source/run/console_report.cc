@@ -490,19 +490,19 @@ namespace moraine
   void
   ConsoleReport<dim>::print_warnings(const Summary &summary)
   {
-    for (const Finding &finding : summary.warnings)
+    for (const Finding &finding : summary.found.warnings)
       print(finding);
     const bool ended = summary.status == "ok";
     console << "  " << (ended ? "done" : "ended early") << ": "
             << summary.steps << (summary.steps == 1 ? " step" : " steps")
             << " in " << std::setprecision(3) << summary.wall_seconds << " s";
-    if (!summary.warnings.empty())
+    if (!summary.found.warnings.empty())
       {
-        console << ", " << summary.warnings.size()
-                << (summary.warnings.size() == 1 ? " warning: " :
+        console << ", " << summary.found.warnings.size()
+                << (summary.found.warnings.size() == 1 ? " warning: " :
                                                    " warnings: ");
         std::vector<std::string> names;
-        for (const Finding &finding : summary.warnings)
+        for (const Finding &finding : summary.found.warnings)
           names.push_back(finding.id + (finding.object.empty() ?
                                           "" :
                                           " (" + finding.object + ")"));

@@ -123,7 +123,7 @@ namespace moraine
     write_counts(sums, archive);
     write_reports(last_reports, archive);
     archive.write("run/motion_of_last_step",
-                  std::vector<double>{node_motion, point_motion},
+                  std::vector<double>{motion.of_nodes, motion.of_points},
                   2,
                   "length");
     diagnostics.ledger.write(archive);
@@ -168,8 +168,8 @@ namespace moraine
     sums         = read_counts(archive);
     last_reports = read_reports<dim>(archive);
     const auto &motions = archive.numbers("run/motion_of_last_step", 2);
-    node_motion         = motions[0];
-    point_motion        = motions[1];
+    motion.of_nodes         = motions[0];
+    motion.of_points        = motions[1];
     diagnostics.ledger.read(archive);
     model.linear_solver->read(archive);
   }

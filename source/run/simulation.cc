@@ -348,8 +348,8 @@ namespace moraine
         driver.ask_at_end(summary.quality.stress_error);
       for (const Finding &finding : driver.findings())
         (diagnostic(finding.id, "").severity == Severity::warning ?
-           summary.warnings :
-           summary.hints)
+           summary.found.warnings :
+           summary.found.hints)
           .push_back(finding);
       for (RunObserver<dim> *observer : observers)
         observer->run_ends(summary, driver.counts());

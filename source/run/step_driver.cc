@@ -380,33 +380,33 @@ namespace moraine
     const std::string leaves = point_that_leaves(model, time_control, x);
     const std::vector<Tensor<1, dim>> increments =
       model.state->nodal_increments();
-    node_motion = largest_norm(increments, communicator);
+    motion.of_nodes = largest_norm(increments, communicator);
     // Nodes with next to no material can be flung further than any of it.
-    point_motion =
+    motion.of_points =
       model.boundaries.empty() ?
-        node_motion :
+        motion.of_nodes :
         largest_norm(model.state->point_increments(), communicator);
     const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
     buckling.try_step(x,
                       !leaves.empty() || time_control.trial_ends_run(),
                       !dynamic,
-                      node_motion);
+                      motion.of_nodes);
     if (!leaves.empty())
       {
         buckling.keep_step();
         throw ComputationError(leaves);
       }
-    typename Motion<dim>::Nodal motion;
+    typename Motion<dim>::Nodal nodal;
     const bool moves_probes = dynamic && model.probes->any_interpolated();
     if (moves_probes)
-      motion = model.motion->at_end();
+      nodal = model.motion->at_end();
     const auto at = [&](const std::vector<Tensor<1, dim>> &values) {
       return grid_evaluation<dim>(*model.space, values);
     };
     model.probes->try_step(at(increments),
                            *model.points,
-                           moves_probes ? at(motion.v) : PlaceFunction<dim>(),
-                           moves_probes ? at(motion.a) : PlaceFunction<dim>(),
+                           moves_probes ? at(nodal.v) : PlaceFunction<dim>(),
+                           moves_probes ? at(nodal.a) : PlaceFunction<dim>(),
                            model.state->mesh_after_step() ==
                                MeshAfterStep::follow_material ?
                              move_of_nodes(*model.space) :
@@ -430,7 +430,7 @@ namespace moraine
     if (was_pseudo_transient)
       {
         ++sums.n_pseudo_transient;
-        distance = node_motion;
+        distance = motion.of_nodes;
       }
     tell_of_step(
       {time_control, t_start, report, last_reports, increments, distance});
@@ -474,8 +474,8 @@ namespace moraine
     typename Facts<dim>::Moment moment;
     moment.stage         = &scene.stages[stage].second;
     moment.t             = time_control.time();
-    moment.node_motion   = node_motion;
-    moment.point_motion  = point_motion;
+    moment.node_motion   = motion.of_nodes;
+    moment.point_motion  = motion.of_points;
     moment.stress_error  = stress_error;
     moment.follows_path  = time_control.follows_path();
     moment.between_parts = time_control.between_parts();

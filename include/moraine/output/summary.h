@@ -64,6 +64,12 @@ namespace moraine
       std::optional<double> plastic_share;
     };
 
+    /** What diagnostics found; left out if nothing. */
+    struct Findings
+    {
+      std::vector<Finding> warnings, hints;
+    };
+
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
@@ -86,8 +92,7 @@ namespace moraine
     /** Names of the effects simulated. */
     std::vector<std::string> effects;
     LinearSystems            linear;
-    /** What diagnostics found; left out if nothing. */
-    std::vector<Finding> warnings, hints;
+    Findings                 found;
     /** Left out if the scene has no exact solution. */
     List<std::optional<double>> errors;
     /** Last values of the probes by column name. */

@@ -244,6 +244,12 @@ namespace moraine
     void
     tell_of_step(AcceptedStep<dim> step);
 
+    struct LargestMotion
+    {
+      double of_nodes  = 0; ///< [length]
+      double of_points = 0; ///< [length]
+    };
+
     /** The first of two parts of a step. */
     struct FirstPart
     {
@@ -264,8 +270,7 @@ namespace moraine
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
     Diagnostics<dim>                     &diagnostics;
-    double                                node_motion  = 0; ///< of the last step
-    double                                point_motion = 0; ///< the same
+    LargestMotion                         motion; ///< in the last step
     BucklingWatch<dim>                    buckling;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
