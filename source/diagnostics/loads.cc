@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
+#include <moraine/scene/scene_curves.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -155,6 +156,14 @@ namespace moraine
     std::optional<Finding>
     idle_conditions(Facts<dim> &facts, Ledger &)
     {
+      const auto idle = idle_curves(facts.of.scene);
+      if (!idle.empty() && !facts.now.before)
+        return Finding{"no-effect",
+                       idle.front(),
+                       0,
+                       0,
+                       "its curve is 0 or does not change while it acts; "
+                       "-0.1*t reaches -0.1 at t = 1"};
       const auto active =
         acting_conditions(facts.of.grid_conditions, *facts.now.stage);
       std::vector<unsigned int> n(active.size(), 0);

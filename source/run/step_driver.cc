@@ -8,8 +8,9 @@
 #include <moraine/core/interrupt.h>
 #include <moraine/core/words.h>
 #include <moraine/output/grid_evaluation.h>
-#include <moraine/run/step_failure.h>
 #include <moraine/run/stage_start.h>
+#include <moraine/run/step_failure.h>
+#include <moraine/scene/scene_curves.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -91,7 +92,7 @@ namespace moraine
     , observers(observers)
     , communicator(model.space->communicator())
     , newton(scene.newton)
-    , time_control(times_of(scene.stages))
+    , time_control(times_of(scene.stages), asked_times(scene))
     , diagnostics(diagnostics)
     , buckling(model, scene.linear_solver)
   {
