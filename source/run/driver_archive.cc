@@ -119,7 +119,6 @@ namespace moraine
     archive.write("run/stage", stage);
     archive.write("run/empty_parts_have_stiffness", support ? 1u : 0u);
     archive.write("run/stiffness_of_empty_parts", accepted_fraction);
-    buckling.write(archive);
     write_counts(sums, archive);
     write_reports(last_reports, archive);
     archive.write("run/motion_of_last_step",
@@ -157,7 +156,6 @@ namespace moraine
       find_stencils(archive);
     lasting.read(archive);
     accepted_fraction = archive.number("run/stiffness_of_empty_parts");
-    buckling.read(archive);
     if (archive.integer("run/empty_parts_have_stiffness") != 0)
       {
         auto term =

@@ -361,10 +361,11 @@ namespace moraine
 
   template <int dim>
   Summary
-  simulate(const InputFile  &input,
-           const RunOptions &options,
-           const MPI_Comm   &communicator,
-           Console          &console)
+  simulate(const InputFile     &input,
+           const RunOptions    &options,
+           const MPI_Comm      &communicator,
+           Console             &console,
+           const AfterRun<dim> &after_run)
   {
     RunTimes                            times;
     RunFolder                           folder(options, communicator);
@@ -458,6 +459,8 @@ namespace moraine
                                       times,
                                       checkpoints ? &*checkpoints : nullptr);
     on_root(communicator, [&]() { console.close_log(); });
+    if (after_run && summary.status == "ok")
+      after_run(*model);
     return summary;
   }
 
@@ -485,11 +488,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                             \
-  template Summary simulate<dim>(const InputFile &,  \
-                                 const RunOptions &, \
-                                 const MPI_Comm &,   \
-                                 Console &);         \
+#define INSTANTIATE(dim)                                 \
+  template Summary simulate<dim>(const InputFile &,      \
+                                 const RunOptions &,     \
+                                 const MPI_Comm &,       \
+                                 Console &,              \
+                                 const AfterRun<dim> &); \
   template void describe<dim>(const InputFile &, const MPI_Comm &, Console &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -94,7 +94,6 @@ namespace moraine
     , newton(scene.newton)
     , time_control(times_of(scene.stages), asked_times(scene))
     , diagnostics(diagnostics)
-    , buckling(model, scene.linear_solver)
   {
     if (model.mesh_motion.moves())
       lasting.add(*model.mesh);
@@ -257,10 +256,7 @@ namespace moraine
     text << change_of_bodies(parameters, before);
     tell(text.str());
     if (parameters.reset_displacements)
-      {
-        buckling.displacements_begin_anew();
-        ask(When::strains_end);
-      }
+      ask(When::strains_end);
     diagnostics.stage_begins(parameters.bodies != before.bodies,
                              parameters.time.integrator.dynamic() &&
                                !before.time.integrator.dynamic());
@@ -388,15 +384,8 @@ namespace moraine
         motion.of_nodes :
         largest_norm(model.state->point_increments(), communicator);
     const bool dynamic = scene.stages[stage].second.time.integrator.dynamic();
-    buckling.try_step(x,
-                      !leaves.empty() || time_control.trial_ends_run(),
-                      !dynamic,
-                      motion.of_nodes);
     if (!leaves.empty())
-      {
-        buckling.keep_step();
-        throw ComputationError(leaves);
-      }
+      throw ComputationError(leaves);
     typename Motion<dim>::Nodal nodal;
     const bool moves_probes = dynamic && model.probes->any_interpolated();
     if (moves_probes)
@@ -425,7 +414,6 @@ namespace moraine
     first_step = false;
     keep_support();
 
-    buckling.keep_step();
     ask(When::step_ends);
     std::optional<double> distance;
     if (was_pseudo_transient)

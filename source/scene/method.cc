@@ -362,8 +362,7 @@ namespace moraine
       "Strain",
       strain,
       "small: strains and rotations of a step and of the whole are small; a run "
-      "tells of bodies that are strained by 5 % in the mean, turn or bear a "
-      "tenth of what makes them buckle. "
+      "tells of bodies that are strained by 5 % in the mean or turn. "
       "finite: updated Lagrangian, logarithmic strain; any deformation.",
       patterns::selection({"small", "finite"}));
     prm.add_parameter(

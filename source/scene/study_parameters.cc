@@ -19,8 +19,10 @@ namespace moraine
       kind,
       "Of 'moraine study'. errors: one run for each case, error against time. "
       "factor of safety: of each case, quasi-static, by strength reduction, see "
-      "section 'Strength reduction'.",
-      patterns::selection({"errors", "factor of safety"}));
+      "section 'Strength reduction'. buckling: the three smallest factors of "
+      "the stresses at the end of a quasi-static run of small strain at which "
+      "the bodies buckle.",
+      patterns::selection({"errors", "factor of safety", "buckling"}));
     prm.add_parameter(
       "Error",
       error,
@@ -56,7 +58,7 @@ namespace moraine
   void
   StudyParameters::check(const std::vector<InputFile::Entry> &given) const
   {
-    if (!finds_factor_of_safety())
+    if (kind == "errors")
       return;
     for (const auto &entry : given)
       if (entry.section == "Study" &&
@@ -65,6 +67,6 @@ namespace moraine
         reject("Study",
                entry.key,
                entry.value,
-               "nothing with 'Kind = factor of safety'");
+               "nothing with 'Kind = " + kind + "'");
   }
 } // namespace moraine

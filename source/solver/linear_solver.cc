@@ -290,21 +290,6 @@ namespace moraine
 
 
 
-  LinearReport
-  LinearSolver::solve_aside(LA::Vector       &x,
-                            const LA::Vector &b,
-                            const double      enough)
-  {
-    auto         &s = *implementation;
-    const AddTime timing(s.solve_seconds);
-    Assert(is_set_up(), ExcMessage("set_up() comes before solve_aside()."));
-    return s.direct ? s.direct->solve(x, b) :
-                      s.iterative->solve(
-                        x, b, enough, nullptr, s.parameters.maximum_iterations);
-  }
-
-
-
   std::optional<double>
   LinearSolver::condition_number() const
   {
@@ -323,15 +308,6 @@ namespace moraine
   LinearSolver::solves_directly() const
   {
     return implementation->is_finite && implementation->direct.has_value();
-  }
-
-
-
-  bool
-  LinearSolver::is_set_up() const
-  {
-    const auto &s = *implementation;
-    return s.is_finite && (s.direct || s.iterative);
   }
 
 

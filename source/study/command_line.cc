@@ -14,6 +14,7 @@
 #include <moraine/scene/located.h>
 #include <moraine/scene/parameter_reference.h>
 #include <moraine/run/resume.h>
+#include <moraine/study/buckling_study.h>
 #include <moraine/study/safety_study.h>
 #include <moraine/scene/scene.h>
 #include <moraine/run/simulation.h>
@@ -57,7 +58,7 @@ namespace moraine
          {"--set"}},
         {"study",
          "FILE.prm",
-         "every combination of the {{a|b|c}} entries; factor of safety",
+         "every combination of {{a|b|c}} entries; factor of safety; buckling",
          {"--set", "--output", "--overwrite"}},
         {"parameters",
          "",
@@ -357,6 +358,9 @@ namespace moraine
       if (parameters.finds_factor_of_safety())
         return run(
           SafetyStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
+      if (parameters.kind == "buckling")
+        return run(
+          BucklingStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
       return run(Study(input, folder, overwrite, MPI_COMM_WORLD, console));
     }
 

@@ -8,7 +8,6 @@
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
-#include <moraine/output/output_directory.h>
 #include <moraine/scene/scene.h>
 #include <moraine/scene/strength_reduction.h>
 #include <moraine/study/study.h>
@@ -42,30 +41,14 @@ namespace moraine
 
 
 
-    /** @throw InputError for stages that find a way on at every strength. */
-    void
-    refuse_inertia(const NamedStages &stages)
-    {
-      for (const auto &[name, stage] : stages)
-        if (stage.time.integrator.dynamic())
-          reject("Study",
-                 "Kind",
-                 "factor of safety",
-                 (name.empty() ? "" : "stages that are all quasi-static; ") +
-                   std::string("'Integrator = quasi-static' in section '") +
-                   time_section(name) + "', where it is '" +
-                   stage.time.integrator.integrator +
-                   "': bodies with inertia never lack equilibrium, they move, "
-                   "and would count as standing at every factor");
-    }
-
-
-
     SceneOfSafety
     read_scene(const InputFile &input)
     {
       const auto of = [](const auto &scene) {
-        refuse_inertia(scene.stages);
+        refuse_inertia(scene.stages,
+                       "factor of safety",
+                       "bodies with inertia never lack equilibrium, they move, "
+                       "and would count as standing at every factor");
         return SceneOfSafety{scene.title,
                              scene.strength_reduction,
                              scene.start_time(),
@@ -158,10 +141,7 @@ namespace moraine
     for (StudyCase &study_case : cases)
       if (read_scene(study_case.input).may_stay)
         study_case.input.apply_override(stay);
-    if (OutputDirectory::holds_results(folder, communicator))
-      throw InputError("the output directory '" + folder +
-                       "' holds results of a run; choose another one with "
-                       "--output");
+    refuse_results_of_run(folder, communicator);
     make_study_folder(folder, input, overwrite, communicator);
   }
 

@@ -15,7 +15,6 @@
 #include <moraine/output/output_directory.h>
 #include <moraine/scene/located.h>
 #include <moraine/scene/scene.h>
-#include <moraine/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -38,13 +37,15 @@ namespace moraine
 
     template <int dim>
     Summary
-    run_scene(const InputFile &input, const MPI_Comm &communicator)
+    run_scene(const InputFile     &input,
+              const MPI_Comm      &communicator,
+              const AfterRun<dim> &after_run)
     {
       std::ostringstream unseen;
       Console            quiet(communicator, unseen);
       RunOptions         options;
       options.write_output = false;
-      return simulate<dim>(input, options, communicator, quiet);
+      return simulate<dim>(input, options, communicator, quiet, after_run);
     }
 
 
@@ -153,13 +154,17 @@ namespace moraine
 
 
   Summary
-  summary_of_case(const InputFile &input, const MPI_Comm &communicator)
+  summary_of_case(const InputFile   &input,
+                  const MPI_Comm    &communicator,
+                  const AfterRun<2> &after_2d,
+                  const AfterRun<3> &after_3d)
   {
     Summary summary;
     try
       {
-        summary = dimension_of(input) == 2 ? run_scene<2>(input, communicator) :
-                                             run_scene<3>(input, communicator);
+        summary = dimension_of(input) == 2 ?
+                    run_scene<2>(input, communicator, after_2d) :
+                    run_scene<3>(input, communicator, after_3d);
       }
     catch (const InputError &error)
       {
@@ -174,6 +179,24 @@ namespace moraine
         summary.message = error.what();
       }
     return summary;
+  }
+
+
+
+  void
+  refuse_inertia(const NamedStages &stages,
+                 const std::string &kind,
+                 const std::string &why)
+  {
+    for (const auto &[name, stage] : stages)
+      if (stage.time.integrator.dynamic())
+        reject("Study",
+               "Kind",
+               kind,
+               (name.empty() ? "" : "stages that are all quasi-static; ") +
+                 std::string("'Integrator = quasi-static' in section '") +
+                 time_section(name) + "', where it is '" +
+                 stage.time.integrator.integrator + "': " + why);
   }
 
 
@@ -217,6 +240,17 @@ namespace moraine
           }
       }
     return cases;
+  }
+
+
+
+  void
+  refuse_results_of_run(const std::string &folder, const MPI_Comm &communicator)
+  {
+    if (OutputDirectory::holds_results(folder, communicator))
+      throw InputError("the output directory '" + folder +
+                       "' holds results of a run; choose another one with "
+                       "--output");
   }
 
 

@@ -381,15 +381,6 @@ namespace moraine
 
 
   bool
-  TimeControl::trial_ends_run() const
-  {
-    return (trial_is_stop && next_stop + 1 == stops.size()) ||
-           (follows_path() && path_leaves_interval(found_time));
-  }
-
-
-
-  bool
   TimeControl::at_step_end() const
   {
     return on_step_end;

@@ -370,23 +370,6 @@ TEST(LinearSolver, AutoChoosesBySizeAndFallsBack)
             "amg-cg from linear system 1 on, 2178 unknowns");
   EXPECT_EQ(impatient.choices()[1], report.message);
 
-  // What is no step of the run is not counted, and changes nothing.
-  LinearSolver counted(parameters, 2);
-  counted.set_up(problem.matrix, true, problem.modes);
-  EXPECT_TRUE(counted.is_set_up());
-  EXPECT_FALSE(counted.solve_aside(x, problem.rhs, 0.).converged);
-  EXPECT_TRUE(
-    counted.solve_aside(x, problem.rhs, 0.5 * problem.rhs.l2_norm()).converged);
-  EXPECT_FALSE(counted.solves_directly());
-  EXPECT_EQ(counted.choices().size(), 1u);
-  counted.clear();
-  EXPECT_FALSE(counted.is_set_up());
-
-  large.set_up(problem.matrix, true, problem.modes);
-  for (unsigned int k = 0; k < 50; ++k)
-    EXPECT_TRUE(large.solve_aside(x, problem.rhs, 0.).converged);
-  EXPECT_EQ(large.solve(x, problem.rhs).solver, "amg-cg");
-
   parameters.solver = "amg-cg";
   LinearSolver stubborn(parameters, 2);
   stubborn.set_up(problem.matrix, true, problem.modes);

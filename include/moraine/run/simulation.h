@@ -7,7 +7,9 @@
 #include <moraine/core/console.h>
 #include <moraine/core/input_file.h>
 #include <moraine/output/summary.h>
+#include <moraine/run/model.h>
 
+#include <functional>
 #include <string>
 
 namespace moraine
@@ -34,12 +36,17 @@ namespace moraine
     SavedRun *saved = nullptr;
   };
 
+  /** What is done with a model after its last step. */
+  template <int dim>
+  using AfterRun = std::function<void(Model<dim> &)>;
+
   /**
    * Read a scene, set it up, step to the end and write the results. Whatever
    * fails, nothing of an earlier run in the output directory is left once the
    * directory may be written over: before anything is computed its files are
    * removed, and a run that fails leaves a summary.json that says so. A run
-   * that goes on removes what it wrote after the checkpoint.
+   * that goes on removes what it wrote after the checkpoint. @p after_run is
+   * called if the run reached its end.
    *
    * @return the summary, also when the run ended early; its status says so.
    * @throws InputError for mistakes, also those that show only in the set-up:
@@ -47,10 +54,11 @@ namespace moraine
    */
   template <int dim>
   Summary
-  simulate(const InputFile  &input,
-           const RunOptions &options,
-           const MPI_Comm   &communicator,
-           Console          &console);
+  simulate(const InputFile     &input,
+           const RunOptions    &options,
+           const MPI_Comm      &communicator,
+           Console             &console,
+           const AfterRun<dim> &after_run = {});
 
   /** Set up a scene and say what would be simulated. */
   template <int dim>

@@ -7,7 +7,6 @@
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/diagnostics/diagnostics.h>
-#include <moraine/run/buckling_watch.h>
 #include <moraine/run/run_observer.h>
 #include <moraine/state/last_increment.h>
 
@@ -271,7 +270,6 @@ namespace moraine
     std::vector<BoundaryReport<dim>>      last_reports;
     Diagnostics<dim>                     &diagnostics;
     LargestMotion                         motion; ///< in the last step
-    BucklingWatch<dim>                    buckling;
     /** Of empty parts of cells, since they were too little without. */
     FictitiousStiffness<dim> *support           = nullptr;
     double                    accepted_fraction = 0; ///< of the last step

@@ -99,14 +99,6 @@ namespace moraine
           const LA::Vector *weights = nullptr);
 
     /**
-     * Solve for what is no step of the run, if is_set_up(): auto neither counts
-     * the iterations nor falls back, and what was set up stays as it is. Where
-     * the report says not converged, @p x is of no use.
-     */
-    LinearReport
-    solve_aside(LA::Vector &x, const LA::Vector &b, const double enough);
-
-    /**
      * An estimate of the condition number of the matrix given to set_up(), in
      * the 2-norm: the ratio of its largest to its smallest singular value.
      * Power iterations with K^T K and with its inverse approach both from
@@ -121,10 +113,6 @@ namespace moraine
     /** Whether a factorisation solves, by choice or because auto fell back. */
     bool
     solves_directly() const;
-
-    /** Whether there is what set_up() builds. */
-    bool
-    is_set_up() const;
 
     /** Forget what set_up() built, and the matrix. */
     void

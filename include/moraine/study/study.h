@@ -7,6 +7,7 @@
 #include <moraine/core/console.h>
 #include <moraine/core/input_file.h>
 #include <moraine/output/summary.h>
+#include <moraine/run/simulation.h>
 #include <moraine/scene/study_parameters.h>
 #include <moraine/study/study_report.h>
 
@@ -32,10 +33,27 @@ namespace moraine
   /**
    * Simulate a scene without output. How it failed is the status of the
    * summary, "wrong input" if by a mistake in the scene; what fails before the
-   * first step has no version. Collective.
+   * first step, or in @p after_2d or @p after_3d, has no version. Collective.
    */
   Summary
-  summary_of_case(const InputFile &input, const MPI_Comm &communicator);
+  summary_of_case(const InputFile   &input,
+                  const MPI_Comm    &communicator,
+                  const AfterRun<2> &after_2d = {},
+                  const AfterRun<3> &after_3d = {});
+
+  /**
+   * @throw InputError for a stage with inertia, with which a study of @p kind
+   * makes no sense: @p why.
+   */
+  void
+  refuse_inertia(const NamedStages &stages,
+                 const std::string &kind,
+                 const std::string &why);
+
+  /** @throw InputError if @p folder has results of a run. Collective. */
+  void
+  refuse_results_of_run(const std::string &folder,
+                        const MPI_Comm    &communicator);
 
   /**
    * Make the folder of a study, or take the one that is there, and keep the

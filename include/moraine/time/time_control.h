@@ -245,10 +245,6 @@ namespace moraine
     double
     trial_time() const;
 
-    /** Whether the run ends with the trial step, if that is accepted. */
-    bool
-    trial_ends_run() const;
-
     /** Whether time() ends one of the user's steps. */
     bool
     at_step_end() const;

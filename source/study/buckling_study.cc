@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/study/buckling_study.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/exit.h>
+#include <moraine/core/json.h>
+#include <moraine/core/version.h>
+#include <moraine/output/on_root.h>
+#include <moraine/study/study.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/parpack_solver.h>
+
+#include <algorithm>
+#include <complex>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_modes = 3, n_arnoldi = 30, most_restarts = 300;
+    constexpr double       eigenvalue_accuracy = 1e-9;
+
+
+
+    /** @f$-K^{-1} K_g@f$ at the end of a run, as ARPACK's wrapper wants it. */
+    template <int dim>
+    struct BucklingOperator
+    {
+      /** Set up K, and keep stresses times volume in the order of the batches
+       * and their points. Collective. */
+      explicit BucklingOperator(Model<dim> &model)
+        : model(model)
+      {
+        MechanicsSystem<dim> &system = *model.system;
+        State<dim>           &state  = *model.state;
+        const double          t      = system.step_context().t_end;
+        model.linear_solver->clear();
+        system.begin_step(t);
+        system.set_target(t);
+        system.initial_guess(zero);
+        system.assemble(zero, true);
+        model.linear_solver->set_up(system.tangent(),
+                                    system.symmetric(),
+                                    system.near_null_space());
+        StencilBlock<dim>           block;
+        TrialPoints<dim>            trial;
+        std::vector<Tensor<1, dim>> none;
+        for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
+          {
+            state.evaluate(g, block);
+            none.resize(block.n_nodes);
+            for (unsigned int begin = 0, end = 0; begin < block.n_points;
+                 begin = end)
+              {
+                end = state.end_of_body(block, begin);
+                trial.evaluate(state, block, begin, end, none.data());
+                for (unsigned int p = 0; p < trial.n_points(); ++p)
+                  {
+                    auto &stress = stresses.emplace_back();
+                    for (unsigned int i = 0; i < dim; ++i)
+                      for (unsigned int j = 0; j < dim; ++j)
+                        stress[i][j] = trial.weight(p) * trial.stress(p)[i][j];
+                  }
+              }
+          }
+      }
+
+      void
+      vmult(LA::Vector &u, const LA::Vector &v) const
+      {
+        std::vector<Tensor<1, dim>> values, forces(model.space->n_nodes());
+        LA::Vector                  f(v);
+        model.system->apply_constraints(f);
+        model.space->node_values(f, values);
+        StencilBlock<dim> block;
+        auto              s = stresses.begin();
+        for (unsigned int g = 0; g < model.state->point_basis().n_batches();
+             ++g)
+          {
+            model.state->evaluate(g, block);
+            for (unsigned int p = 0; p < block.n_points; ++p, ++s)
+              {
+                const Tensor<1, dim> *grad_N = block.grad_N(p);
+                Tensor<2, dim>        gradient;
+                for (unsigned int a = 0; a < block.n_nodes; ++a)
+                  gradient += outer_product(values[block.nodes[a]], grad_N[a]);
+                const Tensor<2, dim> d(symmetrize(gradient));
+                const Tensor<2, dim> P = *s * d - (gradient - d) * *s;
+                for (unsigned int a = 0; a < block.n_nodes; ++a)
+                  forces[block.nodes[a]] += P * grad_N[a];
+              }
+          }
+        model.space->sum_node_values(forces, f);
+        model.system->condense(f);
+        const LinearReport report = model.linear_solver->solve(u, f);
+        if (!report.converged)
+          throw ComputationError("linear buckling: " +
+                                 failure_of(report, *model.system));
+      }
+
+      Model<dim>                 &model;
+      LA::Vector                  zero;
+      std::vector<Tensor<2, dim>> stresses;
+    };
+
+
+
+    /** The smallest positive @f$\lambda@f$ in increasing order. Collective. */
+    template <int dim>
+    std::vector<double>
+    load_factors(Model<dim> &model)
+    {
+      const BucklingOperator<dim> A(model);
+      const MPI_Comm              communicator = model.space->communicator();
+      if (A.zero.size() <= n_arnoldi ||
+          Utilities::MPI::min(A.zero.locally_owned_size(), communicator) < 1)
+        throw ComputationError("linear buckling needs more than 30 unknowns, "
+                               "and some on each rank");
+      using Arpack = PArpackSolver<LA::Vector>;
+      SolverControl control(most_restarts, eigenvalue_accuracy);
+      Arpack        arpack(control,
+                    communicator,
+                    {n_arnoldi, Arpack::largest_real_part, false, 1});
+      arpack.reinit(A.zero);
+      std::vector<std::complex<double>> shares(n_modes);
+      std::vector<LA::Vector>           modes(n_modes + 1, A.zero);
+      try
+        {
+          arpack.solve(A, A, A, shares, modes, n_modes);
+        }
+      catch (const ExceptionBase &)
+        {
+          throw ComputationError("linear buckling: ARPACK found no modes");
+        }
+      std::vector<double> found;
+      for (const auto &share : shares)
+        if (share.real() > 0)
+          found.push_back(1. / share.real());
+      std::sort(found.begin(), found.end());
+      return found;
+    }
+
+
+
+    /** @return whether `Mesh after step` is left to us.
+     * @throw InputError if the scene is not for linear buckling. */
+    bool
+    may_stay(const InputFile &input)
+    {
+      const auto of = [](const auto &scene) {
+        refuse_inertia(scene.stages, "buckling", "bodies must be at rest");
+        if (scene.method.strain_measure() != StrainMeasure::small)
+          reject("Study", "Kind", "buckling", "with 'Strain = small' only");
+        return scene.method.mesh_after_step == "default";
+      };
+      return dimension_of(input) == 2 ? of(Scene<2>(input)) :
+                                        of(Scene<3>(input));
+    }
+  } // namespace
+
+
+
+  BucklingStudy::BucklingStudy(const InputFile   &input,
+                               const std::string &folder,
+                               const bool         overwrite,
+                               const MPI_Comm    &communicator,
+                               Console           &console)
+    : folder(folder)
+    , communicator(communicator)
+    , console(console)
+    , cases(study_cases(input))
+  {
+    for (StudyCase &study_case : cases)
+      if (may_stay(study_case.input))
+        study_case.input.apply_override("Method/Mesh after step = keep");
+    refuse_results_of_run(folder, communicator);
+    make_study_folder(folder, input, overwrite, communicator);
+  }
+
+
+
+  int
+  BucklingStudy::run()
+  {
+    console << "Moraine " << version << ", linear buckling\n";
+    int code = done;
+    for (const StudyCase &study_case : cases)
+      {
+        add(study_case);
+        write();
+        const std::string &status = rows.back().summary.status;
+        if (status == "wrong input" || (status != "ok" && code == done))
+          code = status == "wrong input" ? wrong_input : not_converged;
+        if (status == "interrupted")
+          break;
+      }
+    console << "  results in " << folder << "/summary.json" << std::endl;
+    return code;
+  }
+
+
+
+  void
+  BucklingStudy::add(const StudyCase &study_case)
+  {
+    std::vector<double> &found = factors.emplace_back();
+    const auto find = [&](auto &model) { found = load_factors(model); };
+    const Summary summary =
+      summary_of_case(study_case.input, communicator, find, find);
+    rows.push_back({study_case, summary, std::nullopt});
+    const std::string &label = study_case.label;
+    console << "  " << label << (label.empty() ? "buckling: " : ": buckling: ");
+    if (summary.status != "ok")
+      console << summary.status << ": " << summary.message;
+    else if (found.empty())
+      console << "at no multiple of the load";
+    for (std::size_t i = 0; i < found.size(); ++i)
+      console << (i > 0 ? ", " : "at ") << text_of(found[i], 4);
+    console << (found.empty() ? "\n" : " times the load\n");
+  }
+
+
+
+  void
+  BucklingStudy::write() const
+  {
+    Json json;
+    json["version"] = version;
+    json["ranks"]   = Utilities::MPI::n_mpi_processes(communicator);
+    json["cases"]   = Json::array();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        Json row;
+        row["case"]         = rows[i].study_case.label;
+        row["status"]       = rows[i].summary.status;
+        row["message"]      = rows[i].summary.message;
+        row["load_factors"] = factors[i];
+        row["unknowns"]     = rows[i].summary.sizes.unknowns;
+        json["cases"].push_back(row);
+      }
+    on_root(communicator, [&]() {
+      json.save(folder + "/summary.json");
+      StudyReport{folder, "", "", "", "", "", cases, rows}.write_csv();
+    });
+  }
+} // namespace moraine
