@@ -117,10 +117,11 @@ namespace moraine
                  begins_with(statement, "SUBSECTION"))
           {
             const std::string name = Utilities::trim(statement.substr(10));
-            if (name.empty() || name.find_first_of("/.") != std::string::npos)
+            if (name.empty() || name.find('/') != std::string::npos ||
+                name.find_first_not_of('.') == std::string::npos)
               throw InputError(
                 lines[i].origin + ": " + in_section(before) + "found '" +
-                statement + "'; a subsection needs a name without '/' and '.'");
+                statement + "'; a subsection needs a name without '/'");
             open_sections.push_back({join_path(before, name), lines[i].origin});
             if (std::none_of(sections.begin(),
                              sections.end(),

@@ -21,12 +21,13 @@ namespace moraine
                    const PointSet<dim> &points,
                    const std::string   &path,
                    const double         time,
-                   const unsigned int   step)
+                   const unsigned int   step,
+                   const Units         &units)
   {
     Assert(basis.has_domains(), ExcInternalError());
     constexpr unsigned int n_corners = 1 << dim;
     const auto             order     = points_by_id(points);
-    VtuFile<dim, dim>      file;
+    VtuFile<dim, dim>      file(units);
     declare_point_rows(points.fields(), file);
     const auto smoothed   = smoothed_mean_stress(points);
     const auto make_patch = [&](const unsigned int i) {
@@ -57,11 +58,13 @@ namespace moraine
                    const PointSet<2> &,
                    const std::string &,
                    const double,
-                   const unsigned int);
+                   const unsigned int,
+                   const Units &);
   template void
   write_domain_vtu(const Basis<3> &,
                    const PointSet<3> &,
                    const std::string &,
                    const double,
-                   const unsigned int);
+                   const unsigned int,
+                   const Units &);
 } // namespace moraine

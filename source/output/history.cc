@@ -18,10 +18,12 @@ namespace moraine
   {
     /** The name of a column with its unit, quoted as CSV asks for. */
     std::string
-    column_title(const NamedValue &value)
+    column_title(const NamedValue &value, const Units &units)
     {
       const std::string title =
-        value.unit == "-" ? value.name : value.name + " [" + value.unit + "]";
+        value.unit == "-" ?
+          value.name :
+          value.name + " [" + units.of(value.unit) + "]";
       if (title.find_first_of(",\"\n") == std::string::npos)
         return title;
       std::string quoted = "\"";
@@ -33,9 +35,12 @@ namespace moraine
 
 
 
-  History::History(const std::string &path, const MPI_Comm &communicator)
+  History::History(const std::string &path,
+                   const MPI_Comm    &communicator,
+                   const Units       &units)
     : path(path)
     , communicator(communicator)
+    , units(units)
   {}
 
 
@@ -45,7 +50,7 @@ namespace moraine
   {
     std::vector<std::string> titles;
     for (const NamedValue &value : row)
-      titles.push_back(column_title(value));
+      titles.push_back(column_title(value, units));
     const bool first = columns.empty();
     if (first)
       columns = titles;

@@ -132,9 +132,10 @@ namespace moraine
                  const SmoothedStress<dim>         &stress,
                  const std::string                 &path,
                  const double                       time,
-                 const unsigned int                 step)
+                 const unsigned int                 step,
+                 const Units                       &units)
   {
-    VtuFile<dim, dim> file;
+    VtuFile<dim, dim> file(units);
     for (const auto &field : fields)
       {
         AssertDimension(field.values.size(), space.n_nodes());
@@ -167,12 +168,14 @@ namespace moraine
                  const SmoothedStress<2> &,
                  const std::string &,
                  const double,
-                 const unsigned int);
+                 const unsigned int,
+                 const Units &);
   template void
   write_mesh_vtu(const GridSpace<3> &,
                  const std::vector<NodeField<3>> &,
                  const SmoothedStress<3> &,
                  const std::string &,
                  const double,
-                 const unsigned int);
+                 const unsigned int,
+                 const Units &);
 } // namespace moraine

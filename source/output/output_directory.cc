@@ -31,6 +31,7 @@ namespace moraine
     constexpr const char *result_names[] = {"history.csv",
                                             "points.pvd",
                                             "mesh.pvd",
+                                            "boundaries.pvd",
                                             "domains.pvd"};
     /** What a run has that fails before. */
     constexpr const char *other_names[] = {"summary.json",
@@ -42,7 +43,10 @@ namespace moraine
                                                 "study.prm",
                                                 "study.gp",
                                                 "study.png"};
-    constexpr const char *series_names[]     = {"points", "mesh", "domains"};
+    constexpr const char *series_names[]     = {"points",
+                                                "mesh",
+                                                "boundaries",
+                                                "domains"};
     constexpr const char *checkpoint_names[] = {"last",
                                                 "a.h5",
                                                 "b.h5",

@@ -15,14 +15,14 @@ import argparse
 import csv
 import pathlib
 import re
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
 import render  # noqa: E402
 
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
-           "#555555", "#000000"]
+MOST_CURVES = 8
+QUANTITIES = {"u": "displacement", "v": "velocity", "a": "acceleration",
+              "path_length": "path length", "sigma": "stress"}
 
 
 def arguments():
@@ -66,9 +66,6 @@ def vtu_of(run, series, step):
 def draw_field(args, run, path):
     if run:
         args.files = [str(vtu_of(run, args.of, args.step))]
-        has_mesh = any((run / "mesh").glob("*.vtu"))
-        if not args.mesh and not args.grid and has_mesh and args.of != "mesh":
-            args.mesh = [str(vtu_of(run, "mesh", args.step))]
     render.draw(args, str(path))
 
 
@@ -91,44 +88,21 @@ def name_of(column):
 
 def panels_of(columns):
     """(label of the axis, columns) of each panel: one for each quantity, with
-    as many curves as there are colours."""
+    as many curves as can be told apart."""
     quantities = {}
     for column in columns:
-        unit = re.search(r"\[(.*)\]$", column)
         name = re.split(r" of | at ", name_of(column))[0]
         name = re.sub(r"_(x|y|z|xx|xy|xz|yy|yz|zz)$", "", name)
-        label = name + (f" [{unit[1]}]" if unit else "")
+        label = render.with_unit(QUANTITIES.get(name, name), unit_of(column))
         quantities.setdefault(label, []).append(column)
-    n = len(COLOURS)
-    return [(label, group[i:i + n]) for label, group in quantities.items()
-            for i in range(0, len(group), n)]
+    return [(label, group[i:i + MOST_CURVES])
+            for label, group in quantities.items()
+            for i in range(0, len(group), MOST_CURVES)]
 
 
-def quoted(text):
-    return "'" + text.replace("'", "''") + "'"
-
-
-def script_of(panels, header, against, data, path):
-    """Gnuplot's commands for panels below each other."""
-    x = header.index(against) + 1
-    lines = [
-        f"set terminal pngcairo noenhanced size 1000,{300 * len(panels)} "
-        "font 'DejaVu Sans,12'",
-        f"set output {quoted(str(path))}",
-        "set datafile separator ','", "set datafile missing 'nan'",
-        "set grid lc rgb '#dddddd' lt 1 lw 1", "set border lw 1.2",
-        "set key at graph 1.02, graph 1 left top vertical Left reverse",
-        f"set xlabel {quoted(against)}",
-        "set lmargin 12", "set rmargin 34",
-        f"set multiplot layout {len(panels)},1"]
-    for label, columns in panels:
-        curves = [
-            f"{quoted(str(data))} skip 1 using {x}:{header.index(column) + 1} "
-            f"with linespoints pt 7 ps 0.6 lw 2 lc rgb '{colour}' "
-            f"title {quoted(name_of(column))}"
-            for column, colour in zip(columns, COLOURS)]
-        lines += [f"set ylabel {quoted(label)}", "plot " + ", ".join(curves)]
-    return "\n".join(lines + ["unset multiplot", ""])
+def unit_of(column):
+    unit = re.search(r"\[(.*)\]$", column)
+    return render.shown_unit(unit[1]) if unit else ""
 
 
 def draw_history(args, run, path):
@@ -136,24 +110,29 @@ def draw_history(args, run, path):
     if not data.is_file():
         render.fail(f"there is no file {data}")
     with open(data) as file:
-        header = next(csv.reader(file), [])
-    if not header:
+        rows = list(csv.reader(file))
+    if len(rows) < 2:
         render.fail(f"{data} has no rows")
-    against = columns_of(header, [args.against])[0]
-    columns = columns_of(header, args.history) if args.history else \
-        [c for c in header if c != against]
+    values = {column: [float(row[i]) for row in rows[1:]]
+              for i, column in enumerate(rows[0])}
+    against = columns_of(rows[0], [args.against])[0]
+    columns = columns_of(rows[0], args.history) if args.history else \
+        [c for c in rows[0] if c != against and any(values[c])]
     if not columns:
-        render.fail(f"{data} has no other column than {against}; a scene with "
-                    "probes or boundaries has")
-    script = script_of(panels_of(columns), header, against, data, path)
-    try:
-        subprocess.run(["gnuplot"], input=script, text=True, check=True,
-                       stderr=subprocess.DEVNULL)
-    except FileNotFoundError:
-        render.fail("curves are drawn by gnuplot, which is not here (Debian "
-                    "package gnuplot-nox)")
-    except subprocess.CalledProcessError:
-        render.fail(f"gnuplot could not draw {path}")
+        render.fail(f"{data} has no other column than {against} that is not "
+                    "zero")
+    render.draw_curves(
+        panels_of(columns), values, {c: name_of(c) for c in columns},
+        against, render.with_unit(name_of(against), unit_of(against)),
+        str(path))
+
+
+def file_name(args, first):
+    """Another one for each picture of a run: the words of the command."""
+    words = [first] + [word.removeprefix("--") for word in sys.argv[1:]
+                       if word not in (args.files[0], "--field", "--history",
+                                       "--component")]
+    return re.sub(r"[^\w.-]+", "_", "-".join(filter(None, words))) + ".png"
 
 
 def main():
@@ -172,17 +151,16 @@ def main():
     folder = run / "plots" if run else None
     if folder and not args.output:
         folder.mkdir(exist_ok=True)
-    if args.history is None:
-        render.start_display()
-    both = args.history is None and args.field is None and not args.output
-    if args.history is not None or both:
-        path = args.output or folder / "history.png"
+    asks_for_field = args.field or args.component or args.output
+    if args.history is not None or not asks_for_field:
+        path = args.output or folder / (
+            file_name(args, "history") if args.history else "history.png")
         draw_history(args, run, path)
         print(path)
     if args.history is None:
-        args.field = args.field or "displacement"
-        name = "-".join(filter(None, [args.field, args.component]))
-        path = args.output or folder / f"{name}.png"
+        first = "" if args.field else "displacement"
+        args.field = args.field or first
+        path = args.output or folder / file_name(args, first)
         draw_field(args, run, path)
         print(path)
 

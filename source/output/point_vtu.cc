@@ -16,10 +16,11 @@ namespace moraine
   write_point_vtu(const PointSet<dim> &points,
                   const std::string   &path,
                   const double         time,
-                  const unsigned int   step)
+                  const unsigned int   step,
+                  const Units       &units)
   {
     const auto      order = points_by_id(points);
-    VtuFile<0, dim> file;
+    VtuFile<0, dim> file(units);
     declare_point_rows(points.fields(), file);
     const auto smoothed   = smoothed_mean_stress(points);
     const auto make_patch = [&](const unsigned int i) {
@@ -45,10 +46,12 @@ namespace moraine
   write_point_vtu(const PointSet<2> &,
                   const std::string &,
                   const double,
-                  const unsigned int);
+                  const unsigned int,
+                  const Units &);
   template void
   write_point_vtu(const PointSet<3> &,
                   const std::string &,
                   const double,
-                  const unsigned int);
+                  const unsigned int,
+                  const Units &);
 } // namespace moraine

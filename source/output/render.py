@@ -2,18 +2,18 @@
 # Copyright (C) 2026 by the Moraine authors
 """Draws VTU files of runs as PNG pictures, for plot.py.
 
-Points are drawn as discs (balls in 3D) of the size of their volume, meshes and
-the domains of points as cells with their edges; walls can be added as lines.
-Several files become panels of one picture, with the same axes and colours.
-Needs python3-vtk9, and the display of start_display().
+The fields of points are brought onto a fine regular grid by local linear fits
+over about a cell, each body by itself, and drawn as filled contours up to where
+the density of the points falls to one half: the body's outline. In 3D a quarter
+of the body is cut away. Several files become panels with the same colours.
 """
 
-import atexit
+import base64
 import math
 import os
-import shutil
-import subprocess
 import sys
+import xml.etree.ElementTree as xml
+import zlib
 
 TENSOR = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"]
 VECTOR = ["x", "y", "z"]
@@ -23,345 +23,195 @@ def fail(message):
     sys.exit(f"moraine plot: {message}")
 
 
-def start_display():
-    """Debian's VTK draws with X only, and ends the program where no X server
-    answers. So it draws on a server of this program, which shows nothing."""
-    if not shutil.which("Xvfb"):
-        fail("fields are drawn on Xvfb, which is not here (Debian package "
-             "xvfb)")
-    # A server that is going down takes the socket of its number with it, also
-    # from the next one: each run takes numbers of its own.
-    for number in (100 + (os.getpid() + 997 * i) % 50000 for i in range(10)):
-        ready, of_server = os.pipe()
-        # By default it starts anew, deaf for a moment, when a client leaves.
-        server = subprocess.Popen(
-            ["Xvfb", f":{number}", "-displayfd", str(of_server), "-noreset",
-             "-nolisten", "tcp", "-screen", "0", "1280x1024x24"],
-            pass_fds=[of_server], stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL)
-        os.close(of_server)
-        with open(ready) as answer:
-            if answer.readline():
-                atexit.register(stop, server)
-                os.environ["DISPLAY"] = f":{number}"
-                return
-        stop(server)
-    fail("Xvfb, on which fields are drawn, does not start")
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.colors import BoundaryNorm
+    from matplotlib.path import Path
+    from matplotlib.ticker import MaxNLocator
+    from scipy import ndimage
+except ImportError:
+    fail("pictures need Debian's packages python3-matplotlib and "
+         "python3-scipy, and Debian's own python3")
 
 
-def stop(server):
-    server.terminate()
-    server.wait()
+class Vtu:
+    """A VTU file as deal.II writes it; arrays are decoded when asked for."""
+
+    def __init__(self, path):
+        if not os.path.isfile(path):
+            fail(f"there is no file {path}")
+        root = xml.parse(path).getroot()
+        self.pieces = root.findall(".//Piece")
+        times = [float(a.text) for a in root.iter("DataArray")
+                 if a.get("Name") == "TIME"]
+        self.time = times[0] if times else None
+        self.fields = [a.get("Name") for a in
+                       self.pieces[0].find("PointData") or []]
+        self.points = self.joined("Points/DataArray")
+
+    def joined(self, path):
+        return np.concatenate([decoded(p.find(path)) for p in self.pieces])
+
+    def field(self, name):
+        if name not in self.fields:
+            fail(f"no field '{name}'; there are {', '.join(self.fields)}")
+        return self.joined(f"PointData/DataArray[@Name='{name}']")
+
+    def unit(self, name):
+        """Empty if the file names a quantity only."""
+        unit = self.pieces[0].find(
+            f"PointData/DataArray[@Name='{name}']").get("units", "")
+        return shown_unit(unit)
+
+    def corners(self):
+        """Places of the corners of all cells."""
+        cells, first = [], 0
+        for piece in self.pieces:
+            cells.append(first + decoded(
+                piece.find("Cells/DataArray[@Name='connectivity']")))
+            first += int(piece.get("NumberOfPoints"))
+        n = sum(int(piece.get("NumberOfCells")) for piece in self.pieces)
+        return np.concatenate(cells).reshape(n, -1)
 
 
-def load_vtk():
-    global vtk
-    try:
-        import vtk
-    except ImportError:
-        fail("fields are drawn by VTK, which is not here (Debian package "
-             "python3-vtk9; it needs Debian's own python3)")
+def decoded(array):
+    """The numbers of a compressed DataArray."""
+    text = array.text.strip().encode()
+    kind = {"Float32": "f4", "Float64": "f8", "Int32": "i4", "UInt8": "u1",
+            "Int64": "i8", "UInt64": "u8"}[array.get("type")]
+    if array.get("format") == "ascii":
+        values = np.array(text.split(), kind)
+    else:
+        n = np.frombuffer(base64.b64decode(text[:8])[:4], "<u4")[0]
+        end = 4 * math.ceil((12 + 4 * n) / 3)
+        sizes = np.frombuffer(base64.b64decode(text[:end]), "<u4")[3:3 + n]
+        packed, blocks = base64.b64decode(text[end:]), []
+        for size in sizes:
+            blocks.append(zlib.decompress(packed[:size]))
+            packed = packed[size:]
+        values = np.frombuffer(b"".join(blocks), "<" + kind)
+    n = int(array.get("NumberOfComponents", 1))
+    return values.reshape(-1, n) if n > 1 else values
 
 
-def read(path):
-    """The data set of a VTU file."""
-    if not os.path.isfile(path):
-        fail(f"there is no file {path}")
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
+def shown_unit(unit):
+    """Nothing of a scene without units, where it only names quantities."""
+    words = set(unit.translate(str.maketrans("/^23", "    ")).split())
+    if words <= {"length", "force", "time", "stress", "mass"}:
+        return ""
+    return unit.replace("^2", "²").replace("^3", "³").replace(" ", "·")
 
 
-def component_index(array, component):
-    """Column of the array that a component name means; -1: magnitude."""
-    n = array.GetNumberOfComponents()
-    names = {1: [""], 3: VECTOR, 9: TENSOR}.get(n, [str(i) for i in range(n)])
-    if n == 1 and component in ("", "magnitude"):
-        return 0
+def component_of(values, field, component):
+    """The column of that name, or the magnitude."""
+    n = values.shape[1] if values.ndim > 1 else 1
     if component in ("", "magnitude"):
-        return -1
+        return values if n == 1 else np.linalg.norm(values, axis=1)
+    names = {3: VECTOR, 9: TENSOR}.get(n, [])
     if component not in names:
-        fail(f"{array.GetName()} has no component '{component}'; "
-                 f"there are {', '.join(names)}, magnitude")
-    return names.index(component)
+        fail(f"{field} has no component '{component}'; "
+             f"there are {', '.join(names)}, magnitude")
+    return values[:, names.index(component)]
 
 
-def add_value(data, field, component):
-    """Add the numbers to draw as the point array 'value'; return their range."""
-    fields = data.GetPointData()
-    array = fields.GetArray(field)
-    if array is None:
-        names = [fields.GetArrayName(i)
-                 for i in range(fields.GetNumberOfArrays())]
-        fail(f"no field '{field}'; there are {', '.join(names)}")
-    column = component_index(array, component)
-    value = vtk.vtkDoubleArray()
-    value.SetName("value")
-    value.SetNumberOfTuples(array.GetNumberOfTuples())
-    for i in range(array.GetNumberOfTuples()):
-        row = array.GetTuple(i)
-        value.SetValue(i, row[column] if column >= 0 else
-                       sum(x * x for x in row) ** 0.5)
-    fields.AddArray(value)
-    return value.GetRange()
+def beside(path, series):
+    """The file of another series of the same step, if there is one."""
+    folder, name = os.path.split(os.path.abspath(path))
+    other = os.path.join(os.path.dirname(folder), series, name)
+    return Vtu(other) if os.path.isfile(other) else None
 
 
-def is_flat(data):
-    bounds = data.GetBounds()
-    return bounds[5] - bounds[4] == 0.0
+def grid_of(x, volume, value, domains, fits):
+    """Density, and the fitted value, on a regular grid: its origin and size.
+
+    A point much larger than others, or stretched, is spread over its domain.
+    """
+    dim = x.shape[1]
+    size = volume ** (1 / dim)
+    h = np.median(size)
+    low, high = x.min(0) - 3 * h, x.max(0) + 3 * h
+    d = max(h / (3 if dim == 2 else 2),
+            ((high - low).prod() / (4e5 if dim == 2 else 1e6)) ** (1 / dim))
+    shape = np.ceil((high - low) / d).astype(int) + 2
+    basis = np.stack([np.ones_like(value), value] +
+                     ([*x.T, *(value * x.T)] +
+                      [x[:, i] * x[:, j] for i in range(dim)
+                       for j in range(i, dim)] if fits else []))
+    sums = np.zeros((len(basis), shape.prod()))
+    if domains is None:
+        domains = size[:, None] / 2 * np.eye(dim)[:, None]
+    length = 2 * np.linalg.norm(domains, axis=2).max(0)
+    count = np.ceil(length / (1.3 * max(h, d))).astype(int).clip(1, 12)
+    for n in np.unique(count):
+        here = count == n
+        amount = basis[:, here] * volume[here] / (d * n) ** dim
+        for k in np.ndindex(*[n] * dim):
+            xi = (np.array(k) + 0.5) * 2 / n - 1
+            add(x[here] + np.tensordot(xi, domains[:, here], 1), amount,
+                low, d, shape, sums)
+    sums = sums.reshape(len(basis), *shape)
+    density = ndimage.gaussian_filter(sums[0], 0.6 * h / d)
+    for total in sums:
+        ndimage.gaussian_filter(total, 0.9 * h / d, output=total)
+    with np.errstate(all="ignore"):
+        sums[1:] /= sums[0]
+    field = fitted(sums, low, d, dim) if fits else sums[1]
+    field = np.where(sums[0] > 1e-3, field, np.nan)
+    return density, field.clip(value.min(), value.max()), low, d
 
 
-def magnified(data, factor):
-    """Points at this many times their displacement."""
-    data.GetPointData().SetActiveVectors("displacement")
-    warp = vtk.vtkWarpVector()
-    warp.SetInputData(data)
-    warp.SetScaleFactor(factor - 1)
-    warp.Update()
-    return warp.GetOutput()
+def add(x, amount, low, d, shape, sums):
+    """Share each amount among the corners of the grid's cell around x."""
+    cell, rest = np.divmod((x - low) / d, 1)
+    for corner in np.ndindex(*[2] * len(shape)):
+        to = np.ravel_multi_index((cell.astype(int) + corner).T, shape)
+        weight = np.where(corner, rest, 1 - rest).prod(1)
+        for total, one in zip(sums, amount):
+            total += np.bincount(to, weight * one, len(total))
 
 
-def as_glyphs(data, scale):
-    """A disc (3D: ball) of its volume for every point."""
-    fields = data.GetPointData()
-    volume = fields.GetArray("volume")
-    size = vtk.vtkDoubleArray()
-    size.SetName("size")
-    size.SetNumberOfTuples(data.GetNumberOfPoints())
-    flat = is_flat(data)
-    for i in range(data.GetNumberOfPoints()):
-        v = volume.GetValue(i)
-        size.SetValue(i, (v / math.pi) ** 0.5 if flat else
-                      (0.75 * v / math.pi) ** (1.0 / 3.0))
-    fields.AddArray(size)
-    fields.SetActiveScalars("size")
-
-    if flat:
-        shape = vtk.vtkRegularPolygonSource()
-        shape.SetNumberOfSides(20)
-        shape.GeneratePolylineOff()
-    else:
-        shape = vtk.vtkSphereSource()
-        shape.SetThetaResolution(12)
-        shape.SetPhiResolution(12)
-    shape.SetRadius(scale)
-    glyphs = vtk.vtkGlyph3D()
-    glyphs.SetInputData(data)
-    glyphs.SetSourceConnection(shape.GetOutputPort())
-    glyphs.SetScaleModeToScaleByScalar()
-    glyphs.SetColorModeToColorByScalar()
-    glyphs.OrientOff()
-    glyphs.Update()
-    return glyphs.GetOutput()
+def rim_of(mesh, volume):
+    """The cells' outline, if points fill all cells: then it is the body's."""
+    cells = mesh.points[mesh.corners()][:, :, :2]
+    area = 0.5 * np.cross(cells[:, 2] - cells[:, 0], cells[:, 3] - cells[:, 1])
+    if abs(area.sum() - volume) > 1e-3 * volume:
+        return None
+    h = math.sqrt(area.min())
+    ends = np.stack([cells, np.roll(cells, -1, axis=1)], 2).reshape(-1, 2, 2)
+    keys = [tuple(map(tuple, np.rint(end / h * 1e4))) for end in ends]
+    inner = set(keys)
+    following = {a: (b, end[1]) for (a, b), end in zip(keys, ends)
+                 if (b, a) not in inner}
+    loops = []
+    while following:
+        at, loop = next(iter(following)), []
+        while at in following:
+            at, place = following.pop(at)
+            loop.append(place)
+        loops.append(Path(loop + loop[:1], closed=True))
+    return Path.make_compound_path(*loops)
 
 
-VIRIDIS = [(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142),
-           (33, 144, 141), (39, 173, 129), (92, 200, 99), (170, 220, 50),
-           (253, 231, 37)]
-
-
-def colours(diverging):
-    """Dark blue over green to yellow, or blue over white to red."""
-    function = vtk.vtkColorTransferFunction()
-    if diverging:
-        function.SetColorSpaceToDiverging()
-        function.AddRGBPoint(0.0, 0.230, 0.299, 0.754)
-        function.AddRGBPoint(1.0, 0.706, 0.016, 0.150)
-    else:
-        for i, rgb in enumerate(VIRIDIS):
-            function.AddRGBPoint(i / (len(VIRIDIS) - 1),
-                                 *(c / 255.0 for c in rgb))
-    table = vtk.vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    for i in range(256):
-        table.SetTableValue(i, *function.GetColor(i / 255.0), 1.0)
-    table.Build()
-    return table
-
-
-def text_style(text, size):
-    text.SetFontSize(size)
-    text.SetColor(0, 0, 0)
-    text.SetFontFamilyToArial()
-    text.BoldOff()
-    text.ItalicOff()
-    text.ShadowOff()
-
-
-def colour_bar(table, size, width):
-    bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(table)
-    bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%.3g")
-    bar.UnconstrainedFontSizeOn()
-    text_style(bar.GetLabelTextProperty(), size)
-    bar.SetPosition(1 - 7.0 * size / width, 0.14)
-    bar.SetWidth(6.0 * size / width)
-    bar.SetHeight(0.65)
-    bar.SetBarRatio(0.25)
-    return bar
-
-
-def text_at(words, size, x, y, justification):
-    """A text of its own; the bar would cut off what is wider than itself."""
-    text = vtk.vtkTextActor()
-    text.SetInput(words)
-    text_style(text.GetTextProperty(), size)
-    getattr(text.GetTextProperty(), f"SetJustificationTo{justification}")()
-    text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    text.SetPosition(x, y)
-    return text
-
-
-def edge_lines(data):
-    """The edges of a mesh as thin grey lines behind everything else."""
-    edges = vtk.vtkExtractEdges()
-    edges.SetInputData(data)
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(edges.GetOutputPort())
-    mapper.ScalarVisibilityOff()
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.8, 0.8, 0.83)
-    actor.GetProperty().LightingOff()
-    if is_flat(data):
-        actor.SetPosition(0, 0, -0.1)
-        # Thinner ones may vanish between the pixels.
-        actor.GetProperty().SetLineWidth(2)
-    return actor
-
-
-def grid(x0, y0, x1, y1, h):
-    """A flat mesh of squares, for results that have no mesh file."""
-    data = vtk.vtkRectilinearGrid()
-    n = [round((x1 - x0) / h) + 1, round((y1 - y0) / h) + 1]
-    data.SetDimensions(n[0], n[1], 1)
-    for name, start, count in (("X", x0, n[0]), ("Y", y0, n[1])):
-        places = vtk.vtkDoubleArray()
-        for i in range(count):
-            places.InsertNextValue(start + i * h)
-        getattr(data, f"Set{name}Coordinates")(places)
-    return data
-
-
-def wall_line(coordinates):
-    """A thick line through x, y, x, y, ... in front of everything else."""
-    points = vtk.vtkPoints()
-    line = vtk.vtkPolyLine()
-    line.GetPointIds().SetNumberOfIds(len(coordinates) // 2)
-    for i in range(len(coordinates) // 2):
-        points.InsertNextPoint(coordinates[2 * i], coordinates[2 * i + 1], 0.1)
-        line.GetPointIds().SetId(i, i)
-    cells = vtk.vtkCellArray()
-    cells.InsertNextCell(line)
-    data = vtk.vtkPolyData()
-    data.SetPoints(points)
-    data.SetLines(cells)
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputData(data)
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.1, 0.1, 0.1)
-    actor.GetProperty().SetLineWidth(4)
-    actor.GetProperty().LightingOff()
-    return actor
-
-
-def union(boxes):
-    return [(min, max)[i % 2](box[i] for box in boxes) for i in range(6)]
-
-
-def axes(bounds, flat, renderer, unit, size):
-    actor = vtk.vtkCubeAxesActor()
-    actor.SetBounds(bounds)
-    actor.SetCamera(renderer.GetActiveCamera())
-    for name, direction in zip("XYZ", range(3)):
-        getattr(actor, f"Set{name}Title")(name.lower())
-        getattr(actor, f"Set{name}Units")(unit)
-        text_style(actor.GetTitleTextProperty(direction), size)
-        text_style(actor.GetLabelTextProperty(direction), size)
-        getattr(actor, f"Get{name}AxesLinesProperty")().SetColor(0, 0, 0)
-    actor.SetFlyModeToOuterEdges()
-    actor.SetScreenSize(size)
-    actor.XAxisMinorTickVisibilityOff()
-    actor.YAxisMinorTickVisibilityOff()
-    actor.ZAxisMinorTickVisibilityOff()
-    actor.SetTickLocationToOutside()
-    if flat:
-        actor.SetUse2DMode(1)
-        actor.ZAxisVisibilityOff()
-    return actor
-
-
-def panel_size(bounds, height, font):
-    """Width and height in pixels of a flat panel, and pixels per length."""
-    plot_height = height - 7 * font
-    scale = plot_height / (bounds[3] - bounds[2])
-    scale = min(scale, 2.4 * height / (bounds[1] - bounds[0]))
-    return [int((bounds[1] - bounds[0]) * scale + 8 * font),
-            int((bounds[3] - bounds[2]) * scale + 7 * font)], scale
-
-
-def look_at(renderer, bounds, flat, size, scale, font):
-    """The whole panel, with room for the axes."""
-    camera = renderer.GetActiveCamera()
-    centre = [(bounds[2 * d] + bounds[2 * d + 1]) / 2 for d in range(3)]
-    camera.ParallelProjectionOn()
-    if flat:
-        height = size[1] / scale
-        centre[0] = bounds[0] + (size[0] / 2 - 6 * font) / scale
-        centre[1] = bounds[2] + (size[1] / 2 - 5 * font) / scale
-        camera.SetPosition(centre[0], centre[1], 1)
-        camera.SetViewUp(0, 1, 0)
-    else:
-        diagonal = sum((bounds[2 * d + 1] - bounds[2 * d])**2
-                       for d in range(3)) ** 0.5
-        height = 1.1 * diagonal
-        centre[1] += 0.05 * diagonal
-        camera.SetPosition(centre[0] + diagonal, centre[1] - 1.6 * diagonal,
-                           centre[2] + diagonal)
-        camera.SetViewUp(0, 0, 1)
-    camera.SetFocalPoint(centre)
-    camera.SetParallelScale(height / 2)
-    renderer.ResetCameraClippingRange()
-
-
-def add_arguments(parser):
-    """How a picture looks; what it shows is left to the caller."""
-    parser.add_argument("--label", nargs="+", default=[],
-                        help="above each panel")
-    parser.add_argument("--columns", type=int, default=1, help="of panels")
-    parser.add_argument("--mesh", nargs="+", default=[],
-                        help="VTU files whose cell edges are drawn too: one, "
-                        "or one per panel; of a run its mesh if left out")
-    parser.add_argument("--grid", nargs=5, type=float,
-                        metavar=("X0", "Y0", "X1", "Y1", "H"),
-                        help="instead of --mesh: squares of size H")
-    parser.add_argument("--point-scale", type=float, default=1.0,
-                        help="size of points over that of their volume")
-    parser.add_argument("--magnify", type=float, default=1.0, metavar="FACTOR",
-                        help="draw points at this many times their "
-                        "displacement")
-    parser.add_argument("--wall", nargs="+", type=float, action="append",
-                        default=[], metavar="X Y",
-                        help="a line through these points, in 2D")
-    parser.add_argument("--wall-of", nargs="+", type=float, action="append",
-                        default=[], metavar="PANEL X Y",
-                        help="the same in one panel, counted from 1")
-    parser.add_argument("--heading", default="", help="above the picture")
-    parser.add_argument("--diverging", action="store_true",
-                        help="colours from blue over white to red")
-    parser.add_argument("--component", default="",
-                        help="of the field: x, y, z; xx, xy, ...; magnitude")
-    parser.add_argument("--range", nargs=2, type=float,
-                        help="values at the ends of the colour bar")
-    parser.add_argument("--title", help="title of the colour bar")
-    parser.add_argument("--unit", default="", help="unit in that title")
-    parser.add_argument("--length-unit", default="", help="unit of the axes")
-    parser.add_argument("--size", nargs=2, type=int, default=[1000, 700],
-                        help="pixels of a panel; in 2D the width follows from "
-                        "the height")
+def fitted(sums, low, d, dim):
+    """Linear fits by least squares, from the moments around each place."""
+    mean, f = sums[2:2 + dim], sums[1]
+    slope = sums[2 + dim:2 + 2 * dim] - f * mean
+    spread = np.empty(f.shape + (dim, dim))
+    for k, (i, j) in enumerate((i, j) for i in range(dim)
+                               for j in range(i, dim)):
+        c = sums[2 + 2 * dim + k] - mean[i] * mean[j]
+        spread[..., i, j] = spread[..., j, i] = c + (0.1 * d * d if i == j
+                                                     else 0)
+    spread = np.nan_to_num(spread) + 1e-300 * np.eye(dim)
+    away = np.stack(np.meshgrid(*[low[i] + d * np.arange(f.shape[i])
+                                  for i in range(dim)], indexing="ij")) - mean
+    away, slope = np.moveaxis(away, 0, -1), np.moveaxis(slope, 0, -1)
+    return f + (np.linalg.solve(spread, np.nan_to_num(slope)[..., None])[..., 0]
+                * away).sum(-1)
 
 
 class Panel:
@@ -369,165 +219,353 @@ class Panel:
 
     def __init__(self, args, number):
         self.args = args
-        self.data = read(args.files[number])
-        self.range = add_value(self.data, args.field, args.component)
-        self.flat = is_flat(self.data)
-        # The domains of points have their fields too.
-        self.is_points = self.data.GetCellType(0) == vtk.VTK_VERTEX
-        if self.is_points and args.magnify != 1:
-            self.data = magnified(self.data, args.magnify)
-        self.shapes = as_glyphs(self.data, args.point_scale) \
-            if self.is_points else self.data
-        self.walls = args.wall + [wall[1:] for wall in args.wall_of
-                                  if wall[0] == number + 1]
-        self.label = args.label[number] if number < len(args.label) else ""
-        self.mesh = None
-        if args.mesh:
-            self.mesh = read(args.mesh[min(number, len(args.mesh) - 1)])
-        elif args.grid:
-            self.mesh = grid(*args.grid)
+        path = args.files[number]
+        data = self.data = Vtu(path)
+        self.label = args.label[number] if number < len(args.label) else \
+            "" if data.time is None else f"t = {data.time:g}"
+        values = data.field(args.field)
+        n = values.shape[1] if values.ndim > 1 else 1
+        self.value = component_of(values, args.field, args.component) \
+            .astype(float)
+        self.dim = 3 if np.ptp(data.points[:, 2]) > 0 else 2
+        self.name = args.title or name_of(args.field, args.component, n,
+                                          self.dim)
+        self.unit = args.unit or data.unit(args.field)
+        self.cells = data.corners()
+        self.x = data.points[:, :self.dim].astype(float)
+        self.length_unit = args.length_unit or (
+            data.unit("displacement") if "displacement" in data.fields else
+            data.unit("step_displacement")
+            if "step_displacement" in data.fields else "")
+        mesh = beside(path, "mesh") if self.dim == 2 else None
+        self.mesh = mesh if args.mesh else None
+        self.surfaces = beside(path, "boundaries") if self.dim == 2 and \
+            args.magnify == 1 else None
+        self.bodies = self.bodies_of_points(path) \
+            if self.cells.shape[1] == 1 else []
+
+        self.rim = rim_of(mesh, self.bodies[0][1].sum()) \
+            if mesh and len(self.bodies) == 1 and args.magnify == 1 else None
+
+    def bodies_of_points(self, path):
+        """For each body the arguments of grid_of()."""
+        volume = self.data.field("volume").astype(float)
+        body = self.data.field("body") if "body" in self.data.fields else \
+            np.zeros(len(volume))
+        domains, halves = beside(path, "domains"), None
+        if domains:
+            # Edges of the parallelogram nearest to each domain.
+            x = domains.points[domains.corners()][:, :, :self.dim]
+            ends = [[1, 2, 5, 6], [2, 3, 6, 7], [4, 5, 6, 7]]
+            halves = np.stack([
+                (x[:, [v for v in ends[i] if v < x.shape[1]]].mean(1) -
+                 x.mean(1)) for i in range(self.dim)]).astype(float)
+        if self.args.magnify != 1:
+            self.x += (self.args.magnify - 1) * \
+                self.data.field("displacement")[:, :self.dim]
+        return [(self.x[body == b], volume[body == b], self.value[body == b],
+                 halves[:, body == b] if domains else None)
+                for b in np.unique(body)]
 
     def bounds(self):
-        boxes = [self.shapes.GetBounds()]
+        places = [self.x] + [m.points[:, :self.dim] for m in
+                             (self.mesh, self.surfaces) if m]
+        places = np.concatenate(places)
+        # Points are in the middle of their domains.
+        h = max((np.median(body[1]) ** (1 / self.dim) / 2
+                 for body in self.bodies), default=0)
+        h = 0 if self.mesh or self.surfaces or self.rim else h
+        return places.min(0) - h, places.max(0) + h
+
+    def draw(self, axes, colours):
+        self.draw_solid(axes, colours) if self.dim == 3 and self.bodies else \
+            self.draw_flat(axes, colours)
+        axes.set_title(self.label, loc="left", fontsize=11)
+
+    def draw_flat(self, axes, colours):
+        for body in self.bodies:
+            density, field, low, d = grid_of(*body, True)
+            x, y = (low[i] + d * np.arange(density.shape[i]) for i in (0, 1))
+            outline = Path.make_compound_path(*axes.contourf(
+                x, y, density.T, [0.5, 1e9], colors="white",
+                alpha=0).collections.pop().get_paths()) \
+                if self.rim is None else self.rim
+            # A value at the lowest level is not below it.
+            field += 1e-9 * np.ptp(colours.levels)
+            for part in axes.contourf(x, y, field.T, colours.levels,
+                                      cmap=colours.map, norm=colours.norm,
+                                      extend="both").collections:
+                part.set_clip_path(outline, axes.transData)
+                part.set_edgecolor("face")
+            axes.add_patch(plt.matplotlib.patches.PathPatch(
+                outline, fill=False, lw=0.8, ec="#333333"))
+        if not self.bodies and self.dim == 2:
+            of_cells = self.value[self.cells].mean(1)
+            axes.add_collection(PolyCollection(
+                self.x[self.cells], array=of_cells, cmap=colours.map,
+                norm=colours.norm, ec="#555555", lw=0.3))
         if self.mesh:
-            boxes.append(self.mesh.GetBounds())
-        boxes += [[min(wall[0::2]), max(wall[0::2]), min(wall[1::2]),
-                   max(wall[1::2]), 0, 0] for wall in self.walls]
-        return union(boxes)
+            axes.add_collection(PolyCollection(
+                self.mesh.points[self.mesh.corners()][:, :, :2], fc="none",
+                ec="#888888", lw=0.4))
+        if self.surfaces and len(self.surfaces.points):
+            middle = self.surfaces.points[:, :2]
+            normal = self.surfaces.field("normal")[:, :2]
+            half = normal[:, ::-1] * (-0.5, 0.5) * \
+                self.surfaces.field("size")[:, None]
+            axes.add_collection(LineCollection(
+                np.stack([middle - half, middle + half], 1), color="black",
+                lw=2.5, capstyle="projecting"))
+        axes.set_aspect("equal")
+        axes.set_xlabel(with_unit("x", self.length_unit))
+        axes.set_ylabel(with_unit("y", self.length_unit))
 
-    def actor(self, table, value_range):
-        mapper = vtk.vtkDataSetMapper()
-        mapper.SetInputData(self.shapes)
-        mapper.SetScalarModeToUsePointFieldData()
-        mapper.SelectColorArray("value")
-        mapper.SetLookupTable(table)
-        mapper.SetScalarRange(*value_range)
-        actor = vtk.vtkActor()
-        actor.SetMapper(mapper)
-        if self.flat:
-            actor.GetProperty().LightingOff()
-        else:
-            actor.GetProperty().SetAmbient(0.6)
-            actor.GetProperty().SetDiffuse(0.4)
-        if not self.is_points:
-            actor.GetProperty().EdgeVisibilityOn()
-        return actor
-
-    def renderer(self, table, value_range, bounds, size, scale, font):
-        renderer = vtk.vtkRenderer()
-        renderer.SetBackground(1, 1, 1)
-        renderer.AddActor(self.actor(table, value_range))
-        if self.mesh:
-            renderer.AddActor(edge_lines(self.mesh))
-        for wall in self.walls:
-            renderer.AddActor(wall_line(wall))
-        look_at(renderer, bounds, self.flat, size, scale, font)
-        renderer.AddActor(axes(bounds, self.flat, renderer,
-                               self.args.length_unit, font))
-        renderer.AddActor2D(text_at(self.label, font, 6 * font / size[0],
-                                    1 - 1.5 * font / size[1], "Left"))
-        return renderer
+    def draw_solid(self, axes, colours):
+        """Seen from where x and z are large and y is small, without the
+        quarter that is nearest."""
+        low, high = self.bounds()
+        view = View(low, high)
+        parts = [view.image(*grid_of(*body, False), not self.args.whole)
+                 for body in self.bodies]
+        depth = np.stack([p[0] for p in parts])
+        front = depth.argmin(0)[None]
+        value, light = (np.take_along_axis(np.stack([p[k] for p in parts]),
+                                           front, 0)[0] for k in (1, 2))
+        picture = colours.map(colours.norm(value))
+        picture[..., :3] *= light[..., None]
+        picture[~np.isfinite(depth.min(0))] = 0
+        axes.imshow(picture, extent=view.extent, origin="lower",
+                    interpolation="antialiased", zorder=2)
+        view.draw_axes(axes, self.length_unit)
 
 
-def title(args):
-    words = args.title or " ".join([args.field, args.component]).strip()
-    return words + (f" [{args.unit}]" if args.unit else "")
+class View:
+    """A parallel projection of a box."""
+
+    def __init__(self, low, high):
+        self.low, self.high = low, high
+        self.centre = (low + high) / 2
+        along = np.array([-1, 1.6, -1]) / math.sqrt(4.56)
+        right = np.array([1.6, 1, 0]) / math.sqrt(3.56)
+        self.axes = np.stack([right, np.cross(right, along), along])
+        ends = self.project(np.array([[(low, high)[k >> i & 1][i] for i in
+                                       range(3)] for k in range(8)]))
+        self.begin, self.end = ends.min(0), ends.max(0)
+        self.extent = [self.begin[0], self.end[0], self.begin[1], self.end[1]]
+        self.step = max(self.end[:2] - self.begin[:2]) / 700
+
+    def project(self, x):
+        return x @ self.axes.T
+
+    def image(self, density, value, low, d, cut):
+        """Depth, value and light in each pixel."""
+        n = np.ceil((self.end - self.begin)[:2] / self.step).astype(int) + 1
+        is_in = density >= 0.5
+        x = low + d * np.argwhere(is_in & ~ndimage.binary_erosion(is_in))
+        if cut:
+            everywhere = low + d * np.argwhere(is_in)
+            faces = abs(everywhere[:, :2] - self.centre[:2]).min(1) < d
+            x = np.concatenate([x, everywhere[faces]])
+            x = x[self.keeps(x) >= -d]
+        # The nearest of the grid's places on the surface, as squares.
+        seen = self.project(x)
+        seen = seen[np.argsort(-seen[:, 2])]
+        pixel = np.rint((seen[:, :2] - self.begin[:2]) / self.step).astype(int)
+        depth = np.full(n, np.inf)
+        reach = int(d / self.step) + 1
+        for shift in np.ndindex(2 * reach + 1, 2 * reach + 1):
+            to = (pixel + shift - reach).clip(0, n - 1).T
+            np.minimum.at(depth, tuple(to), seen[:, 2])
+        hit = np.isfinite(depth)
+        start = np.stack([*(self.begin[:2, None] +
+                            self.step * np.argwhere(hit).T), depth[hit] - d])
+        at, light = self.surface(density, low, d, cut, start)
+        found = np.isfinite(at[0])
+        result = np.full((3, *n), np.inf)
+        shown = np.where(found, (at - low[:, None]) / d, 0)
+        value = np.where(np.isnan(value), np.nanmean(value), value)
+        result[:, hit] = np.where(found, [
+            (at * self.axes[2][:, None]).sum(0),
+            ndimage.map_coordinates(value, shown, order=1), light], np.inf)
+        return result.transpose(0, 2, 1)
+
+    def keeps(self, x):
+        """How far a place is from what is cut away, there negative."""
+        return np.maximum(self.centre[0] - x[:, 0], x[:, 1] - self.centre[1])
+
+    def surface(self, density, low, d, cut, start):
+        """Where lines of sight come into the body, and how bright it is."""
+        def inside(seen):
+            x = self.axes.T @ seen
+            level = ndimage.map_coordinates(
+                density, (x - low[:, None]) / d, order=1) - 0.5
+            return np.minimum(level, self.keeps(x.T) / d) if cut else level
+        at = np.full(start.shape, np.nan)
+        before = np.full(start.shape[1], -1.0)
+        for k in range(26):
+            seen = start + [[0], [0], [0.25 * k * d]]
+            level = inside(seen)
+            hits = np.isnan(at[0]) & (level >= 0)
+            back = level / np.where(level > before, level - before, 1)
+            at[:, hits] = (seen - [[0], [0], [0.25 * d]] * back)[:, hits]
+            before = level
+        place = np.nan_to_num(at)
+        normal = np.stack([inside(place + e) - inside(place - e) for e in
+                           0.7 * d * np.eye(3)[..., None]])
+        normal /= np.linalg.norm(normal, axis=0) + 1e-30
+        light = 0.72 + 0.28 * np.clip(
+            np.array([0.25, -0.55, 0.8]) @ normal, 0, 1)
+        return self.axes.T @ at, light
+
+    def draw_axes(self, axes, unit):
+        """Numbers on three edges of the box, its other edges as thin lines."""
+        low, high = self.low, self.high
+        corner = {k: self.project(np.array([(low, high)[k >> i & 1][i]
+                                            for i in range(3)])[None])[0, :2]
+                  for k in range(8)}
+        for k in range(8):
+            for i in range(3):
+                if not k >> i & 1:
+                    axes.plot(*np.stack([corner[k], corner[k | 1 << i]]).T,
+                              color="#aaaaaa", lw=0.7, zorder=1)
+        away = 0.02 * max(self.end[:2] - self.begin[:2])
+        for i, (start, side) in enumerate([(0, (-0.4, -1)), (1, (0.7, -0.8)),
+                                           (0, (-1, 0))]):
+            fixed = np.array([(low, high)[start >> j & 1][j] for j in range(3)])
+            for tick in nice_ticks(low[i], high[i], 4):
+                fixed[i] = tick
+                place = self.project(fixed[None])[0, :2]
+                axes.plot(*np.stack([place, place + 0.4 * away *
+                                     np.array(side)]).T, color="black", lw=0.8)
+                axes.text(*(place + away * np.array(side)), f"{tick:g}",
+                          ha="center" if i == 0 else "left" if i == 1
+                          else "right", va="top" if i < 2 else "center")
+            fixed[i] = self.centre[i]
+            axes.text(*(self.project(fixed[None])[0, :2] +
+                        4.5 * away * np.array(side)),
+                      with_unit("xyz"[i], unit), ha="center", va="center")
+        axes.set_aspect("equal")
+        axes.axis("off")
 
 
-def legend(words, table, font, size):
-    """Title and colour bar, at the right of all panels."""
-    renderer = vtk.vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    renderer.AddActor2D(colour_bar(table, font, size[0]))
-    renderer.AddActor2D(text_at(words, font, 0.95, 0.84, "Right"))
-    return renderer
+def nice_ticks(low, high, n):
+    ticks = MaxNLocator(n, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [t for t in ticks if low - 1e-9 * abs(high - low) <= t <=
+            high + 1e-9 * abs(high - low)]
 
 
-def heading(words, font, size):
-    renderer = vtk.vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    renderer.AddActor2D(text_at(words, font, font / size[0], 0.1, "Left"))
-    return renderer
+def with_unit(name, unit):
+    return f"{name} [{unit}]" if unit else name
 
 
-def image_of(renderer, size):
-    """Each renderer has a window of its own: axes are labelled in the lower
-    left part of a window only."""
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*size)
-    window.AddRenderer(renderer)
-    window.Render()
-    image = vtk.vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.Update()
-    return image.GetOutput()
+def name_of(field, component, n, dim):
+    """A field in words."""
+    words = field.replace("_", " ").replace("von mises", "von Mises")
+    if n == 3 and component in VECTOR:
+        return f"{dict(x='horizontal', y='vertical')[component]} {words}" \
+            if dim == 2 and component != "z" else f"{words} in {component}"
+    return f"{words} {component}".strip().replace(" magnitude", "")
 
 
-def joined(images, axis):
-    """Images beside (0) or above (1) each other, the first at left or below."""
-    append = vtk.vtkImageAppend()
-    append.SetAppendAxis(axis)
-    for image in images:
-        append.AddInputData(image)
-    append.Update()
-    return append.GetOutput()
+class Colours:
+    """Bands between round numbers, without the outermost 2 % of the values."""
+
+    def __init__(self, args, panels):
+        value = np.concatenate([panel.value for panel in panels])
+        value = value[np.isfinite(value)]
+        ends = args.range or np.quantile(value, [0.01, 0.99])
+        if ends[1] - ends[0] <= 1e-9 * abs(value).max():
+            ends = [ends[0] - 0.5 * (abs(ends[0]) or 1),
+                    ends[1] + 0.5 * (abs(ends[1]) or 1)]
+        if args.diverging and not args.range:
+            ends = [-max(map(abs, ends)), max(map(abs, ends))]
+        self.levels = MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(
+            *ends)
+        self.map = plt.get_cmap("RdBu_r" if args.diverging else "viridis")
+        self.norm = BoundaryNorm(self.levels, self.map.N, extend="both")
+        self.beyond = ["neither", "min", "max", "both"][
+            (value.min() < self.levels[0]) +
+            2 * (value.max() > self.levels[-1])]
+
+
+def add_arguments(parser):
+    """How a picture looks; what it shows is left to the caller."""
+    parser.add_argument("--label", nargs="+", default=[],
+                        help="above each panel; its time if left out")
+    parser.add_argument("--columns", type=int, default=1, help="of panels")
+    parser.add_argument("--mesh", action="store_true",
+                        help="draw the active cells too (2D)")
+    parser.add_argument("--whole", action="store_true",
+                        help="cut nothing away (3D)")
+    parser.add_argument("--magnify", type=float, default=1.0, metavar="FACTOR",
+                        help="draw points at this many times their "
+                        "displacement")
+    parser.add_argument("--heading", default="", help="above the picture")
+    parser.add_argument("--diverging", action="store_true",
+                        help="colours from blue over white to red")
+    parser.add_argument("--component", default="",
+                        help="of the field: x, y, z; xx, xy, ...; magnitude")
+    parser.add_argument("--range", nargs=2, type=float,
+                        help="values at the ends of the colour bar")
+    parser.add_argument("--title", help="name of the field")
+    parser.add_argument("--unit", default="", help="unit of the field")
+    parser.add_argument("--length-unit", default="", help="unit of the axes")
+
+
+def draw_curves(panels, values, names, against, label, path):
+    """Panels (label, columns) of values by column below each other."""
+    figure, axes = plt.subplots(len(panels), 1, squeeze=False, sharex=True,
+                                figsize=(9, 0.6 + 2.6 * len(panels)),
+                                layout="constrained")
+    for place, (of_axis, columns) in zip(axes.flat, panels):
+        for column in columns:
+            place.plot(values[against], values[column], "o-", ms=3, lw=1.6,
+                       label=names[column])
+        place.set_ylabel(of_axis)
+        place.grid(color="#dddddd")
+        place.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
+    axes[-1, 0].set_xlabel(label)
+    figure.savefig(path, dpi=110)
 
 
 def write_table(panels, path):
     """Position and value of all points."""
-    with open(path, "w") as file:
-        file.write("x,y,z,value\n")
-        for data in (panel.data for panel in panels):
-            values = data.GetPointData().GetArray("value")
-            for i in range(data.GetNumberOfPoints()):
-                row = (*data.GetPoint(i), values.GetValue(i))
-                file.write(",".join(f"{number:.8g}" for number in row) + "\n")
+    rows = np.concatenate([np.column_stack([panel.data.points, panel.value])
+                           for panel in panels])
+    np.savetxt(path, rows, "%.8g", ",", header="x,y,z,value", comments="")
 
 
 def draw(args, path):
-    """Draw args.files as the PNG file `path`, or write a CSV table of them.
-    First of all call start_display()."""
-    load_vtk()
+    """Draw args.files as the PNG file `path`, or write a CSV table of them."""
     panels = [Panel(args, i) for i in range(len(args.files))]
     if path.endswith(".csv"):
-        write_table(panels, path)
-        return
-    bounds = union([panel.bounds() for panel in panels])
-    low, high = zip(*(panel.range for panel in panels))
-    value_range = args.range or (min(low), max(high))
-    table = colours(args.diverging)
-    table.SetTableRange(*value_range)
-
-    font = max(16, args.size[1] // 35)
-    size, scale = panel_size(bounds, args.size[1], font) \
-        if panels[0].flat else (args.size, 1)
-    images = [image_of(panel.renderer(table, value_range, bounds, size, scale,
-                                      font), size) for panel in panels]
-    write_png(page(args, images, table, font), path)
-
-
-def page(args, images, table, font):
-    """The panels in rows, the colour bar beside and the heading above them."""
-    columns = args.columns
-    if len(images) % columns:
+        return write_table(panels, path)
+    if len(panels) % args.columns:
         fail("the panels do not fill the columns")
-    rows = [joined(images[i:i + columns], 0)
-            for i in range(0, len(images), columns)]
-    picture = joined(rows[::-1], 1)
-    side = [max(9 * font, int(0.62 * font * len(title(args)))),
-            picture.GetDimensions()[1]]
-    picture = joined([picture, image_of(legend(title(args), table, font, side),
-                                        side)], 0)
-    top = [picture.GetDimensions()[0], 2 * font + 4]
-    return joined([picture,
-                   image_of(heading(args.heading, font + 4, top), top)], 1)
-
-
-def write_png(picture, path):
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(path)
-    writer.SetCompressionLevel(9)
-    writer.SetInputData(picture)
-    writer.Write()
+    colours = Colours(args, panels)
+    rows = len(panels) // args.columns
+    bounds = [panel.bounds() for panel in panels]
+    low = np.min([b[0] for b in bounds], 0)
+    high = np.max([b[1] for b in bounds], 0)
+    flat = panels[0].dim == 2
+    ratio = (high[1] - low[1]) / (high[0] - low[0]) if flat else 0.9
+    width = min(8.4 / args.columns, 6 / ratio)
+    figure, axes = plt.subplots(
+        rows, args.columns, squeeze=False, layout="constrained",
+        figsize=(args.columns * width + 1.9, rows * (width * ratio + 0.7)
+                 + (0.4 if args.heading else 0)))
+    for panel, place in zip(panels, axes.flat):
+        panel.draw(place, colours)
+        if flat:
+            margin = 0.03 * (high - low).max()
+            place.set_xlim(low[0] - margin, high[0] + margin)
+            place.set_ylim(low[1] - margin, high[1] + margin)
+    bar = figure.colorbar(
+        plt.cm.ScalarMappable(colours.norm, colours.map), ax=axes,
+        ticks=colours.levels, extend=colours.beyond, shrink=0.9,
+        label=with_unit(panels[0].name, panels[0].unit))
+    bar.ax.tick_params(length=0)
+    bar.formatter.set_powerlimits((-2, 4))
+    bar.update_ticks()
+    figure.suptitle(args.heading)
+    figure.savefig(path, dpi=110)

@@ -48,6 +48,12 @@ namespace moraine
       if (!summary.message.empty())
         json["message"] = summary.message;
       json["version"]                = summary.version;
+      if (!summary.units.length.empty())
+        json["units"] = object_of(Summary::List<std::string>{
+          {"length", summary.units.length},
+          {"force", summary.units.force},
+          {"time", summary.units.time},
+          {"stress", summary.units.of("stress")}});
       json["dimension"]              = summary.sizes.dimension;
       json["ranks"]                  = summary.sizes.ranks;
       json["cells"]                  = summary.sizes.cells;

@@ -191,7 +191,7 @@ namespace moraine
                         interpretation);
     names.insert(names.end(), n_components, name);
     if (unit != "-")
-      units[name] = unit;
+      units[name] = scene_units.of(unit);
   }
 
 
@@ -203,7 +203,7 @@ namespace moraine
   {
     names.push_back(name);
     if (unit != "-")
-      units[name] = unit;
+      units[name] = scene_units.of(unit);
   }
 
 

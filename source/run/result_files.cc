@@ -85,9 +85,11 @@ namespace moraine
     , directory(directory)
     , timer(timer)
     , communicator(model.space->communicator())
-    , history(directory.file("history.csv"), communicator)
+    , history(directory.file("history.csv"), communicator, scene.units)
     , points_pvd(directory.file("points.pvd"), communicator)
     , mesh_pvd(directory.file("mesh.pvd"), communicator)
+    , boundaries_pvd(directory.file("boundaries.pvd"), communicator)
+    , translations(translations_of_conditions(scene, model))
     , t_written(scene.start_time())
     , t_accepted(scene.start_time())
   {}
@@ -130,6 +132,8 @@ namespace moraine
     history.write(archive);
     points_pvd.write(archive);
     mesh_pvd.write(archive);
+    if (!model.boundaries.empty())
+      boundaries_pvd.write(archive);
     if (domains_pvd)
       domains_pvd->write(archive);
   }
@@ -152,6 +156,8 @@ namespace moraine
     history.read(archive);
     points_pvd.read(archive);
     mesh_pvd.read(archive);
+    if (archive.contains("output/boundaries.pvd/time"))
+      boundaries_pvd.read(archive);
     if (domains_pvd && archive.contains("output/domains.pvd/time"))
       domains_pvd->read(archive);
   }
@@ -166,8 +172,27 @@ namespace moraine
     // ParaView wants times that grow.
     t_accepted = step.time.coordinate();
     history.add_row(row_of(step));
+    acting.clear();
+    for (const auto &report : step.reports)
+      acting.push_back(report.name);
     if (scene.output.times.due(step.time))
       write_vtu(t_accepted, step.increments);
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::add_motions(const double             t,
+                                std::vector<NamedValue> &row) const
+  {
+    for (const auto &[name, translation] : translations)
+      {
+        const Tensor<1, dim> u = translation(t);
+        for (unsigned int d = 0; d < dim; ++d)
+          row.push_back(
+            {std::string("u_") + "xyz"[d] + " of " + name, "length", u[d]});
+      }
   }
 
 
@@ -204,7 +229,8 @@ namespace moraine
   ResultFiles<dim>::row_of(const AcceptedStep<dim> &step) const
   {
     std::vector<NamedValue> row;
-    row.push_back({"t", "-", step.time.time()});
+    const bool seconds = scene.is_dynamic() && !scene.units.time.empty();
+    row.push_back({"t", seconds ? "time" : "-", step.time.time()});
     if (scene.stages.back().second.time.follows_path())
       row.push_back({"path_length", "length", step.time.path_length()});
     // What does not act in a stage has columns, too, of zeros.
@@ -230,6 +256,7 @@ namespace moraine
           {std::string("reaction_") + "xyz"[d] + " of " + report.name,
            "force",
            report.reaction[d]});
+    add_motions(step.time.time(), row);
     add_moments(reports, row);
     for (unsigned int b = 0; b < model.boundaries.size(); ++b)
       {
@@ -285,10 +312,30 @@ namespace moraine
                             SmoothedStress<dim>(*model.points),
                             directory.file(name),
                             t,
-                            n_vtu_written);
+                            n_vtu_written,
+                            scene.units);
         mesh_pvd.add(t, name);
+        write_boundaries(t);
       }
     ++n_vtu_written;
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::write_boundaries(const double t)
+  {
+    if (model.boundaries.empty())
+      return;
+    on_root(communicator, [this]() {
+      std::filesystem::create_directory(directory.file("boundaries"));
+    });
+    const std::string name =
+      OutputDirectory::vtu_name("boundaries", n_vtu_written);
+    write_boundary_vtu(
+      model, acting, directory.file(name), t, n_vtu_written, scene.units);
+    boundaries_pvd.add(t, name);
   }
 
 
@@ -301,14 +348,19 @@ namespace moraine
     if (!scene.output.points)
       return;
     const std::string name = OutputDirectory::vtu_name("points", n_vtu_written);
-    write_point_vtu(*model.points, directory.file(name), t, n_vtu_written);
+    write_point_vtu(
+      *model.points, directory.file(name), t, n_vtu_written, scene.units);
     points_pvd.add(t, name);
     if (!domains_pvd)
       return;
     const std::string domains =
       OutputDirectory::vtu_name("domains", n_vtu_written);
-    write_domain_vtu(
-      *model.basis, *model.points, directory.file(domains), t, n_vtu_written);
+    write_domain_vtu(*model.basis,
+                     *model.points,
+                     directory.file(domains),
+                     t,
+                     n_vtu_written,
+                     scene.units);
     domains_pvd->add(t, domains);
   }
 

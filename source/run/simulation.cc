@@ -158,6 +158,7 @@ namespace moraine
       const RunCounts &counts       = driver.counts();
       Summary          summary;
       summary.version         = version;
+      summary.units           = scene.units;
       summary.sizes.dimension = dim;
       summary.sizes.ranks     = Utilities::MPI::n_mpi_processes(communicator);
       summary.sizes.cells = model.mesh->triangulation().n_global_active_cells();
@@ -292,6 +293,10 @@ namespace moraine
               const RunTimes                        &times,
               Checkpoints<dim>                      *checkpoints)
     {
+      const auto in_stage = [&](const std::string &what) {
+        const std::string &name = scene.stages[driver.time().stage()].first;
+        return name.empty() ? what : "stage '" + name + "': " + what;
+      };
       const auto fail = [&](const ExitCode code, const std::string &what) {
         end_if_alone(code, what);
         driver.undo();
@@ -325,10 +330,10 @@ namespace moraine
         }
       catch (const ComputationError &error)
         {
-          end_if_alone(not_converged, error.what());
+          status  = "not converged";
+          message = in_stage(error.what());
+          end_if_alone(not_converged, message);
           driver.undo();
-          status         = "not converged";
-          message        = error.what();
           no_equilibrium = dynamic_cast<const NoEquilibrium *>(&error);
           if (checkpoints && checkpoints->are_asked_for() &&
               driver.can_go_on() && checkpoints->write(driver))
@@ -337,7 +342,7 @@ namespace moraine
         }
       catch (const std::exception &error)
         {
-          fail(internal_error, error.what());
+          fail(internal_error, in_stage(error.what()));
           throw;
         }
       Summary summary        = make_summary(scene, model, driver, times);

@@ -134,6 +134,7 @@ namespace moraine
     declare();
     refuse_old_names(input);
     const auto given = input.parse(prm);
+    units = Units(Utilities::split_string_list(prm.get("Units")));
     locate_files(input);
     complete_stages(given,
                     time,
@@ -339,6 +340,12 @@ namespace moraine
                       "2 (plane strain) or 3.",
                       patterns::integer_in_range(2, 3));
     prm.add_parameter("Title", title, "Shown at the start of a run.");
+    prm.declare_entry(
+      "Units",
+      "",
+      Patterns::List(Patterns::Anything(), 0, 3),
+      "Names of the units of length, force and time, as m, kN, s, for results "
+      "and pictures. They change no number.");
 
     const auto section = [this](const std::string &name, auto &parameters) {
       prm.enter_subsection(name);

@@ -5,6 +5,7 @@
 #define moraine_output_domain_vtu_h
 
 #include <moraine/basis/basis.h>
+#include <moraine/core/units.h>
 
 #include <string>
 
@@ -24,7 +25,8 @@ namespace moraine
                    const PointSet<dim> &points,
                    const std::string   &path,
                    const double         time,
-                   const unsigned int   step);
+                   const unsigned int   step,
+                   const Units         &units = Units());
 } // namespace moraine
 
 #endif

@@ -5,6 +5,7 @@
 #define moraine_output_history_h
 
 #include <moraine/core/simulation_state.h>
+#include <moraine/core/units.h>
 #include <moraine/output/named_value.h>
 
 #include <mpi.h>
@@ -18,12 +19,14 @@ namespace moraine
   /**
    * history.csv: one row for each accepted step, written and flushed at once.
    * The first row fixes the columns; the header gives names and units as
-   * "u_y at A [length]", a unit "-" is left out. Numbers have 15 digits.
+   * "u_y at A [length]", or [m] if the scene has units; a unit "-" is left out. Numbers have 15 digits.
    */
   class History : public StatePart
   {
   public:
-    History(const std::string &path, const MPI_Comm &communicator);
+    History(const std::string &path,
+            const MPI_Comm    &communicator,
+            const Units       &units = Units());
 
     /**
      * Write a row. Rank 0 writes, all ranks give the same columns. Collective.
@@ -48,6 +51,7 @@ namespace moraine
 
     std::string              path;
     MPI_Comm                 communicator;
+    Units                    units;
     std::ofstream            file;
     std::vector<std::string> columns;
     std::vector<double>      values; ///< row by row

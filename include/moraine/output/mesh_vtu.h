@@ -4,6 +4,7 @@
 #ifndef moraine_output_mesh_vtu_h
 #define moraine_output_mesh_vtu_h
 
+#include <moraine/core/units.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/smoothed_stress.h>
 
@@ -41,7 +42,8 @@ namespace moraine
                  const SmoothedStress<dim>         &stress,
                  const std::string                 &path,
                  const double                       time,
-                 const unsigned int                 step);
+                 const unsigned int                 step,
+                 const Units                       &units = Units());
 } // namespace moraine
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef moraine_output_point_vtu_h
 #define moraine_output_point_vtu_h
 
+#include <moraine/core/units.h>
 #include <moraine/points/point_set.h>
 
 #include <string>
@@ -37,7 +38,8 @@ namespace moraine
   write_point_vtu(const PointSet<dim> &points,
                   const std::string   &path,
                   const double         time,
-                  const unsigned int   step);
+                  const unsigned int   step,
+                  const Units       &units = Units());
 } // namespace moraine
 
 #endif

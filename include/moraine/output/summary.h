@@ -5,6 +5,7 @@
 #define moraine_output_summary_h
 
 #include <moraine/core/finding.h>
+#include <moraine/core/units.h>
 
 #include <mpi.h>
 
@@ -77,6 +78,7 @@ namespace moraine
     /** It ended with NoEquilibrium; in the message alone in summary.json. */
     bool        no_equilibrium = false;
     std::string version;
+    Units       units; ///< left out if there are none
     Sizes       sizes;
     /** End of the last accepted step. */
     double       time           = 0;

@@ -4,6 +4,8 @@
 #ifndef moraine_output_vtu_file_h
 #define moraine_output_vtu_file_h
 
+#include <moraine/core/units.h>
+
 #include <deal.II/base/data_out_base.h>
 
 #include <mpi.h>
@@ -26,6 +28,11 @@ namespace moraine
   {
   public:
     using Patch = dealii::DataOutBase::Patch<patch_dim, dim>;
+
+    /** @p units name those of the fields. */
+    explicit VtuFile(const Units &units = Units())
+      : scene_units(units)
+    {}
 
     /** Declare a field of one number; its row is the next one. */
     void
@@ -88,6 +95,7 @@ namespace moraine
       const dealii::DataComponentInterpretation::DataComponentInterpretation
         interpretation);
 
+    const Units                        scene_units;
     std::vector<Patch>                 patches;
     std::vector<std::string>           names;
     std::map<std::string, std::string> units;

@@ -7,6 +7,7 @@
 #include <moraine/output/history.h>
 #include <moraine/output/output_directory.h>
 #include <moraine/output/pvd_history.h>
+#include <moraine/run/condition_results.h>
 #include <moraine/run/run_observer.h>
 
 #include <deal.II/base/timer.h>
@@ -61,6 +62,10 @@ namespace moraine
     void
     prepare_domains();
 
+    /** Columns of conditions that move. */
+    void
+    add_motions(const double t, std::vector<NamedValue> &row) const;
+
     /** Columns of conditions that turn. */
     void
     add_moments(const std::vector<BoundaryReport<dim>> &reports,
@@ -73,6 +78,10 @@ namespace moraine
 
     void
     write_vtu(const double t, const Increments &increments);
+
+    /** The surfaces of boundaries, in a folder of their own. */
+    void
+    write_boundaries(const double t);
 
     /**
      * The points alone, which a run that ends early leaves behind: the mesh may
@@ -89,7 +98,11 @@ namespace moraine
     History                   history;
     PvdHistory                points_pvd;
     PvdHistory                mesh_pvd;
+    PvdHistory                boundaries_pvd;
     std::optional<PvdHistory> domains_pvd;
+    /** Of conditions that move; see translations_of_conditions(). */
+    NamedTranslations<dim> translations;
+    std::vector<std::string>  acting; ///< boundaries, in the last step
     unsigned int              n_vtu_written = 0;
     double                    t_written     = 0; ///< of the last VTU file
     double                    t_accepted    = 0;

@@ -6,6 +6,7 @@
 
 #include <moraine/geometry/shape_library.h>
 #include <moraine/core/input_file.h>
+#include <moraine/core/units.h>
 #include <moraine/material/material_library.h>
 #include <moraine/mesh/background_mesh.h>
 #include <moraine/output/error_norms.h>
@@ -116,6 +117,7 @@ namespace moraine
     }
 
     std::string                         title;
+    Units                               units;
     MeshParameters<dim>                 mesh;
     MethodParameters<dim>               method;
     Named<MaterialParameters>           materials;

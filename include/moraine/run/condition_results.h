@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_run_condition_results_h
+#define moraine_run_condition_results_h
+
+#include <moraine/core/units.h>
+#include <moraine/run/model.h>
+#include <moraine/scene/scene.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /** Names and translations [length], functions of t. */
+  template <int dim>
+  using NamedTranslations =
+    std::vector<std::pair<std::string,
+                          std::function<dealii::Tensor<1, dim>(const double)>>>;
+
+  /**
+   * How far boundaries and grid conditions have moved since they began to act:
+   * `Translation` and, where it is the same everywhere, `Displacement`. Those
+   * that do not move, or move differently from place to place, are left out.
+   */
+  template <int dim>
+  NamedTranslations<dim>
+  translations_of_conditions(const Scene<dim> &scene, const Model<dim> &model);
+
+  /**
+   * Write the pieces of the boundaries named @p acting, as points at the end of
+   * the step with their normal, their `size` (length or area) and the number of
+   * their `boundary`. Collective.
+   * @throws InputError naming the file if it cannot be written.
+   */
+  template <int dim>
+  void
+  write_boundary_vtu(const Model<dim>               &model,
+                     const std::vector<std::string> &acting,
+                     const std::string              &path,
+                     const double                    time,
+                     const unsigned int              step,
+                     const Units                    &units);
+} // namespace moraine
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/run/condition_results.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/expression.h>
+#include <moraine/core/words.h>
+#include <moraine/output/vtu_file.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A displacement may depend on the place; at these it shows. */
+    template <int dim>
+    std::vector<Point<dim>>
+    places_to_compare(const BackgroundMesh<dim> &mesh)
+    {
+      const auto box = GridTools::compute_bounding_box(mesh.triangulation());
+      std::vector<Point<dim>> places{box.center()};
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          places.push_back(box.center());
+          places.back()[d] += (0.31 + 0.07 * d) * box.side_length(d);
+        }
+      return places;
+    }
+
+
+
+    /** When the condition @p name begins to act. */
+    template <int dim>
+    double
+    start_of(const std::string &name, const Scene<dim> &scene)
+    {
+      for (const auto &[stage_name, stage] : scene.stages)
+        if (contains(stage.boundaries, name) ||
+            contains(stage.grid_conditions, name))
+          return stage.time.start_time;
+      return scene.start_time();
+    }
+
+
+
+    /** What @p parameters prescribe, if it is one translation. */
+    template <int dim, typename Parameters>
+    void
+    add_translation(const Scene<dim>       &scene,
+                    const Model<dim>       &model,
+                    const std::string      &section,
+                    const std::string      &name,
+                    const Parameters       &parameters,
+                    NamedTranslations<dim> &translations)
+    {
+      const auto &motion = parameters.motion;
+      if (parameters.constraint == "absorbing" ||
+          (motion.translation.empty() && parameters.displacement.empty()))
+        return;
+      const std::string path = section + "/" + name;
+      std::shared_ptr<Expression<dim>> expression;
+      if (!parameters.displacement.empty())
+        expression = std::make_shared<Expression<dim>>(
+          parameters.displacement, place(path, "Displacement"), dim);
+      const auto displacement = [expression](const Point<dim> &x,
+                                             const double      t) {
+        return expression ? expression->vector_value(x, t) : Tensor<1, dim>();
+      };
+      const auto   places = places_to_compare(*model.mesh);
+      const double start  = start_of(name, scene);
+      const double end    = scene.stages.back().second.time.end_time;
+      for (const Point<dim> &x : places)
+        if (displacement(x, end) != displacement(places[0], end) ||
+            displacement(x, start) != displacement(places[0], start))
+          return;
+      Point<dim> centre;
+      for (unsigned int d = 0; d < motion.rotation_centre.size(); ++d)
+        centre[d] = motion.rotation_centre[d];
+      const auto at = [=, rigid = motion.make_motion(path)](const double t) {
+        return (rigid.pose(t).map(centre) - centre) +
+               displacement(places[0], t);
+      };
+      translations.emplace_back(name, [at, start](const double t) {
+        return at(std::max(t, start)) - at(start);
+      });
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  NamedTranslations<dim>
+  translations_of_conditions(const Scene<dim> &scene, const Model<dim> &model)
+  {
+    NamedTranslations<dim> translations;
+    for (const auto &[name, parameters] : scene.boundaries)
+      add_translation(
+        scene, model, "Boundaries", name, parameters, translations);
+    for (const auto &[name, parameters] : scene.grid_conditions)
+      add_translation(
+        scene, model, "Grid conditions", name, parameters, translations);
+    return translations;
+  }
+
+
+
+  template <int dim>
+  void
+  write_boundary_vtu(const Model<dim>               &model,
+                     const std::vector<std::string> &acting,
+                     const std::string              &path,
+                     const double                    time,
+                     const unsigned int              step,
+                     const Units                    &units)
+  {
+    VtuFile<0, dim> file(units);
+    file.add_vector("normal", "-");
+    file.add_scalar("size", dim == 2 ? "length" : "length^2");
+    file.add_scalar("boundary", "-");
+    // At small strain surfaces stay where they are.
+    const bool stay = model.state->mesh_after_step() == MeshAfterStep::keep;
+    std::vector<typename VtuFile<0, dim>::Patch> patches;
+    for (unsigned int b = 0; b < model.boundaries.size(); ++b)
+      {
+        const ImplicitBoundary<dim> &boundary = model.boundaries[b];
+        if (!contains(acting, boundary.name()))
+          continue;
+        const Placement<dim> &before = boundary.pose_at_start();
+        const Placement<dim>  now    = stay ? before :
+                                              boundary.rigid_motion().pose(time);
+        for (const BoundaryPoint<dim> &point : boundary.points())
+          if (point.holds)
+            {
+              const Tensor<1, dim> normal =
+                now.rotate(before.inverse().rotate(point.normal));
+              patches.emplace_back();
+              patches.back().vertices[0] = now.map(before.inverse(point.x));
+              patches.back().data.reinit(file.n_rows(), 1);
+              for (unsigned int d = 0; d < dim; ++d)
+                patches.back().data(d, 0) = normal[d];
+              patches.back().data(dim, 0)     = point.JxW;
+              patches.back().data(dim + 1, 0) = b;
+            }
+      }
+    file.write(path,
+               time,
+               step,
+               model.space->communicator(),
+               patches.size(),
+               [&patches](const unsigned int i) { return patches[i]; });
+  }
+
+
+
+#define INSTANTIATE(dim)                                              \
+  template NamedTranslations<dim> translations_of_conditions(         \
+    const Scene<dim> &, const Model<dim> &);                          \
+  template void write_boundary_vtu(const Model<dim> &,                \
+                                   const std::vector<std::string> &,  \
+                                   const std::string &,               \
+                                   const double,                      \
+                                   const unsigned int,                \
+                                   const Units &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace moraine
