@@ -16,8 +16,8 @@
 
 // Keeps boost 1.74 from printing a note about its own code.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
 
 #include <sstream>
 
@@ -29,27 +29,55 @@ namespace moraine
   {
     using Tree = boost::property_tree::ptree;
 
-    /** What the handler knows, as a tree of sections and entries. */
-    Tree
-    declared_tree(ParameterHandler &prm)
-    {
-      std::stringstream json;
-      prm.print_parameters(json,
-                           ParameterHandler::JSON |
-                             ParameterHandler::KeepDeclarationOrder);
-      Tree tree;
-      boost::property_tree::read_json(json, tree);
-      return tree;
-    }
-
-
-
     /** deal.II's entries hold their pattern; sections hold only trees. */
     bool
     is_entry(const Tree &node)
     {
       const auto pattern = node.find("pattern_description");
       return pattern != node.not_found() && pattern->second.empty();
+    }
+
+
+
+    /** deal.II writes all but letters and digits as "_2e". */
+    std::string
+    plain_name(const std::string &mangled)
+    {
+      std::string name;
+      for (std::size_t i = 0; i < mangled.size(); ++i)
+        if (mangled[i] == '_' && i + 2 < mangled.size())
+          {
+            name += static_cast<char>(
+              std::stoi(mangled.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+          }
+        else
+          name += mangled[i];
+      return name;
+    }
+
+    Tree
+    with_plain_names(const Tree &mangled)
+    {
+      Tree tree(mangled.data());
+      for (const auto &[name, node] : mangled)
+        tree.push_back({is_entry(mangled) ? name : plain_name(name),
+                        with_plain_names(node)});
+      return tree;
+    }
+
+    /** What the handler knows, as a tree of sections and entries. As JSON, a
+     * name with a point would become two. */
+    Tree
+    declared_tree(ParameterHandler &prm)
+    {
+      std::stringstream xml;
+      prm.print_parameters(xml,
+                           ParameterHandler::XML |
+                             ParameterHandler::KeepDeclarationOrder);
+      Tree tree;
+      boost::property_tree::read_xml(xml, tree);
+      return with_plain_names(tree.get_child("ParameterHandler"));
     }
 
 

@@ -48,12 +48,12 @@ namespace moraine
       if (!summary.message.empty())
         json["message"] = summary.message;
       json["version"]                = summary.version;
-      if (!summary.units.length.empty())
+      if (!summary.sizes.units.length.empty())
         json["units"] = object_of(Summary::List<std::string>{
-          {"length", summary.units.length},
-          {"force", summary.units.force},
-          {"time", summary.units.time},
-          {"stress", summary.units.of("stress")}});
+          {"length", summary.sizes.units.length},
+          {"force", summary.sizes.units.force},
+          {"time", summary.sizes.units.time},
+          {"stress", summary.sizes.units.of("stress")}});
       json["dimension"]              = summary.sizes.dimension;
       json["ranks"]                  = summary.sizes.ranks;
       json["cells"]                  = summary.sizes.cells;
@@ -96,8 +96,8 @@ namespace moraine
         }
       if (!summary.energy.empty())
         json["energy"] = object_of(summary.energy);
-      json["probes"]    = object_of(summary.probes);
-      json["reactions"] = object_of(summary.reactions);
+      json["probes"]    = object_of(summary.last.probes);
+      json["reactions"] = object_of(summary.last.reactions);
       return json;
     }
   } // namespace

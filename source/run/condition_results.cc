@@ -10,7 +10,6 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
 #include <memory>
 
 namespace moraine
@@ -19,19 +18,32 @@ namespace moraine
 
   namespace
   {
-    /** A displacement may depend on the place; at these it shows. */
-    template <int dim>
-    std::vector<Point<dim>>
-    places_to_compare(const BackgroundMesh<dim> &mesh)
+    /** Whether @p displacement is the same everywhere in the mesh, at @p start
+     * and at @p end; not if it is no number there. */
+    template <int dim, typename Displacement>
+    bool
+    is_uniform(const Displacement        &displacement,
+               const BackgroundMesh<dim> &mesh,
+               const double               start,
+               const double               end)
     {
       const auto box = GridTools::compute_bounding_box(mesh.triangulation());
-      std::vector<Point<dim>> places{box.center()};
-      for (unsigned int d = 0; d < dim; ++d)
+      try
         {
-          places.push_back(box.center());
-          places.back()[d] += (0.31 + 0.07 * d) * box.side_length(d);
+          for (const double t : {start, end})
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                Point<dim> x = box.center();
+                x[d] += (0.31 + 0.07 * d) * box.side_length(d);
+                if (displacement(x, t) != displacement(box.center(), t))
+                  return false;
+              }
         }
-      return places;
+      catch (const InputError &)
+        {
+          return false;
+        }
+      return true;
     }
 
 
@@ -73,22 +85,21 @@ namespace moraine
                                              const double      t) {
         return expression ? expression->vector_value(x, t) : Tensor<1, dim>();
       };
-      const auto   places = places_to_compare(*model.mesh);
-      const double start  = start_of(name, scene);
-      const double end    = scene.stages.back().second.time.end_time;
-      for (const Point<dim> &x : places)
-        if (displacement(x, end) != displacement(places[0], end) ||
-            displacement(x, start) != displacement(places[0], start))
-          return;
+      const double start = start_of(name, scene);
+      if (!is_uniform(displacement,
+                      *model.mesh,
+                      start,
+                      scene.stages.back().second.time.end_time))
+        return;
       Point<dim> centre;
       for (unsigned int d = 0; d < motion.rotation_centre.size(); ++d)
         centre[d] = motion.rotation_centre[d];
       const auto at = [=, rigid = motion.make_motion(path)](const double t) {
         return (rigid.pose(t).map(centre) - centre) +
-               displacement(places[0], t);
+               displacement(centre, t);
       };
       translations.emplace_back(name, [at, start](const double t) {
-        return at(std::max(t, start)) - at(start);
+        return t > start ? at(t) - at(start) : Tensor<1, dim>();
       });
     }
   } // namespace

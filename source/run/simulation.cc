@@ -13,6 +13,7 @@
 #include <moraine/run/checkpoints.h>
 #include <moraine/run/console_report.h>
 #include <moraine/scene/located.h>
+#include <moraine/run/history_row.h>
 #include <moraine/run/result_files.h>
 #include <moraine/run/resume.h>
 #include <moraine/run/stage_start.h>
@@ -113,14 +114,21 @@ namespace moraine
       if (model.system->step_context().motion)
         summary.energy = energy_of(model.motion->works());
       for (const auto &value : model.probes->values(*model.points))
-        summary.probes.emplace_back(value.name, value.value);
+        summary.last.probes.emplace_back(value.name, value.value);
       for (const auto &report : driver.reports())
         {
           std::vector<double> reaction(dim);
           for (unsigned int d = 0; d < dim; ++d)
             reaction[d] = report.reaction[d];
-          summary.reactions.emplace_back(report.name, reaction);
+          summary.last.reactions.emplace_back(report.name, reaction);
         }
+      for (const auto &value :
+           history_row(scene,
+                       model,
+                       translations_of_conditions(scene, model),
+                       driver.time(),
+                       driver.reports()))
+        summary.last.history.emplace_back(value.name, value.value);
     }
 
 
@@ -158,7 +166,7 @@ namespace moraine
       const RunCounts &counts       = driver.counts();
       Summary          summary;
       summary.version         = version;
-      summary.units           = scene.units;
+      summary.sizes.units     = scene.output.units;
       summary.sizes.dimension = dim;
       summary.sizes.ranks     = Utilities::MPI::n_mpi_processes(communicator);
       summary.sizes.cells = model.mesh->triangulation().n_global_active_cells();

@@ -134,7 +134,7 @@ namespace moraine
     declare();
     refuse_old_names(input);
     const auto given = input.parse(prm);
-    units = Units(Utilities::split_string_list(prm.get("Units")));
+    output.units = Units(Utilities::split_string_list(prm.get("Units")));
     locate_files(input);
     complete_stages(given,
                     time,
@@ -343,7 +343,7 @@ namespace moraine
     prm.declare_entry(
       "Units",
       "",
-      Patterns::List(Patterns::Anything(), 0, 3),
+      Patterns::List(Patterns::Anything()),
       "Names of the units of length, force and time, as m, kN, s, for results "
       "and pictures. They change no number.");
 

@@ -27,16 +27,17 @@ namespace moraine
       "Error",
       error,
       "Of 'moraine study': the error to plot against time. A name from 'errors' "
-      "in summary.json (r_u, l2_u, ...), or 'probe' and a column of a probe "
-      "('probe u_y at corner'), measured against the reference value. The "
+      "in summary.json (r_u, l2_u, ...), or a column of history.csv "
+      "('u_y at corner', 'reaction_y of footing'), whose last value is compared "
+      "with the reference value or, without one, with the next finer case. The "
       "first of the errors if left out.");
-    prm.add_parameter(
-      "Reference value",
-      reference_value,
-      "Of 'moraine study': what the probe should show; the "
-      "error is |value/reference - 1|. Other errors are divided "
-      "by it, if it is given. Each case may have its own.",
-      patterns::NumberText());
+    prm.add_parameter("Reference value",
+                      reference_value,
+                      "Of 'moraine study': what the column should show at the "
+                      "end; the error is |value/reference - 1|. Other errors "
+                      "are divided by it, if it is given. Each case may have "
+                      "its own.",
+                      patterns::NumberText());
     prm.add_parameter(
       "Group by",
       group_by,

@@ -13,6 +13,7 @@
 #include <moraine/study/study.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/table_handler.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -117,7 +118,7 @@ namespace moraine
         row["wall_seconds"]      = summary.wall_seconds;
         row["unknowns"]          = summary.sizes.unknowns;
         row["probes"]            = Json::object();
-        for (const auto &[name, value] : summary.probes)
+        for (const auto &[name, value] : summary.last.probes)
           row["probes"][name] = value;
         json["trials"].push_back(row);
       }
@@ -165,6 +166,8 @@ namespace moraine
         if (result.status == "interrupted")
           break;
       }
+    if (results.size() > 1)
+      print_table();
     console << "  results in " << folder << "/summary.json" << std::endl;
     return !input_is_right ? wrong_input : found ? done : not_converged;
   }
@@ -234,7 +237,7 @@ namespace moraine
     with_factor.choices.emplace_back(factor_path, exactly(factor));
     with_factor.input.apply_override(factor_path + " = " + exactly(factor));
     const Summary summary = summary_of_case(with_factor.input, communicator);
-    rows.push_back({with_factor, summary, std::nullopt});
+    rows.push_back({with_factor, summary, {}, {}});
     on_root(communicator, [&]() {
       StudyReport{folder, "", "", "", "", "", cases, rows}.write_csv();
     });
@@ -329,6 +332,43 @@ namespace moraine
                 << '\n';
       }
     console.stream() << std::flush;
+  }
+
+
+
+  void
+  SafetyStudy::print_table() const
+  {
+    const auto   paths = choice_paths(cases);
+    const auto   names = short_names(paths);
+    TableHandler table;
+    for (std::size_t i = 0; i < results.size(); ++i)
+      {
+        const Result &result    = results[i];
+        const auto    or_dash   = [](const std::optional<double> &factor) {
+          return factor ? fixed(*factor, 4) : std::string("-");
+        };
+        double seconds = 0;
+        for (const Trial &trial : result.trials)
+          seconds += trial.summary.wall_seconds;
+        for (std::size_t p = 0; p < paths.size(); ++p)
+          table.add_value(names[p], value_of(cases[i], paths[p]));
+        table.add_value("factor of safety",
+                        result.status == "ok" ?
+                          fixed(result.factor_of_safety(), 4) :
+                          "-");
+        table.add_value("stood at", or_dash(result.stood));
+        table.add_value("failed at", or_dash(result.failed));
+        table.add_value("trials", std::to_string(result.trials.size()));
+        table.add_value("unknowns",
+                        std::to_string(
+                          result.trials.back().summary.sizes.unknowns));
+        table.add_value("seconds", text_of(seconds, 3));
+        table.add_value("status", result.status);
+      }
+    std::ostringstream text;
+    table.write_text(text, TableHandler::org_mode_table);
+    console << text.str() << '\n';
   }
 
 

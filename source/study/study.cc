@@ -83,18 +83,15 @@ namespace moraine
 
 
 
-    /** @throw InputError if no error can be measured against it. */
     void
     check_reference(const StudyParameters &parameters)
     {
       const auto reference = number_from(parameters.reference_value);
-      if ((reference ? *reference == 0. :
-                       !parameters.reference_value.empty()) ||
-          (parameters.error.rfind("probe ", 0) == 0 && !reference))
-        throw InputError(place("Study", "Reference value") + ": found '" +
-                         parameters.reference_value +
-                         "', allowed with an error of a probe: a number other "
-                         "than 0");
+      if (reference ? *reference == 0. : !parameters.reference_value.empty())
+        reject("Study",
+               "Reference value",
+               parameters.reference_value,
+               "a number other than 0");
     }
 
 
@@ -324,11 +321,16 @@ namespace moraine
         const Summary &summary = results.back().summary;
         console << "  case " << std::setw(4) << i + 1 << "  " << cases[i].label
                 << ": " << text_of(summary.wall_seconds, 3) << " s";
+        if (results.back().value)
+          console << ", " << column_of_error(parameters[i].error) << " = "
+                  << text_of(*results.back().value, 6);
         if (results.back().error)
           console << ", error " << text_of(*results.back().error, 3);
         if (summary.status != "ok")
           console << ", " << summary.status << ": " << summary.message;
         console.stream() << std::endl;
+        if (parameters[i].reference_value.empty())
+          compare_neighbours(cases, results);
         on_root(communicator, [this]() { report().write_csv(); });
         converged      = converged && summary.status == "ok";
         input_is_right = input_is_right && summary.status != "wrong input";
@@ -374,37 +376,47 @@ namespace moraine
   Study::run_case(const std::size_t i)
   {
     reset_peak_memory();
-    const Summary summary = summary_of_case(cases[i].input, communicator);
-    return {cases[i], summary, error_of(summary, i)};
+    StudyResult result{
+      cases[i], summary_of_case(cases[i].input, communicator), {}, {}};
+    if (result.summary.status == "ok")
+      measure(parameters[i], result);
+    return result;
   }
 
 
 
-  std::optional<double>
-  Study::error_of(const Summary &summary, const std::size_t i) const
+  void
+  Study::measure(const StudyParameters &asked, StudyResult &result) const
   {
-    if (summary.status != "ok")
-      return std::nullopt;
-    const std::string &error     = parameters[i].error;
-    const auto         reference = number_from(parameters[i].reference_value);
+    const auto               reference = number_from(asked.reference_value);
     std::vector<std::string> known;
-    for (const auto &[name, value] : summary.errors)
+    for (const auto &[name, value] : result.summary.errors)
       {
-        if (name == error || error.empty())
-          return value && reference ? *value / std::abs(*reference) : value;
+        if (name == asked.error || asked.error.empty())
+          {
+            result.error =
+              value && reference ? *value / std::abs(*reference) : value;
+            return;
+          }
         known.push_back(name);
       }
-    for (const auto &[name, value] : summary.probes)
+    if (asked.error.empty())
+      return;
+    const std::string column = column_of_error(asked.error);
+    for (const auto &[name, value] : result.summary.last.history)
       {
-        if ("probe " + name == error)
-          return std::abs(value / *reference - 1);
-        known.push_back("probe " + name);
+        if (name == column)
+          {
+            result.value = value;
+            if (reference)
+              result.error = std::abs(value / *reference - 1);
+            return;
+          }
+        known.push_back(name);
       }
-    if (error.empty())
-      return std::nullopt;
-    throw InputError(place("Study", "Error") + ": found '" + error +
+    throw InputError(place("Study", "Error") + ": found '" + asked.error +
                      "', which this scene does not have" +
-                     suggest(error, known));
+                     suggest(column, known));
   }
 
 

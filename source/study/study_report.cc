@@ -86,10 +86,12 @@ namespace moraine
         return cells;
       if (result.error)
         number("error", *result.error);
+      if (result.value)
+        number("value", *result.value);
       for (const auto &[name, value] : summary.errors)
         if (value)
           number(name, *value);
-      for (const auto &[name, value] : summary.probes)
+      for (const auto &[name, value] : summary.last.probes)
         number(name, value);
       number("wall_seconds", summary.wall_seconds);
       for (const auto &[name, seconds] : summary.timings)
@@ -272,6 +274,55 @@ namespace moraine
 
 
 
+  std::string
+  column_of_error(const std::string &error)
+  {
+    for (const std::string kind : {"probe ", "history "})
+      if (error.rfind(kind, 0) == 0)
+        return Utilities::trim(error.substr(kind.size()));
+    return error;
+  }
+
+
+
+  void
+  compare_neighbours(const std::vector<StudyCase> &cases,
+                     std::vector<StudyResult>     &results)
+  {
+    for (StudyResult &result : results)
+      {
+        const StudyResult *next = nullptr;
+        for (const StudyResult &other : results)
+          if (result.value && other.value && is_less_fine(&result, &other) &&
+              only_difference(result.study_case, other.study_case) ==
+                refined_choice(cases) &&
+              (!next || is_less_fine(&other, next)))
+            next = &other;
+        if (next && *next->value != 0.)
+          result.error = std::abs(*result.value / *next->value - 1);
+      }
+  }
+
+
+
+  std::vector<std::string>
+  short_names(const std::vector<std::string> &paths)
+  {
+    std::vector<std::string> names;
+    for (const std::string &path : paths)
+      {
+        const std::string key = path.substr(path.rfind('/') + 1);
+        const bool        once =
+          std::count_if(paths.begin(), paths.end(), [&](const auto &other) {
+            return names_choice(key, other);
+          }) == 1;
+        names.push_back(once ? key : path);
+      }
+    return names;
+  }
+
+
+
   void
   StudyReport::write_csv() const
   {
@@ -307,7 +358,12 @@ namespace moraine
   void
   StudyReport::print_table(Console &console) const
   {
-    const auto paths = choice_paths(cases);
+    const auto paths      = choice_paths(cases);
+    const auto names      = short_names(paths);
+    const bool has_values = std::any_of(
+      results.begin(), results.end(), [](const auto &result) {
+        return result.value.has_value();
+      });
     const bool conditioned =
       std::any_of(results.begin(), results.end(), [](const auto &result) {
         return result.summary.linear.condition_number.has_value();
@@ -321,16 +377,14 @@ namespace moraine
         const auto or_dash = [](const bool has, const std::string &text) {
           return has && !text.empty() ? text : std::string("-");
         };
-        for (const std::string &path : paths)
-          {
-            const std::string key = path.substr(path.rfind('/') + 1);
-            const bool        once =
-              std::count_if(paths.begin(), paths.end(), [&](const auto &other) {
-                return names_choice(key, other);
-              }) == 1;
-            table.add_value(once ? key : path,
-                            or_dash(true, value_of(result.study_case, path)));
-          }
+        for (std::size_t p = 0; p < paths.size(); ++p)
+          table.add_value(names[p],
+                          or_dash(true,
+                                  value_of(result.study_case, paths[p])));
+        if (has_values)
+          table.add_value("value",
+                          or_dash(result.value.has_value(),
+                                  text_of(result.value.value_or(0.), 6)));
         table.add_value("error",
                         or_dash(result.error.has_value(),
                                 text_of(result.error.value_or(0.), 4)));
@@ -450,8 +504,12 @@ namespace moraine
     for (const StudyResult &result : results)
       if (shown.empty() && result.error)
         shown = result.summary.errors.front().first;
-    if (shown.rfind("probe ", 0) == 0)
-      return "relative error of " + shown.substr(6) + " [-]";
+    if (std::any_of(results.begin(), results.end(), [](const auto &result) {
+          return result.value.has_value();
+        }))
+      return (reference.empty() ? "relative change to the next finer case of " :
+                                  "relative error of ") +
+             column_of_error(shown) + " [-]";
     if (!reference.empty())
       return shown + " / " + reference + " [-]";
     return shown + (shown == "max_u" ? " [length]" :
@@ -520,8 +578,8 @@ namespace moraine
     const auto all = curves();
     if (all.empty())
       {
-        console << "  no plot: no case has an error above zero (an exact "
-                   "solution, or a probe with a reference, gives one)"
+        console << "  no plot: no case has an error above zero (from an exact "
+                   "solution, or a column of the history)"
                 << std::endl;
         return;
       }

@@ -257,8 +257,8 @@ namespace moraine
     summary.effects         = {"internal force"};
     summary.linear.solvers  = {"direct"};
     summary.errors          = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
-    summary.probes          = {{"u_x at A", 0.125}};
-    summary.reactions       = {{"left", {1., -2.}}};
+    summary.last.probes          = {{"u_x at A", 0.125}};
+    summary.last.reactions       = {{"left", {1., -2.}}};
     const std::string path  = folder.file("summary.json");
     summary.write(path, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), R"({

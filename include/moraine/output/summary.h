@@ -41,6 +41,7 @@ namespace moraine
       std::uint64_t points          = 0;
       unsigned int  bytes_per_point = 0;
       double        peak_memory_mib = 0;
+      Units         units; ///< left out if there are none
     };
 
     /** What solving linear systems took. */
@@ -71,6 +72,15 @@ namespace moraine
       std::vector<Finding> warnings, hints;
     };
 
+    /** After the last step. */
+    struct LastValues
+    {
+      List<double> probes; ///< by column name
+      /** Force of each boundary, by component. */
+      List<std::vector<double>> reactions;
+      List<double> history; ///< all columns; not in summary.json
+    };
+
     /** "ok", "not converged", "interrupted" or "failed". */
     std::string status = "ok";
     /** What went wrong; left out if nothing did. */
@@ -78,7 +88,6 @@ namespace moraine
     /** It ended with NoEquilibrium; in the message alone in summary.json. */
     bool        no_equilibrium = false;
     std::string version;
-    Units       units; ///< left out if there are none
     Sizes       sizes;
     /** End of the last accepted step. */
     double       time           = 0;
@@ -97,13 +106,10 @@ namespace moraine
     Findings                 found;
     /** Left out if the scene has no exact solution. */
     List<std::optional<double>> errors;
-    /** Last values of the probes by column name. */
-    List<double> probes;
     /** Parts of the energy at the end, and what is out of balance over the
      * largest of them; left out in quasi-static runs. */
     List<double> energy;
-    /** Last force of each boundary, by component. */
-    List<std::vector<double>> reactions;
+    LastValues   last;
 
     /** The text of summary.json. A number that is not finite becomes null. */
     std::string

@@ -7,7 +7,7 @@
 #include <moraine/output/history.h>
 #include <moraine/output/output_directory.h>
 #include <moraine/output/pvd_history.h>
-#include <moraine/run/condition_results.h>
+#include <moraine/run/history_row.h>
 #include <moraine/run/run_observer.h>
 
 #include <deal.II/base/timer.h>
@@ -62,19 +62,7 @@ namespace moraine
     void
     prepare_domains();
 
-    /** Columns of conditions that move. */
-    void
-    add_motions(const double t, std::vector<NamedValue> &row) const;
-
-    /** Columns of conditions that turn. */
-    void
-    add_moments(const std::vector<BoundaryReport<dim>> &reports,
-                std::vector<NamedValue>                &row) const;
-
     using Increments = std::vector<dealii::Tensor<1, dim>>;
-
-    std::vector<NamedValue>
-    row_of(const AcceptedStep<dim> &step) const;
 
     void
     write_vtu(const double t, const Increments &increments);

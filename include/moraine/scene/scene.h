@@ -82,6 +82,7 @@ namespace moraine
     /** Ids of diagnostics that are not asked. */
     std::vector<std::string> silence;
     OutputTimes              times;
+    Units                    units; ///< key `Units` of the scene
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -117,7 +118,6 @@ namespace moraine
     }
 
     std::string                         title;
-    Units                               units;
     MeshParameters<dim>                 mesh;
     MethodParameters<dim>               method;
     Named<MaterialParameters>           materials;

@@ -121,6 +121,10 @@ namespace moraine
     void
     print(const Result &result, const StudyCase &study_case);
 
+    /** All cases, if there are several. */
+    void
+    print_table() const;
+
     void
     write_summary() const;
 

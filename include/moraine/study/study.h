@@ -109,9 +109,10 @@ namespace moraine
     double
     longest_time(const StudyResult &result) const;
 
-    /** By what case @p i is measured against. */
-    std::optional<double>
-    error_of(const Summary &summary, const std::size_t i) const;
+    /** Set the error of a result, or the value that is to be compared.
+     * @throw InputError if the scene does not have what is @p asked for */
+    void
+    measure(const StudyParameters &asked, StudyResult &result) const;
 
     StudyReport
     report() const;

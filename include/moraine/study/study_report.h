@@ -21,7 +21,26 @@ namespace moraine
     StudyCase             study_case;
     Summary               summary;
     std::optional<double> error; ///< the one that is plotted
+    std::optional<double> value; ///< of a column of the history, at the end
   };
+
+  /** The column of the history that `Study / Error` names, with or without
+   * 'probe' or 'history' before it. */
+  std::string
+  column_of_error(const std::string &error);
+
+  /**
+   * Without a reference value: the error of each result with a value becomes
+   * @f$|v/v' - 1|@f$, where @f$v'@f$ is that of the next finer case (more
+   * unknowns or steps, all other choices equal); the finest has none.
+   */
+  void
+  compare_neighbours(const std::vector<StudyCase> &cases,
+                     std::vector<StudyResult>     &results);
+
+  /** Keys of choices as short as they are distinct. */
+  std::vector<std::string>
+  short_names(const std::vector<std::string> &paths);
 
   /** A number with so many digits. */
   std::string
