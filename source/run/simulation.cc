@@ -303,7 +303,10 @@ namespace moraine
     {
       const auto in_stage = [&](const std::string &what) {
         const std::string &name = scene.stages[driver.time().stage()].first;
-        return name.empty() ? what : "stage '" + name + "': " + what;
+        const std::string  stage = "stage '" + name + "'";
+        const bool         says_so =
+          name.empty() || what.find(stage) != std::string::npos;
+        return says_so ? what : stage + ": " + what;
       };
       const auto fail = [&](const ExitCode code, const std::string &what) {
         end_if_alone(code, what);

@@ -6,11 +6,9 @@
 run patch verification/patch
 run patch-random verification/patch-random
 render patch "$(last patch/points)" "$(last patch-random/points)" --columns 2 \
-  --label "one point per cell, clipped" "1600 random points" \
-  --grid -60 -30 120 150 10 --field stress --component xx --range 0 20 \
-  --diverging --heading "Patch test: exact stress xx is 10 everywhere" \
-  --title "stress xx" --unit "N/mm²" --length-unit mm --size 500 460 \
-  --wall 0 0 95.63 29.24 66.39 124.87 -29.24 95.63 0 0
+  --label "one point per cell, clipped" "1600 random points" --field stress --component xx \
+  --range 0 20 --diverging --heading "Patch test: exact stress xx is 10 everywhere" \
+  --title "stress xx" --unit "N/mm²" --length-unit mm
 
 for h in 4 1; do
   run "column-$h" verification/column "Mesh/Cell size = $h"
@@ -70,15 +68,6 @@ plot 'loads/history.csv' using 't':(of_all('x')) w p lt 1 ps 2 title 'reactions,
 GP
 
 run motion verification/rigid-motion
-# moved T: the sides of the block at time T
-moved() {
-  awk "BEGIN { split(\"0 0 55 0 55 40 0 40 0 0\", p, \" \"); a = 20 * 3.14159265 / 180
-    for (i = 1; i < 10; i += 2) printf \"%.3f %.3f \",
-      cos(a) * p[i] - sin(a) * p[i+1] + 37 * $1, sin(a) * p[i] + cos(a) * p[i+1] + 21 * $1 }"
-}
 render rigid-motion motion/points/000{00,10}.vtu --columns 2 \
-  --label "start" "after 10 steps" --grid -30 -30 120 120 10 \
-  --field displacement --component magnitude --range 0 50 --size 500 460 \
-  --heading "Rigid motion by 3.7 and 2.1 cells" \
-  --title "|u|" --unit "mm" --length-unit mm \
-  --wall-of 1 $(moved 0) --wall-of 2 $(moved 1)
+  --label "start" "after 10 steps" --field displacement --component magnitude --range 0 50 \
+  --heading "Rigid motion by 3.7 and 2.1 cells" --title "|u|" --unit "mm" --length-unit mm

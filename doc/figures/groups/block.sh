@@ -4,12 +4,9 @@
 # Contained block and simple shear: published errors.
 
 run block cortis-2017/block-30
-render block-30 "$(last block/points)" --mesh "$(last block/mesh)" \
-  --field displacement --component magnitude --range 0 1 \
-  --heading "Contained block at 30 degrees, skew Nitsche" \
-  --title "|u|" --unit mm --length-unit mm --size 640 640 --point-scale 0.8 \
-  --wall 0 0 86.60 50 --wall 87.47 50.5 37.47 137.1 \
-  --wall 36.60 136.6 -50 86.60 0 0
+render block-30 "$(last block/points)" --mesh --field displacement --component magnitude \
+  --range 0 1 --heading "Contained block at 30 degrees, skew Nitsche" --title "|u|" \
+  --unit mm --length-unit mm
 
 study block-study cortis-2017/block-study "Mesh/Cell size = 10" \
   "Constants/angle = {{0|30|45}}"
@@ -36,11 +33,9 @@ plot data using (column(band)):(error( 0, 'weighted')) w lp lt 4 pt 10 title 'we
 GP
 
 run shear cortis-2017/simple-shear
-render simple-shear "$(last shear/points)" --grid 0 0 200 100 100 \
-  --field displacement --component y --range 0 10 \
-  --heading "Simple shear at x_A = 10 mm, skew Nitsche" \
-  --title "u_y" --unit mm --length-unit mm --size 900 420 --point-scale 0.6 \
-  --wall 10 0 10 100 --wall 110 0 110 100 --wall 10 0 110 0 --wall 10 100 110 100
+render simple-shear "$(last shear/points)" --field displacement --component y --range 0 10 \
+  --heading "Simple shear at x_A = 10 mm, skew Nitsche" --title "u_y" --unit mm \
+  --length-unit mm
 
 study shear-study cortis-2017/simple-shear "Study/Error = r_sigma_xy" \
   "Constants/x_A = {{0|1e-6|1e-3|0.1|1|5|10|20|25|30|40|50|60|70|75|80|90|95|99|99.9|99.999|100}}" \

@@ -130,6 +130,6 @@ plot 'viscous-dmgc.csv' using 1:4 w l lt 1 title 'viscous', \
 GP
 
 render footing-plastic "$(last fixed-dmgc/points)" "$(last viscous-dmgc/points)" "$(last viscoelastic-dmgc/points)" \
-  --columns 3 --label "fixed" "viscous" "viscoelastic" --field plastic_strain --range 0 0.005 \
-  --grid 0 -4 3 0 0.125 --size 400 560 --heading "Plastic strain at t = 0.925 s, DM-GC, h = 0.125 m" \
-  --title "plastic strain" --unit "-" --length-unit m
+  --columns 3 --label "fixed" "viscous" "viscoelastic" --field plastic_strain \
+  --range 0 0.005 --heading "Plastic strain at t = 0.925 s, DM-GC, h = 0.125 m" \
+  --title "plastic strain" --length-unit m

@@ -33,18 +33,17 @@ run slope-fe geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = cel
 run slope-q2 geotechnics/slope "${undrained[@]}" "Method/Method = finite element" \
   "Method/Degree = 2"
 
-render undrained-stress "$(last slope-pointwise/points)" "$(last slope-cell/points)" \
-  "$(last slope-q2/points)" --columns 1 --label "GIMP, pointwise" "GIMP, cell mean" \
-  "FE Q2" --field mean_stress --range -250 50 \
-  --title "mean stress" --unit kPa --length-unit m --size 900 290 \
+render undrained-stress "$(last slope-pointwise/points)" "$(last slope-cell/points)" "$(last slope-q2/points)" \
+  --columns 1 --label "GIMP, pointwise" "GIMP, cell mean" "FE Q2" --field mean_stress \
+  --range -250 50 --title "mean stress" --unit kPa --length-unit m \
   --heading "Mean stress under the full weight, h = 0.5 m, Poisson's ratio 0.49"
 
 plot undrained-settlement <<'GP'
 set title 'Embankment of undrained clay, finite strain, h = 0.5 m, ν = 0.49'
 set xlabel 'part of the weight  [-]'
 set ylabel 'settlement of the crest  [m]'
-plot 'slope-pointwise/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 1 title 'GIMP, pointwise', \
-     'slope-cell/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 3 title 'GIMP, cell mean', \
-     'slope-fe/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 4 title 'FE, cell mean', \
-     'slope-q2/history.csv' using (column('t')):(-column('u_y at crest [length]')) w lp lt 8 title 'FE Q2'
+plot 'slope-pointwise/history.csv' using (column('t')):(-column('u_y at crest [m]')) w lp lt 1 title 'GIMP, pointwise', \
+     'slope-cell/history.csv' using (column('t')):(-column('u_y at crest [m]')) w lp lt 3 title 'GIMP, cell mean', \
+     'slope-fe/history.csv' using (column('t')):(-column('u_y at crest [m]')) w lp lt 4 title 'FE, cell mean', \
+     'slope-q2/history.csv' using (column('t')):(-column('u_y at crest [m]')) w lp lt 8 title 'FE Q2'
 GP

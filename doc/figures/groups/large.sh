@@ -74,8 +74,8 @@ beam() { run "$1" large-deformation/beam-gimp "${@:2}"; }
 beam fe "Method/Method = finite element" "Method/Degree = 2" "Mesh/Cell size = 0.25" \
   "Method/Fictitious stiffness = 0" "${quiet[@]}"
 beam b2
-render beam-domains b2/domains/000{10,50}.vtu --mesh b2/mesh/000{10,50}.vtu --columns 2 \
-  --label "20 kN" "100 kN" --field stress --component xx --diverging --range -2000000 2000000 --size 400 460 \
+render beam-domains b2/domains/000{10,50}.vtu --mesh --columns 2 --label "20 kN" "100 kN" \
+  --field stress --component xx --diverging --range -2000000 2000000 \
   --heading "Cantilever, GIMP, h = 0.5 m, 2² points per cell: their domains" \
   --title "stress xx" --unit Pa --length-unit m
 beam b6 "Method/Points per direction = 6" "Mesh/Cell size = 0.25"
@@ -102,9 +102,9 @@ GP
 for h in 1 0.5 0.25; do
   run "collapse-$h" large-deformation/collapse "Mesh/Cell size = $h"
 done
-render collapse "$(last collapse-0.5/points)" --mesh "$(last collapse-0.5/mesh)" \
-  --field plastic_strain --heading "Collapse at full gravity, GIMP, h = 0.5 m, 2² points per cell" \
-  --title "plastic strain κ" --unit "-" --length-unit m --size 1000 460 --wall 0 0 0 8 8 8 8 0 0 0
+render collapse "$(last collapse-0.5/points)" --mesh --field plastic_strain \
+  --heading "Collapse at full gravity, GIMP, h = 0.5 m, 2² points per cell" \
+  --title "plastic strain κ" --length-unit m
 run collapse-fe large-deformation/collapse "Method/Method = finite element" "Method/Degree = 2" \
   "Mesh/Cell size = 0.5" "Method/Fictitious stiffness = 0" "${quiet[@]}" \
   "Probes/toe/Kind = interpolated" "Probes/toe/Location = 7.875, 0.125" \

@@ -51,5 +51,5 @@ plot 'slope/history.csv' using (-column('u_y at crest [length]')):'t' w lp lt 1 
      'slope-fe-large/history.csv' using (-column('u_y at crest [length]')):'t' w l lt 3 title 'finite strain, FE Q2, h = 0.5 m'
 GP
 render limit-slope-flow "$(last slope/points)" --field displacement --component magnitude \
-  --title "|u|" --unit m --length-unit m --size 900 340 \
+  --title "|u|" --unit m --length-unit m \
   --heading "Displacement at failure, small strain, GIMP, h = 0.5 m"

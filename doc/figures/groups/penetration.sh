@@ -7,18 +7,14 @@
 files() { for step in "${@:2}"; do printf '%s/%05d.vtu\n' "$1" "$step"; done; }
 
 run footing cortis-2017/footing
-# The footing sinks 0.05 m in each step.
 footing_panels() {
-  local name=$1 i=0 step walls=() labels=()
+  local name=$1 step labels=()
   local steps=(${2//,/ })
   for step in "${steps[@]}"; do
-    local base=$(awk "BEGIN { print 3 - 0.05 * $step }")
-    walls+=(--wall-of $((++i)) 0 "$base" 0.5 "$base" 0.5 3.4)
     labels+=("step $step")
   done
-  render "$name" $(files footing/points "${steps[@]}") --columns 2 \
-    --grid -0.33 -0.35 3.27 3.65 0.2 --label "${labels[@]}" \
-    --wall 0 3 0 0 3 0 3 3 "${walls[@]}" --length-unit m --size 500 480 "${@:3}"
+  render "$name" $(files footing/points "${steps[@]}") --columns 2 --label "${labels[@]}" \
+    --length-unit m "${@:3}"
 }
 footing_panels footing-displacement 2,10,15,20 \
   --field displacement --component y --range -1 0 --title u_y --unit m \
@@ -36,25 +32,15 @@ set xlabel 'penetration  [m]'
 set ylabel 'vertical force  [kN/m]'
 set xrange [0:1.03]
 set yrange [0:*]
-force = 'reaction_y of footing [force]'
+force = 'reaction_y of footing [kN]'
 plot 'footing/history.csv' using 't':(-column(force)) w lp lt 1 title 'skew Nitsche, γ = 300, h = 0.2 m (the scene)', \
      'footing-half/history.csv' using 't':(-column(force)) w lp lt 2 title 'the same, h = 0.1 m', \
      'footing-weighted/history.csv' using 't':(-column(force)) w lp lt 3 title 'augmented Lagrangian, δ = 10^{-6} h, h = 0.2 m'
 GP
 
 run funnel cortis-2017/funnel
-# 40 mm to 24 mm by half a cosine
-wall=$(awk 'BEGIN { printf "124 40"
-  for (x = 0; x >= -60; x -= 2) printf " %g %.3f", x, 32 + 8 * cos(3.14159265 * x / 60)
-  print " -120 24" }')
 steps=(0 2 4 6)
-right=() i=0
-for step in "${steps[@]}"; do
-  right+=(--wall-of $((++i)) $((120 - 12 * step)) 0 $((120 - 12 * step)) 40)
-done
 render funnel $(files funnel/points "${steps[@]}") \
-  --grid -122 -5 126 47 4 \
-  --label "start" "step 2" "step 4" "step 6" \
-  --field displacement --component x --range -76 0 --title "u_x" --unit mm \
-  --heading "Strip pushed through a funnel: skew Nitsche, factor 100" \
-  --length-unit mm --size 900 340 --wall $wall --wall -120 0 124 0 "${right[@]}"
+  --label "start" "step 2" "step 4" "step 6" --field displacement --component x \
+  --range -76 0 --title "u_x" --unit mm \
+  --heading "Strip pushed through a funnel: skew Nitsche, factor 100" --length-unit mm

@@ -67,7 +67,6 @@ for n in 8 16 32; do
   run "plate-$n" hard-cases/softening-plate "Mesh/Cells = $n, $((2 * n))"
 done
 run plate-flat hard-cases/softening-plate "Mesh/Cells = 8, 32"
-render softening-bands "$(last plate-8/points)" "$(last plate-16/points)" \
-  "$(last plate-32/points)" "$(last plate-flat/points)" --columns 4 \
-  --label "8 x 16" "16 x 32" "32 x 64" "8 x 32" --field plastic_strain --range 0 0.2 \
-  --heading "Accumulated plastic strain, softening length 1/8" --size 320 560
+render softening-bands "$(last plate-8/points)" "$(last plate-16/points)" "$(last plate-32/points)" "$(last plate-flat/points)" \
+  --columns 4 --label "8 x 16" "16 x 32" "32 x 64" "8 x 32" --field plastic_strain \
+  --range 0 0.2 --heading "Accumulated plastic strain, softening length 1/8"

@@ -105,11 +105,12 @@ plot 'shear/history.csv' using 't':(column('sigma_xy at point [stress]') / 1e6) 
      '' using 't':(-column('sigma_yy at point [stress]') / 1e6) w l lt 4 title 'pressure on the shear plane, -σ_{yy}'
 GP
 for method in mpm cpdi2; do
-  render "ellipse-$method" "ellipse-$method"/points/000{04,06,12}.vtu --columns 3 \
-    --mesh "ellipse-$method"/mesh/000{04,06,12}.vtu --label "20°" "30°" "60°" \
-    --field plastic_strain --range 0 2 --point-scale 0.7 --size 460 460 \
-    --heading "Elliptical hole, ${method^^}: points and mesh" --title "plastic strain" --unit "-"
+  render "ellipse-$method" "ellipse-$method"/points/000{04,06,12}.vtu --columns 3 --mesh \
+    --label "20°" "30°" "60°" --field plastic_strain --range 0 2 \
+    --heading "Elliptical hole, ${method^^}: points and mesh" --title "plastic strain" \
+   
 done
-render ellipse-domains ellipse-cpdi2/domains/000{04,06,12}.vtu --columns 3 --label "20°" "30°" "60°" \
-  --field plastic_strain --range 0 2 --size 460 460 \
-  --heading "Elliptical hole, CPDI2: domains of the points" --title "plastic strain" --unit "-"
+render ellipse-domains ellipse-cpdi2/domains/000{04,06,12}.vtu --columns 3 \
+  --label "20°" "30°" "60°" --field plastic_strain --range 0 2 \
+  --heading "Elliptical hole, CPDI2: domains of the points" --title "plastic strain" \
+ 

@@ -33,8 +33,7 @@ for time in 1.3 1.4 1.48 1.54 1.68; do
   files+=("embankment/$file")
   labels+=("t = $time s")
 done
-render embankment "${files[@]}" --columns 1 --label "${labels[@]}" \
-  --field displacement --component x --diverging --range -0.03 0.03 --magnify 100 \
-  --grid -4 0 48 14 1 --size 900 250 \
+render embankment "${files[@]}" --columns 1 --label "${labels[@]}" --field displacement \
+  --component x --diverging --range -0.03 0.03 --magnify 100 \
   --heading "An embankment 12 m high, shaken through its rock; displacements × 100" \
   --title "u_x" --unit m --length-unit m
