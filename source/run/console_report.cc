@@ -463,14 +463,14 @@ namespace moraine
     };
     console << "\n  results at t = " << std::setprecision(6) << summary.time
             << '\n';
-    for (const auto &[name, force] : summary.reactions)
+    for (const auto &[name, force] : summary.last.reactions)
       {
         line("force of " + name);
         for (const double component : force)
           console << ' ' << std::setw(12) << component;
         console << '\n';
       }
-    for (const auto &[name, value] : summary.probes)
+    for (const auto &[name, value] : summary.last.probes)
       line(name) << ' ' << std::setw(12) << value << '\n';
     line("largest displacement")
       << ' ' << std::setw(12) << summary.quality.largest_displacement << '\n';

@@ -213,7 +213,7 @@ namespace moraine
     const auto find = [&](auto &model) { found = load_factors(model); };
     const Summary summary =
       summary_of_case(study_case.input, communicator, find, find);
-    rows.push_back({study_case, summary, std::nullopt});
+    rows.push_back({study_case, summary, std::nullopt, std::nullopt});
     const std::string &label = study_case.label;
     console << "  " << label << (label.empty() ? "buckling: " : ": buckling: ");
     if (summary.status != "ok")
