@@ -3,7 +3,6 @@
 # Copyright (C) 2026 by the Moraine authors
 """`moraine plot`: PNG pictures of a finished run.
 
-    moraine plot OUTPUT                               fields and history below
     moraine plot OUTPUT --field stress --component xy
     moraine plot OUTPUT --history "u_y at top" reaction --against t
     moraine plot A.vtu B.vtu --columns 2 --field displacement -o both.png
@@ -51,22 +50,14 @@ def arguments():
 
 def vtu_of(run, series, step):
     """A VTU file of a run."""
-    found = sorted((run / series).glob("*.vtu"))
+    found = {int(path.stem): path for path in (run / series).glob("*.vtu")}
     if not found:
         render.fail(f"there are no VTU files in {run / series}")
-    if step < 0:
-        return found[-1]
-    for path in found:
-        if int(path.stem) == step:
-            return path
-    render.fail(f"--step: found {step}, allowed: {int(found[0].stem)} to "
-                f"{int(found[-1].stem)}")
-
-
-def draw_field(args, run, path):
-    if run:
-        args.files = [str(vtu_of(run, args.of, args.step))]
-    render.draw(args, str(path))
+    step = max(found) if step < 0 else step
+    if step not in found:
+        render.fail(f"--step: found {step}, allowed: {min(found)} to "
+                    f"{max(found)}")
+    return found[step]
 
 
 def columns_of(header, words):
@@ -121,10 +112,8 @@ def draw_history(args, run, path):
     if not columns:
         render.fail(f"{data} has no other column than {against} that is not "
                     "zero")
-    render.draw_curves(
-        panels_of(columns), values, {c: name_of(c) for c in columns},
-        against, render.with_unit(name_of(against), unit_of(against)),
-        str(path))
+    render.draw_curves(panels_of(columns), values, name_of, against,
+                       unit_of(against), str(path))
 
 
 def file_name(args, first):
@@ -138,16 +127,14 @@ def file_name(args, first):
 def main():
     args = arguments()
     run = pathlib.Path(args.files[0])
+    if not run.exists():
+        render.fail(f"there is no folder or file '{run}'")
     if not run.is_dir():
         run = None
-        if args.history is not None:
-            render.fail(f"--history: there is no folder '{args.files[0]}'")
-        if not pathlib.Path(args.files[0]).exists():
-            render.fail(f"there is no folder or file '{args.files[0]}'")
+        if args.history is not None or not args.output:
+            render.fail("VTU files need -o FILE.png, and have no --history")
     elif len(args.files) > 1:
         render.fail("one folder at a time; or several VTU files")
-    if run is None and not args.output:
-        render.fail("VTU files need -o FILE.png")
     folder = run / "plots" if run else None
     if folder and not args.output:
         folder.mkdir(exist_ok=True)
@@ -161,7 +148,9 @@ def main():
         first = "" if args.field else "displacement"
         args.field = args.field or first
         path = args.output or folder / file_name(args, first)
-        draw_field(args, run, path)
+        if run:
+            args.files = [str(vtu_of(run, args.of, args.step))]
+        render.draw(args, str(path))
         print(path)
 
 

@@ -4,8 +4,7 @@
 
 The fields of points are brought onto a fine regular grid by local linear fits
 over about a cell, each body by itself, and drawn as filled contours up to where
-the density of the points falls to one half: the body's outline. In 3D a quarter
-of the body is cut away. Several files become panels with the same colours.
+their density falls to one half: the outline. In 3D a quarter is cut away.
 """
 
 import base64
@@ -30,8 +29,10 @@ try:
     import numpy as np
     from matplotlib.collections import LineCollection, PolyCollection
     from matplotlib.colors import BoundaryNorm
+    from matplotlib.patches import PathPatch
     from matplotlib.path import Path
     from matplotlib.ticker import MaxNLocator
+    from matplotlib.transforms import nonsingular
     from scipy import ndimage
 except ImportError:
     fail("pictures need Debian's packages python3-matplotlib and "
@@ -46,9 +47,8 @@ class Vtu:
             fail(f"there is no file {path}")
         root = xml.parse(path).getroot()
         self.pieces = root.findall(".//Piece")
-        times = [float(a.text) for a in root.iter("DataArray")
-                 if a.get("Name") == "TIME"]
-        self.time = times[0] if times else None
+        self.time = next((float(a.text) for a in root.iter("DataArray")
+                          if a.get("Name") == "TIME"), None)
         self.fields = [a.get("Name") for a in
                        self.pieces[0].find("PointData") or []]
         self.points = self.joined("Points/DataArray")
@@ -69,20 +69,18 @@ class Vtu:
 
     def corners(self):
         """Places of the corners of all cells."""
-        cells, first = [], 0
-        for piece in self.pieces:
-            cells.append(first + decoded(
-                piece.find("Cells/DataArray[@Name='connectivity']")))
-            first += int(piece.get("NumberOfPoints"))
-        n = sum(int(piece.get("NumberOfCells")) for piece in self.pieces)
-        return np.concatenate(cells).reshape(n, -1)
+        points, cells = (np.array([int(p.get(key)) for p in self.pieces])
+                         for key in ("NumberOfPoints", "NumberOfCells"))
+        return np.concatenate([
+            decoded(piece.find("Cells/DataArray[@Name='connectivity']")) + first
+            for piece, first in zip(self.pieces, points.cumsum() - points)
+        ]).reshape(cells.sum(), -1)
 
 
 def decoded(array):
     """The numbers of a compressed DataArray."""
     text = array.text.strip().encode()
-    kind = {"Float32": "f4", "Float64": "f8", "Int32": "i4", "UInt8": "u1",
-            "Int64": "i8", "UInt64": "u8"}[array.get("type")]
+    kind = array.get("type").lower()
     if array.get("format") == "ascii":
         values = np.array(text.split(), kind)
     else:
@@ -93,7 +91,7 @@ def decoded(array):
         for size in sizes:
             blocks.append(zlib.decompress(packed[:size]))
             packed = packed[size:]
-        values = np.frombuffer(b"".join(blocks), "<" + kind)
+        values = np.frombuffer(b"".join(blocks), kind)
     n = int(array.get("NumberOfComponents", 1))
     return values.reshape(-1, n) if n > 1 else values
 
@@ -142,6 +140,7 @@ def grid_of(x, volume, value, domains, fits):
                       [x[:, i] * x[:, j] for i in range(dim)
                        for j in range(i, dim)] if fits else []))
     sums = np.zeros((len(basis), shape.prod()))
+    widths = (0.9, 0.7) if domains is None else (0.7,)
     if domains is None:
         domains = size[:, None] / 2 * np.eye(dim)[:, None]
     length = 2 * np.linalg.norm(domains, axis=2).max(0)
@@ -154,7 +153,11 @@ def grid_of(x, volume, value, domains, fits):
             add(x[here] + np.tensordot(xi, domains[:, here], 1), amount,
                 low, d, shape, sums)
     sums = sums.reshape(len(basis), *shape)
-    density = ndimage.gaussian_filter(sums[0], 0.6 * h / d)
+    for width in widths:  # the wider is smooth, but loses thin bodies
+        density = ndimage.gaussian_filter(sums[0], width * h / d)
+        lost = 1 - (density >= 0.5).sum() * d ** dim / volume.sum()
+        if lost < 0.01:
+            break
     for total in sums:
         ndimage.gaussian_filter(total, 0.9 * h / d, output=total)
     with np.errstate(all="ignore"):
@@ -174,26 +177,26 @@ def add(x, amount, low, d, shape, sums):
             total += np.bincount(to, weight * one, len(total))
 
 
+def corner_domains(body, density, low, d):
+    """Those that fill the corners of a body, which the density rounds off."""
+    x, volume, _, domains = body
+    if domains is None:
+        return []
+    signs = [(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)]
+    ends = np.stack([x + s * domains[0] + t * domains[1] for s, t in signs], 1)
+    least = ndimage.map_coordinates(
+        density, np.moveaxis((ends - low) / d, 2, 0), order=1).min(1)
+    return [Path(domain, closed=True) for domain in
+            ends[(least < 0.28) & (volume > 0.85 * np.median(volume))]]
+
+
 def rim_of(mesh, volume):
-    """The cells' outline, if points fill all cells: then it is the body's."""
-    cells = mesh.points[mesh.corners()][:, :, :2]
+    """All cells, if points fill them: then they are the body."""
+    cells = mesh.points[mesh.corners()][:, [0, 1, 2, 3, 0], :2]
     area = 0.5 * np.cross(cells[:, 2] - cells[:, 0], cells[:, 3] - cells[:, 1])
-    if abs(area.sum() - volume) > 1e-3 * volume:
-        return None
-    h = math.sqrt(area.min())
-    ends = np.stack([cells, np.roll(cells, -1, axis=1)], 2).reshape(-1, 2, 2)
-    keys = [tuple(map(tuple, np.rint(end / h * 1e4))) for end in ends]
-    inner = set(keys)
-    following = {a: (b, end[1]) for (a, b), end in zip(keys, ends)
-                 if (b, a) not in inner}
-    loops = []
-    while following:
-        at, loop = next(iter(following)), []
-        while at in following:
-            at, place = following.pop(at)
-            loop.append(place)
-        loops.append(Path(loop + loop[:1], closed=True))
-    return Path.make_compound_path(*loops)
+    if abs(area.sum() - volume) < 1e-3 * volume:
+        return Path.make_compound_path(*(Path(cell, closed=True)
+                                         for cell in cells))
 
 
 def fitted(sums, low, d, dim):
@@ -224,19 +227,16 @@ class Panel:
         self.label = args.label[number] if number < len(args.label) else \
             "" if data.time is None else f"t = {data.time:g}"
         values = data.field(args.field)
-        n = values.shape[1] if values.ndim > 1 else 1
         self.value = component_of(values, args.field, args.component) \
             .astype(float)
         self.dim = 3 if np.ptp(data.points[:, 2]) > 0 else 2
-        self.name = args.title or name_of(args.field, args.component, n,
-                                          self.dim)
+        self.name = args.title or name_of(args.field, args.component, self.dim)
         self.unit = args.unit or data.unit(args.field)
         self.cells = data.corners()
         self.x = data.points[:, :self.dim].astype(float)
-        self.length_unit = args.length_unit or (
-            data.unit("displacement") if "displacement" in data.fields else
-            data.unit("step_displacement")
-            if "step_displacement" in data.fields else "")
+        self.length_unit = args.length_unit or next(
+            (data.unit(name) for name in data.fields
+             if name.endswith("displacement")), "")
         mesh = beside(path, "mesh") if self.dim == 2 else None
         self.mesh = mesh if args.mesh else None
         self.surfaces = beside(path, "boundaries") if self.dim == 2 and \
@@ -274,7 +274,6 @@ class Panel:
         # Points are in the middle of their domains.
         h = max((np.median(body[1]) ** (1 / self.dim) / 2
                  for body in self.bodies), default=0)
-        h = 0 if self.mesh or self.surfaces or self.rim else h
         return places.min(0) - h, places.max(0) + h
 
     def draw(self, axes, colours):
@@ -288,17 +287,19 @@ class Panel:
             x, y = (low[i] + d * np.arange(density.shape[i]) for i in (0, 1))
             outline = Path.make_compound_path(*axes.contourf(
                 x, y, density.T, [0.5, 1e9], colors="white",
-                alpha=0).collections.pop().get_paths()) \
+                alpha=0).collections.pop().get_paths(),
+                *corner_domains(body, density, low, d)) \
                 if self.rim is None else self.rim
+            # What is drawn over it hides the lines inside.
+            axes.add_patch(PathPatch(outline, fc="none", ec="#333333", lw=1.8,
+                                     joinstyle="round", zorder=1))
             # A value at the lowest level is not below it.
             field += 1e-9 * np.ptp(colours.levels)
             for part in axes.contourf(x, y, field.T, colours.levels,
                                       cmap=colours.map, norm=colours.norm,
-                                      extend="both").collections:
+                                      extend="both", zorder=1).collections:
                 part.set_clip_path(outline, axes.transData)
                 part.set_edgecolor("face")
-            axes.add_patch(plt.matplotlib.patches.PathPatch(
-                outline, fill=False, lw=0.8, ec="#333333"))
         if not self.bodies and self.dim == 2:
             of_cells = self.value[self.cells].mean(1)
             axes.add_collection(PolyCollection(
@@ -458,10 +459,10 @@ def with_unit(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
-def name_of(field, component, n, dim):
+def name_of(field, component, dim):
     """A field in words."""
     words = field.replace("_", " ").replace("von mises", "von Mises")
-    if n == 3 and component in VECTOR:
+    if component in VECTOR:
         return f"{dict(x='horizontal', y='vertical')[component]} {words}" \
             if dim == 2 and component != "z" else f"{words} in {component}"
     return f"{words} {component}".strip().replace(" magnitude", "")
@@ -474,9 +475,7 @@ class Colours:
         value = np.concatenate([panel.value for panel in panels])
         value = value[np.isfinite(value)]
         ends = args.range or np.quantile(value, [0.01, 0.99])
-        if ends[1] - ends[0] <= 1e-9 * abs(value).max():
-            ends = [ends[0] - 0.5 * (abs(ends[0]) or 1),
-                    ends[1] + 0.5 * (abs(ends[1]) or 1)]
+        ends = nonsingular(*ends, expander=0.5, tiny=1e-9)
         if args.diverging and not args.range:
             ends = [-max(map(abs, ends)), max(map(abs, ends))]
         self.levels = MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(
@@ -512,7 +511,7 @@ def add_arguments(parser):
     parser.add_argument("--length-unit", default="", help="unit of the axes")
 
 
-def draw_curves(panels, values, names, against, label, path):
+def draw_curves(panels, values, name_of_column, against, unit, path):
     """Panels (label, columns) of values by column below each other."""
     figure, axes = plt.subplots(len(panels), 1, squeeze=False, sharex=True,
                                 figsize=(9, 0.6 + 2.6 * len(panels)),
@@ -520,26 +519,21 @@ def draw_curves(panels, values, names, against, label, path):
     for place, (of_axis, columns) in zip(axes.flat, panels):
         for column in columns:
             place.plot(values[against], values[column], "o-", ms=3, lw=1.6,
-                       label=names[column])
+                       label=name_of_column(column))
         place.set_ylabel(of_axis)
         place.grid(color="#dddddd")
         place.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
-    axes[-1, 0].set_xlabel(label)
+    axes[-1, 0].set_xlabel(with_unit(name_of_column(against), unit))
     figure.savefig(path, dpi=110)
-
-
-def write_table(panels, path):
-    """Position and value of all points."""
-    rows = np.concatenate([np.column_stack([panel.data.points, panel.value])
-                           for panel in panels])
-    np.savetxt(path, rows, "%.8g", ",", header="x,y,z,value", comments="")
 
 
 def draw(args, path):
     """Draw args.files as the PNG file `path`, or write a CSV table of them."""
     panels = [Panel(args, i) for i in range(len(args.files))]
     if path.endswith(".csv"):
-        return write_table(panels, path)
+        return np.savetxt(path, np.concatenate([
+            np.column_stack([p.data.points, p.value]) for p in panels]),
+            "%.8g", ",", header="x,y,z,value", comments="")
     if len(panels) % args.columns:
         fail("the panels do not fill the columns")
     colours = Colours(args, panels)

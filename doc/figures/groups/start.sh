@@ -5,7 +5,7 @@
 
 run footing cortis-2017/footing
 render footing "$(last footing/points)" --field displacement --component y \
-  --range -1 0 --heading "Rigid footing, pushed in by 1 m"
+  --heading "Rigid footing, pushed in by 1 m"
 
 run tilted boundaries/tilted-roller
 render tilted-roller "$(last tilted/points)" --field stress --component yy \
