@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Lamb's problem in plane strain: an elastic half-plane under the strip load of
-footing-dynamic.md, and the springs that, beside dashpots, come nearest to what it
+absorbing.md, and the springs that, beside dashpots, come nearest to what it
 does to ground of 3 m x 4 m in its corner. m, kPa, t, s.
 
 Potentials A exp(-alpha z) cos kx and D exp(-beta z) sin kx for every wave number k

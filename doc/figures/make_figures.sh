@@ -7,8 +7,8 @@
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
 # groups/ without its ending (all but 'studies', 'points', 'locking' and 'cut-study' if left
-# out). Needs what ./moraine test installs. The other pictures of doc/studies/ show
-# wall times, too, and come from moraine study itself.
+# out). Needs what ./moraine test installs. Pictures of studies that show wall times
+# come from moraine study itself.
 
 set -euo pipefail
 figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

@@ -3,7 +3,7 @@
 #
 # A footing under repeated load beside boundaries that reflect or absorb, and on
 # ground 23 m wide and deep, from whose ends nothing returns while it runs. Cells
-# of 0.125 m. Prints the tables of footing-dynamic.md, and from the exact solution
+# of 0.125 m. Prints the tables of absorbing.md, and from the exact solution
 # for an elastic half-plane the radius of the springs. Takes some ten minutes.
 
 cells="Mesh/Cell size = 0.125"

@@ -319,7 +319,7 @@ shake(const Gauge          &crest,
 //
 // Points move through the mesh here, and carry velocities and accelerations,
 // for which they need fields. Of the schemes for the way to the nodes and back,
-// the default is APIC; doc/verification/free-flight.md says why.
+// the default is APIC; doc/topics/dynamics.md says why.
 int
 main(int argc, char **argv)
 {
