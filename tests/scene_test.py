@@ -59,6 +59,23 @@ class Run:
         self.probes = self.summary.get("probes", {})
         self.reactions = self.summary.get("reactions", {})
 
+    def found(self):
+        """Ids of the diagnostics that found something, with their objects."""
+        if "status" not in self.summary:  # 'check' has the console alone
+            return re.findall(r"^  (?:warning|hint) +([a-z-]+(?: \([^)]*\))?):",
+                              self.output, re.MULTILINE)
+        return [one["id"] + (f" ({one['object']})" if one["object"] else "")
+                for kind in ("warnings", "hints")
+                for one in self.summary.get(kind, [])]
+
+    def ids(self):
+        return [one.split(" ")[0] for one in self.found()]
+
+    def finding(self, which):
+        """The one with this id."""
+        return next(one for kind in ("warnings", "hints")
+                    for one in self.summary.get(kind, []) if one["id"] == which)
+
     def history(self):
         """history.csv as a list of dictionaries; units are cut off names."""
         with open(self.folder / "history.csv") as file:

@@ -100,8 +100,9 @@ namespace moraine
 
   template <int dim>
   bool
-  Diagnostics<dim>::report(const Finding &finding)
+  Diagnostics<dim>::report(Finding finding)
   {
+    finding.t = all_facts.now.t;
     if (contains(all_facts.of.scene.output.silence, finding.id) ||
         !ledger.add(finding))
       return false;

@@ -48,7 +48,8 @@ namespace moraine
     for (const Finding &finding : all)
       {
         texts.insert(texts.end(), {finding.id, finding.object, finding.text});
-        limits.insert(limits.end(), {finding.value, finding.limit});
+        limits.insert(limits.end(),
+                      {finding.value, finding.limit, finding.t});
       }
     for (const auto &[name, value] : numbers)
       {
@@ -56,7 +57,7 @@ namespace moraine
         values.push_back(value);
       }
     archive.write_lines("ledger/findings", texts);
-    archive.write("ledger/values_and_limits", limits, 2);
+    archive.write("ledger/values_limits_and_times", limits, 3);
     archive.write_lines("ledger/names", names);
     archive.write("ledger/numbers", values);
   }
@@ -67,7 +68,7 @@ namespace moraine
   Ledger::read(const Archive &archive)
   {
     const auto texts  = archive.lines("ledger/findings");
-    const auto limits = archive.numbers("ledger/values_and_limits", 2);
+    const auto limits = archive.numbers("ledger/values_limits_and_times", 3);
     const auto names  = archive.lines("ledger/names");
     const auto values = archive.numbers("ledger/numbers");
     all.clear();
@@ -76,9 +77,10 @@ namespace moraine
     for (unsigned int k = 0; 3 * k + 2 < texts.size(); ++k)
       all.push_back({texts[3 * k],
                      texts[3 * k + 1],
-                     limits[2 * k],
-                     limits[2 * k + 1],
-                     texts[3 * k + 2]});
+                     limits[3 * k],
+                     limits[3 * k + 1],
+                     texts[3 * k + 2],
+                     limits[3 * k + 2]});
     for (unsigned int k = 0; k < names.size(); ++k)
       numbers[names[k]] = values[k];
   }

@@ -34,6 +34,7 @@ namespace moraine
           one["object"] = finding.object;
           one["value"]  = finding.value;
           one["limit"]  = finding.limit;
+          one["t"]      = finding.t;
           one["text"]   = finding.text;
           list.push_back(one);
         }

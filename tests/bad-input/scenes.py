@@ -161,7 +161,5 @@ for name, file, settings in (
             "Boundaries/left/Band width": 1e-3,
             "Boundaries/left/Nitsche factor": 20}),
         ("surface for later", "prm/cortis-2017/footing.prm", {})):
-    notes = [line.split(maxsplit=1)[1]
-             for line in run(file, settings, command="check").output.splitlines()
-             if line.startswith("  note ")]
-    text(name, " | ".join(notes) or "no note")
+    found = run(file, settings, command="check").found()
+    text(name, " | ".join(found) or "nothing")

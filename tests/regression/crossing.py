@@ -55,9 +55,9 @@ exact = 1000 / (1 - 0.3**2) / 12 * (pi / 2) / 8  # E I / (1 - nu^2) / radius
 for method in ("finite element", "GIMP", "material point"):
     result = run(scene, {"Method/Method": method})
     moment = result.history()[-1]["moment of right"]
-    told = any(TOLD in w for w in result.summary.get("warnings", []))
+    told = "cell-crossing" in result.ids()
     text(f"{method}: told", told)
     number(f"{method}: moment over that of a beam", moment / exact, 2)
 
 turned = run("prm/large-deformation/rotation-annulus.prm", {"Time/Steps": 6})
-text("a turn without stress: told", TOLD in turned.output)
+text("a turn without stress: told", "cell-crossing" in turned.ids())

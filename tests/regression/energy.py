@@ -26,16 +26,12 @@ def energies(result):
 for name, factor in (("symmetric Nitsche", 2), ("skew Nitsche", 2)):
     failed = run(scene, walls(name, factor), expect=1)
     message = failed.summary["message"]
-    told = message.split("since t = ")[1].split(". ")[0]
     total = energies(failed)
     title = f"{name}, factor {factor}"
     text(f"{title}: status", failed.summary["status"])
-    text("  message", message.split(":")[0])
-    text("  where from", message.split(". ")[1].split(":")[0])
+    text("  source", message.split("source: ")[1])
     at_least("  energy over that of the start", total[-1] / total[0], 100)
     bound("  and the step before", total[-2] / total[0], 101)
-    at_least("  time since when, over that of the end",
-             float(told) / failed.summary["time"], 0.3)
 
 for name, factor, aggregate in (
         ("symmetric Nitsche", 10, 0.1), ("symmetric Nitsche", 20, 0),
@@ -153,8 +149,8 @@ subsection Output
 end
 """)
 result = run(moving_base, on_ranks=1)
-text("moving base: told of energy of boundaries",
-     "It comes from boundaries that hold" in result.output)
+text("moving base: energy of boundaries", [
+    one for one in result.found() if one.startswith("energy")] or result.summary["message"])
 energy = result.summary["energy"]
 bound("moving base: out of balance, of the largest", energy["balance_error"], 0.03)
 
@@ -212,9 +208,9 @@ subsection Output
 end
 """)
 for lower in (0, -0.1):
-    text(f"shaken column, mesh from {lower}: told", "energy grows" in run(
+    text(f"shaken column, mesh from {lower}: told", "energy-growth" in run(
         shaken, {"Mesh/Lower corner": f"-3, {lower}",
-                 "Mesh/Upper corner": f"5, {lower + 6}"}, on_ranks=1).output)
+                 "Mesh/Upper corner": f"5, {lower + 6}"}, on_ranks=1).ids())
 
 # With forces in the middle of a step, walls are held by what does no work there.
 TURN = """

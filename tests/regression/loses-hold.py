@@ -83,8 +83,8 @@ def write(condition="", more="", checkpoint="never"):
 
 def show(name, settings=None, expect=1):
     result = run(scene, settings, expect=expect)
-    for warning in result.summary.get("warnings", []):
-        text(f"{name}: told", warning)
+    for one in result.found():
+        text(f"{name}: found", one)
     text(f"{name}: ended", result.summary.get("message", "as it should"))
     return result
 

@@ -71,8 +71,8 @@ for name, low, more, modulus, methods in (
         result = run(scene, {"Output/Points": "false", "Output/Mesh": "false"},
                      expect=None)
         text(f"{name}, {method}",
-             [note.split(":")[0] for note in result.summary.get("warnings", [])
-              if "past its end" in note] or "nothing")
+             [one for one in result.found() if one.startswith("surface-coverage")]
+             or "nothing")
 
 # Between rollers that are its own sides; the first time to be told of, and the end.
 PRESSED = """
@@ -127,9 +127,9 @@ pressed = folder / "pressed.prm"
 pressed.write_text(PRESSED)
 for end, steps in ((0.65, 13), (0.7, 14)):
     result = run(pressed, {"Time/End time": end, "Time/Steps": steps})
-    text(f"pressed to t = {end}", re.findall(
-        r"boundary '(\w+)': by t = (\S+) material has come past its end",
-        " ".join(result.summary.get("warnings", []))))
+    text(f"pressed to t = {end}", [
+        (one["object"], round(one["t"], 6)) for one in result.summary["warnings"]
+        if one["id"] == "surface-coverage"])
 
 # A cube between plates: its cells can follow rollers and plates, but beside a fixed
 # wall cells let go of the upper one.
@@ -192,8 +192,7 @@ for name, h, wall, way in (("rollers", 1, "roller", 0.6), ("rollers", 0.5, "roll
     row = result.history()[-1]
     text(f"{name}, h = {h}: material beyond the plate by more than a tenth of a cell",
          row["penetration of top"] > 0.1 * h)
-    text("  told of", re.findall(r"boundary '(\w+)': material has passed it",
-                                 " ".join(result.summary.get("warnings", []))))
+    text("  found", result.found())
     if h == 0.5:
         bound("  force of the plate over the exact one - 1",
               row["reaction_z of top"] / exact - 1, 1e-3)

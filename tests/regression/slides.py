@@ -60,12 +60,10 @@ scene.write_text(CUT)
 
 def show(title, settings, expect=0):
     result = run(scene, settings, expect=expect)
-    told = [line for line in result.output.splitlines()
-            if "did not stand but slid" in line]
-    text(f"{title}: told of a slide", len(told))
-    if told:
-        t = float(told[0].split("to t = ")[1].split()[0])
-        text(f"{title}: in the step to t = 4 to 4.5", 4 <= t <= 4.5)
+    slid = "slide" in result.ids()
+    text(f"{title}: slides", slid)
+    if slid:
+        text(f"{title}: by t = 4 to 4.5", 4 <= result.finding("slide")["t"] <= 4.5)
 
 
 for method in ("GIMP", "material point"):

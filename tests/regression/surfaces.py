@@ -29,10 +29,7 @@ scene = folder / "scene.prm"
 
 def show(title, settings=None, command="check"):
     result = run(scene, settings, command=command)
-    notes = [line.split(maxsplit=1)[1] for line in result.output.splitlines()
-             if line.split()[:1] in (["note"], ["note:"])]
-    notes = [note for note in notes
-             if not note.startswith("stage ") and "nowhere as thick" not in note]
+    notes = [one for one in result.found() if not one.startswith("thin-body")]
     for note in notes:
         text(title, note)
     if not notes:

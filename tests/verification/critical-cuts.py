@@ -200,9 +200,8 @@ for method in ("GIMP", "CPDI1", "CPDI2"):
 
 def error_when_told(result):
     """Of the force in the step that says that points are too far apart."""
-    t, = re.findall(r"by t = (\S+) neighbouring points", result.output)
-    row, = (row for row in result.history()
-            if isclose(row["t"], float(t), rel_tol=1e-5))
+    t = result.finding("points-apart")["t"]
+    row, = (row for row in result.history() if isclose(row["t"], t, rel_tol=1e-5))
     return row["reaction_x of pulled"] / exact_force(1 + 3 * row["t"], 0.3) - 1
 
 

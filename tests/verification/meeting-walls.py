@@ -70,7 +70,7 @@ def column(name, wanted, n=1, **parts):
     path.write_text(SCENE.format(**parts))
     result = run(path, on_ranks=n)
     row = result.history()[-1]
-    met = [line for line in result.output.splitlines() if "move differently" in line]
+    met = [one for one in result.ids() if one == "conflicting-constraints"]
     text(f"{name}: notes of meeting walls", len(met))
     return row[wanted]
 

@@ -87,7 +87,7 @@ for angle in 0, 20, 40:
         axis = (-sin(radians(angle)), cos(radians(angle)))
         bound(f"block turned by {angle} degrees on planes, {enforcement}: error of stress",
               largest_error(result, axis), limit)
-        text("  notes", plain(result.output).count("note"))
+        text("  found", result.found())
 
 # A pressure that is drawn longer than the top of the body acts on the top.
 for angle in 0, 20:

@@ -82,8 +82,8 @@ def of(velocity, motion=SINE, surface=False, integrator="Newmark", **options):
 
 
 def jumps(result):
-    return [line.strip().split(None, 1)[1] for line in result.output.splitlines()
-            if "jumps" in line]
+    return [one["text"] for one in result.summary.get("hints", [])
+            if one["id"] == "velocity-jump"]
 
 
 for integrator in ("Newmark", "generalised-alpha", "Bathe", "energy-momentum"):

@@ -16,6 +16,7 @@ namespace moraine
     double      value = 0;
     double      limit = 0; ///< that the value exceeds
     std::string text;      ///< one sentence: what it is and what to do
+    double      t = 0;     ///< time of the run
   };
 } // namespace moraine
 

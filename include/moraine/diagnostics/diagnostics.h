@@ -41,7 +41,7 @@ namespace moraine
     /** Keep a finding of the run itself. @return whether it is new and not
      * silenced. */
     bool
-    report(const Finding &finding);
+    report(Finding finding);
 
     /** Forget what belongs to the stage before. @p bodies_change: they come or
      * go; @p motion_starts: works are counted from here. */
