@@ -140,7 +140,7 @@ def grid_of(x, volume, value, domains, fits):
                       [x[:, i] * x[:, j] for i in range(dim)
                        for j in range(i, dim)] if fits else []))
     sums = np.zeros((len(basis), shape.prod()))
-    widths = (0.9, 0.7) if domains is None else (0.7,)
+    widths = (0.8, 0.7) if domains is None else (0.7,)
     if domains is None:
         domains = size[:, None] / 2 * np.eye(dim)[:, None]
     length = 2 * np.linalg.norm(domains, axis=2).max(0)
