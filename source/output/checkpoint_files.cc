@@ -6,7 +6,6 @@
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/version.h>
-#include <moraine/output/component_names.h>
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
@@ -60,18 +59,6 @@ namespace moraine
       double             t;
       return text >> t && text.eof() &&
              std::abs(label.t - t) <= 1e-7 * std::abs(t);
-    }
-
-
-
-    std::string
-    component_name(const FieldKind kind, const unsigned int c, const int dim)
-    {
-      if (kind == FieldKind::vector)
-        return direction_name(c);
-      if (kind == FieldKind::symmetric_tensor)
-        return stress_component_name(c);
-      return direction_name(c / dim) + direction_name(c % dim);
     }
   } // namespace
 
@@ -148,8 +135,7 @@ namespace moraine
 
 
   void
-  CheckpointFiles::write(const Archive     &archive,
-                         const PointFields &fields) const
+  CheckpointFiles::write(const Archive &archive) const
   {
     std::string slot;
     on_root(communicator, [&]() {
@@ -160,11 +146,6 @@ namespace moraine
     slot                   = Utilities::MPI::broadcast(communicator, slot);
     const std::string name = slot + ".h5";
     write_file(archive, path_of(name), communicator);
-    const std::size_t n_points =
-      Utilities::MPI::sum(archive.integers("points/id").size(), communicator);
-    on_root(communicator, [&]() {
-      write_xdmf(name, path_of(slot + ".xdmf"), archive, fields, n_points);
-    });
     make_last(name);
   }
 
@@ -241,72 +222,5 @@ namespace moraine
           // There is none.
         }
     return "";
-  }
-
-
-
-  void
-  CheckpointFiles::write_xdmf(const std::string &name,
-                              const std::string &path,
-                              const Archive     &archive,
-                              const PointFields &fields,
-                              const std::size_t  n_points) const
-  {
-    AtomicFile    file(path);
-    std::ostream &out = file.stream();
-    const auto    set = [&](const std::string &field, const unsigned int n) {
-      const bool whole =
-        archive.data_sets().at("points/" + field).values.index() == 1;
-      std::ostringstream text;
-      text << "<DataItem Dimensions=\"" << n_points << ' ' << n
-           << "\" NumberType=\"" << (whole ? "UInt" : "Float")
-           << "\" Precision=\"" << (whole ? 4 : 8) << "\" Format=\"HDF\">"
-           << name << ":/points/" << field << "</DataItem>\n";
-      return text.str();
-    };
-    const auto attribute = [&](const std::string &title,
-                               const std::string &type,
-                               const std::string &data) {
-      out << "<Attribute Name=\"" << title << "\" AttributeType=\"" << type
-          << "\" Center=\"Node\">\n"
-          << data << "</Attribute>\n";
-    };
-    const unsigned int dim =
-      archive.data_sets().at("points/position").n_components;
-    out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>"
-        << "<Grid Name=\"points\" GridType=\"Uniform\">\n<Time Value=\""
-        << std::setprecision(17) << archive.number("checkpoint/t")
-        << "\"/>\n<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" "
-        << "NumberOfElements=\"" << n_points
-        << "\"/>\n<Geometry GeometryType=\"" << (dim == 2 ? "XY" : "XYZ")
-        << "\">\n"
-        << set("position", dim) << "</Geometry>\n";
-    attribute("id", "Scalar", set("id", 1));
-    for (const auto &field : fields.fields())
-      {
-        const unsigned int n     = field.n_components;
-        const std::string  whole = set(field.name, n);
-        const std::string  unit =
-          field.unit == "-" ? "" : " [" + field.unit + "]";
-        if (n == 1 || (n == 3 && field.kind == FieldKind::vector))
-          {
-            attribute(field.name + unit, n == 1 ? "Scalar" : "Vector", whole);
-            continue;
-          }
-        for (unsigned int c = 0; c < n; ++c)
-          {
-            std::ostringstream slab;
-            slab << "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" << n_points
-                 << " 1\">\n<DataItem Dimensions=\"3 2\" Format=\"XML\">0 " << c
-                 << " 1 1 " << n_points << " 1</DataItem>\n"
-                 << whole << "</DataItem>\n";
-            attribute(field.name + "_" + component_name(field.kind, c, dim) +
-                        unit,
-                      "Scalar",
-                      slab.str());
-          }
-      }
-    out << "</Grid></Domain></Xdmf>\n";
-    file.commit();
   }
 } // namespace moraine

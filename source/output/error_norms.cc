@@ -50,57 +50,51 @@ namespace moraine
       return Utilities::MPI::max(result, communicator);
     }
 
+    /** Sum over all points of @p upper over that of @p lower, functions of the
+     * exact size and that of the error, weighted by volumes. */
+    template <typename Upper, typename Lower>
+    double
+    ratio_of_sums(const Sample   &sample,
+                  const MPI_Comm &communicator,
+                  const Upper    &upper,
+                  const Lower    &lower)
+    {
+      double sums[2] = {0., 0.};
+      for (std::size_t p = 0; p < sample.volume.size(); ++p)
+        {
+          sums[0] += sample.volume[p] * upper(sample.exact[p], sample.error[p]);
+          sums[1] += sample.volume[p] * lower(sample.exact[p]);
+        }
+      Utilities::MPI::sum(ArrayView<const double>(sums, 2),
+                          communicator,
+                          ArrayView<double>(sums, 2));
+      return sums[0] / sums[1];
+    }
+
+    constexpr auto one = [](const double) { return 1.; };
+
     /** Volume-weighted mean of the relative errors of the points. */
     double
     mean_relative_error(const Sample   &sample,
                         const double    largest_exact,
                         const MPI_Comm &communicator)
     {
-      double sums[2] = {0., 0.};
-      for (std::size_t p = 0; p < sample.volume.size(); ++p)
-        {
-          const double scale =
-            sample.exact[p] > negligible_norm * largest_exact ?
-              sample.exact[p] :
-              largest_exact;
-          sums[0] += sample.volume[p] * sample.error[p] / scale;
-          sums[1] += sample.volume[p];
-        }
-      Utilities::MPI::sum(ArrayView<const double>(sums, 2),
-                          communicator,
-                          ArrayView<double>(sums, 2));
-      return sums[0] / sums[1];
-    }
-
-    /** Volume-weighted mean of the errors. */
-    double
-    mean_error(const Sample &sample, const MPI_Comm &communicator)
-    {
-      double sums[2] = {0., 0.};
-      for (std::size_t p = 0; p < sample.volume.size(); ++p)
-        {
-          sums[0] += sample.volume[p] * sample.error[p];
-          sums[1] += sample.volume[p];
-        }
-      Utilities::MPI::sum(ArrayView<const double>(sums, 2),
-                          communicator,
-                          ArrayView<double>(sums, 2));
-      return sums[0] / sums[1];
+      const auto relative = [&](const double exact, const double error) {
+        return error / (exact > negligible_norm * largest_exact ?
+                          exact :
+                          largest_exact);
+      };
+      return ratio_of_sums(sample, communicator, relative, one);
     }
 
     double
     relative_l2_error(const Sample &sample, const MPI_Comm &communicator)
     {
-      double sums[2] = {0., 0.};
-      for (std::size_t p = 0; p < sample.volume.size(); ++p)
-        {
-          sums[0] += sample.volume[p] * sample.error[p] * sample.error[p];
-          sums[1] += sample.volume[p] * sample.exact[p] * sample.exact[p];
-        }
-      Utilities::MPI::sum(ArrayView<const double>(sums, 2),
-                          communicator,
-                          ArrayView<double>(sums, 2));
-      return std::sqrt(sums[0] / sums[1]);
+      return std::sqrt(ratio_of_sums(
+        sample,
+        communicator,
+        [](const double, const double error) { return error * error; },
+        [](const double exact) { return exact * exact; }));
     }
 
     /** Frobenius norm of a stress given by its stored components. */
@@ -222,7 +216,14 @@ namespace moraine
       if (scale > 0)
         l2 = relative_l2_error(whole, communicator);
       norms.emplace_back("l2_sigma", l2);
-      norms.emplace_back("mean_sigma", mean_error(whole, communicator));
+      norms.emplace_back("mean_sigma",
+                         ratio_of_sums(
+                           whole,
+                           communicator,
+                           [](const double, const double error) {
+                             return error;
+                           },
+                           one));
       norms.emplace_back("max_sigma", largest(whole.error, communicator));
     }
   } // namespace

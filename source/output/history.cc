@@ -14,24 +14,16 @@
 
 namespace moraine
 {
-  namespace
+  std::string
+  csv_cell(const std::string &text)
   {
-    /** The name of a column with its unit, quoted as CSV asks for. */
-    std::string
-    column_title(const NamedValue &value, const Units &units)
-    {
-      const std::string title =
-        value.unit == "-" ?
-          value.name :
-          value.name + " [" + units.of(value.unit) + "]";
-      if (title.find_first_of(",\"\n") == std::string::npos)
-        return title;
-      std::string quoted = "\"";
-      for (const char c : title)
-        quoted += (c == '"' ? std::string("\"\"") : std::string(1, c));
-      return quoted + "\"";
-    }
-  } // namespace
+    if (text.find_first_of(",\"\n") == std::string::npos)
+      return text;
+    std::string cell = "\"";
+    for (const char c : text)
+      cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return cell + "\"";
+  }
 
 
 
@@ -50,7 +42,9 @@ namespace moraine
   {
     std::vector<std::string> titles;
     for (const NamedValue &value : row)
-      titles.push_back(column_title(value, units));
+      titles.push_back(csv_cell(
+        value.unit == "-" ? value.name :
+                            value.name + " [" + units.of(value.unit) + "]"));
     const bool first = columns.empty();
     if (first)
       columns = titles;

@@ -47,11 +47,7 @@ namespace moraine
                                                 "mesh",
                                                 "boundaries",
                                                 "domains"};
-    constexpr const char *checkpoint_names[] = {"last",
-                                                "a.h5",
-                                                "b.h5",
-                                                "a.xdmf",
-                                                "b.xdmf"};
+    constexpr const char *checkpoint_names[] = {"last", "a.h5", "b.h5"};
 
     /** Whether a file name is of the kind OutputDirectory::vtu_name() gives. */
     bool

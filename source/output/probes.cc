@@ -454,24 +454,22 @@ namespace moraine
               values[first_velocity + c]       = probe.v[c];
               values[first_velocity + dim + c] = probe.a[c];
             }
+        const auto add = [&](const std::string &name,
+                             const std::string &unit,
+                             const unsigned int first) {
+          for (unsigned int c = 0; c < dim; ++c)
+            columns.push_back(
+              {name + direction_name(c) + at, unit, values[first + c]});
+        };
         for (const std::string &quantity : probe.parameters.quantities)
           if (quantity == "position")
-            for (unsigned int c = 0; c < dim; ++c)
-              columns.push_back({direction_name(c) + at, "length", values[c]});
+            add("", "length", 0);
           else if (quantity == "displacement")
-            for (unsigned int c = 0; c < dim; ++c)
-              columns.push_back(
-                {"u_" + direction_name(c) + at, "length", values[dim + c]});
+            add("u_", "length", dim);
           else if (quantity == "velocity")
-            for (unsigned int c = 0; c < dim; ++c)
-              columns.push_back({"v_" + direction_name(c) + at,
-                                 "length/time",
-                                 values[first_velocity + c]});
+            add("v_", "length/time", first_velocity);
           else if (quantity == "acceleration")
-            for (unsigned int c = 0; c < dim; ++c)
-              columns.push_back({"a_" + direction_name(c) + at,
-                                 "length/time^2",
-                                 values[first_velocity + dim + c]});
+            add("a_", "length/time^2", first_velocity + dim);
           else
             for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
               columns.push_back({"sigma_" + stress_component_name(c) + at,

@@ -81,7 +81,7 @@ namespace moraine
     driver.write_progress(archive);
     try
       {
-        files.write(archive, model.points->fields());
+        files.write(archive);
         last_step = time.n_accepted();
       }
     catch (const InputError &error)

@@ -4,7 +4,6 @@
 #include <moraine/run/result_files.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/output/domain_vtu.h>
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
@@ -29,9 +28,6 @@ namespace moraine
     , timer(timer)
     , communicator(model.space->communicator())
     , history(directory.file("history.csv"), communicator, scene.output.units)
-    , points_pvd(directory.file("points.pvd"), communicator)
-    , mesh_pvd(directory.file("mesh.pvd"), communicator)
-    , boundaries_pvd(directory.file("boundaries.pvd"), communicator)
     , translations(translations_of_conditions(scene, model))
     , t_written(scene.start_time())
     , t_accepted(scene.start_time())
@@ -41,15 +37,39 @@ namespace moraine
 
   template <int dim>
   void
-  ResultFiles<dim>::prepare_domains()
+  ResultFiles<dim>::prepare_series()
   {
+    const auto add = [this](const std::string &series) {
+      on_root(communicator, [&]() {
+        std::filesystem::create_directory(directory.file(series));
+      });
+      lists.emplace(series,
+                    PvdHistory(directory.file(series + ".pvd"), communicator));
+    };
+    add("points");
+    add("mesh");
+    if (scene.output.mesh && !model.boundaries.empty())
+      add("boundaries");
     if (scene.output.points && model.basis->has_domains())
-      {
-        on_root(communicator, [this]() {
-          std::filesystem::create_directory(directory.file("domains"));
-        });
-        domains_pvd.emplace(directory.file("domains.pvd"), communicator);
-      }
+      add("domains");
+  }
+
+
+
+  template <int dim>
+  std::string
+  ResultFiles<dim>::next_file(const std::string &series) const
+  {
+    return directory.file(OutputDirectory::vtu_name(series, n_vtu_written));
+  }
+
+
+
+  template <int dim>
+  void
+  ResultFiles<dim>::list_file(const std::string &series, const double t)
+  {
+    lists.at(series).add(t, OutputDirectory::vtu_name(series, n_vtu_written));
   }
 
 
@@ -58,7 +78,7 @@ namespace moraine
   void
   ResultFiles<dim>::run_begins()
   {
-    prepare_domains();
+    prepare_series();
     if (scene.output.times.at_start())
       write_vtu(t_written, Increments(model.space->n_nodes()));
   }
@@ -73,12 +93,8 @@ namespace moraine
     archive.write("output/t_written", t_written, "time");
     archive.write("output/t_accepted", t_accepted, "time");
     history.write(archive);
-    points_pvd.write(archive);
-    mesh_pvd.write(archive);
-    if (!model.boundaries.empty())
-      boundaries_pvd.write(archive);
-    if (domains_pvd)
-      domains_pvd->write(archive);
+    for (const auto &[series, list] : lists)
+      list.write(archive);
   }
 
 
@@ -87,7 +103,7 @@ namespace moraine
   void
   ResultFiles<dim>::read(const Archive &archive)
   {
-    prepare_domains();
+    prepare_series();
     n_vtu_written = archive.integer("output/n_vtu_written");
     directory.remove_vtu_from(n_vtu_written);
     // It tells of an end that is none.
@@ -97,12 +113,9 @@ namespace moraine
     t_written  = archive.number("output/t_written");
     t_accepted = archive.number("output/t_accepted");
     history.read(archive);
-    points_pvd.read(archive);
-    mesh_pvd.read(archive);
-    if (archive.contains("output/boundaries.pvd/time"))
-      boundaries_pvd.read(archive);
-    if (domains_pvd && archive.contains("output/domains.pvd/time"))
-      domains_pvd->read(archive);
+    for (auto &[series, list] : lists)
+      if (archive.contains("output/" + series + ".pvd/time"))
+        list.read(archive);
   }
 
 
@@ -132,8 +145,6 @@ namespace moraine
     write_points(t);
     if (scene.output.mesh)
       {
-        const std::string name =
-          OutputDirectory::vtu_name("mesh", n_vtu_written);
         std::vector<NodeField<dim>> fields = {
           {"step_displacement", "length", increments}};
         // Before the first step with inertia all nodes are at rest.
@@ -152,32 +163,23 @@ namespace moraine
         write_mesh_vtu<dim>(*model.space,
                             fields,
                             SmoothedStress<dim>(*model.points),
-                            directory.file(name),
+                            next_file("mesh"),
                             t,
                             n_vtu_written,
                             scene.output.units);
-        mesh_pvd.add(t, name);
-        write_boundaries(t);
+        list_file("mesh", t);
+        if (!model.boundaries.empty())
+          {
+            write_boundary_vtu(model,
+                               acting,
+                               next_file("boundaries"),
+                               t,
+                               n_vtu_written,
+                               scene.output.units);
+            list_file("boundaries", t);
+          }
       }
     ++n_vtu_written;
-  }
-
-
-
-  template <int dim>
-  void
-  ResultFiles<dim>::write_boundaries(const double t)
-  {
-    if (model.boundaries.empty())
-      return;
-    on_root(communicator, [this]() {
-      std::filesystem::create_directory(directory.file("boundaries"));
-    });
-    const std::string name =
-      OutputDirectory::vtu_name("boundaries", n_vtu_written);
-    write_boundary_vtu(
-      model, acting, directory.file(name), t, n_vtu_written, scene.output.units);
-    boundaries_pvd.add(t, name);
   }
 
 
@@ -189,21 +191,21 @@ namespace moraine
     t_written = t;
     if (!scene.output.points)
       return;
-    const std::string name = OutputDirectory::vtu_name("points", n_vtu_written);
-    write_point_vtu(
-      *model.points, directory.file(name), t, n_vtu_written, scene.output.units);
-    points_pvd.add(t, name);
-    if (!domains_pvd)
+    write_point_vtu(*model.points,
+                    next_file("points"),
+                    t,
+                    n_vtu_written,
+                    scene.output.units);
+    list_file("points", t);
+    if (lists.count("domains") == 0)
       return;
-    const std::string domains =
-      OutputDirectory::vtu_name("domains", n_vtu_written);
     write_domain_vtu(*model.basis,
                      *model.points,
-                     directory.file(domains),
+                     next_file("domains"),
                      t,
                      n_vtu_written,
                      scene.output.units);
-    domains_pvd->add(t, domains);
+    list_file("domains", t);
   }
 
 

@@ -6,6 +6,7 @@
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/words.h>
+#include <moraine/output/history.h>
 
 #include <deal.II/base/table_handler.h>
 #include <deal.II/base/utilities.h>
@@ -53,19 +54,6 @@ namespace moraine
       for (const std::string &name : more)
         if (!contains(columns, name))
           columns.push_back(name);
-    }
-
-
-
-    std::string
-    csv_cell(const std::string &text)
-    {
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string cell = "\"";
-      for (const char c : text)
-        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-      return cell + "\"";
     }
 
 

@@ -81,14 +81,6 @@ namespace
     return label;
   }
 
-  PointFields
-  fields_of_points()
-  {
-    PointFields fields;
-    fields.request(FieldNames<2>::stress);
-    return fields;
-  }
-
   /** With one point on each rank. */
   void
   write(const Folder &folder, const unsigned int step)
@@ -99,7 +91,7 @@ namespace
     archive.distribute("points", {rank});
     archive.write("points/position", std::vector<double>{1. + rank, 2.}, 2);
     archive.write("points/stress", std::vector<double>{1, 2, 3, 4}, 4);
-    CheckpointFiles(folder.path, comm).write(archive, fields_of_points());
+    CheckpointFiles(folder.path, comm).write(archive);
   }
 } // namespace
 
@@ -172,24 +164,4 @@ TEST(CheckpointFiles, TheLabelComesBack)
   EXPECT_EQ(label.step, 7u);
   EXPECT_EQ(label.t, 0.1 * 7);
   EXPECT_EQ(label.parameters, "set Title = a\n");
-}
-
-
-
-TEST(CheckpointFiles, XdmfNamesEveryComponent)
-{
-  const Folder folder;
-  write(folder, 5);
-  const std::string xdmf = folder.text_of("a.xdmf");
-  const std::string n =
-    std::to_string(dealii::Utilities::MPI::n_mpi_processes(comm));
-  EXPECT_NE(xdmf.find(
-              "<Geometry GeometryType=\"XY\">\n<DataItem Dimensions=\"" + n +
-              " 2\" NumberType=\"Float\" Precision=\"8\" "
-              "Format=\"HDF\">a.h5:/points/position"),
-            std::string::npos);
-  for (const char *component : {"xx", "yy", "zz", "xy"})
-    EXPECT_NE(xdmf.find("Name=\"stress_" + std::string(component) +
-                        " [stress]\""),
-              std::string::npos);
 }

@@ -3,7 +3,6 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/grid_space.h>
-#include <moraine/output/domain_vtu.h>
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/point_vtu.h>
 #include <moraine/output/pvd_history.h>

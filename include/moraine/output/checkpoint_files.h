@@ -32,8 +32,7 @@ namespace moraine
 
   /**
    * The folder "checkpoints" of a run: a.h5 and b.h5 in turn, and the file
-   * "last", which names the last good one. Beside each is an .xdmf with which
-   * programs show its points.
+   * "last", which names the last good one.
    */
   class CheckpointFiles
   {
@@ -42,12 +41,12 @@ namespace moraine
     CheckpointFiles(const std::string &folder, const MPI_Comm &communicator);
 
     /**
-     * Write @p archive, which has a label and points with @p fields, in place
-     * of the older checkpoint. Collective.
+     * Write @p archive, which has a label, in place of the older checkpoint.
+     * Collective.
      * @throws InputError if that fails; then the last good one stays.
      */
     void
-    write(const Archive &archive, const PointFields &fields) const;
+    write(const Archive &archive) const;
 
     /**
      * The path of the last good checkpoint, or if @p from is not empty of the
@@ -78,13 +77,6 @@ namespace moraine
 
     std::string
     find_on_root(const std::string &from) const;
-
-    void
-    write_xdmf(const std::string &name,
-               const std::string &path,
-               const Archive     &archive,
-               const PointFields &fields,
-               const std::size_t  n_points) const;
 
     const std::string folder;
     const MPI_Comm    communicator;

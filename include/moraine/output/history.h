@@ -16,6 +16,10 @@
 
 namespace moraine
 {
+  /** A text as a cell of a CSV file, in quotes if it needs them. */
+  std::string
+  csv_cell(const std::string &text);
+
   /**
    * history.csv: one row for each accepted step, written and flushed at once.
    * The first row fixes the columns; the header gives names and units as

@@ -18,7 +18,7 @@ namespace moraine
    *
    * original.prm, parameters.prm, log.txt, history.csv, summary.json,
    * points.pvd with points/00000.vtu, ..., mesh.pvd with mesh/00000.vtu, ...,
-   * checkpoints/last, a.h5, b.h5, a.xdmf, b.xdmf
+   * checkpoints/last, a.h5, b.h5
    *
    * As long as it lives, other runs are kept out of the folder.
    */

@@ -4,6 +4,7 @@
 #ifndef moraine_output_point_vtu_h
 #define moraine_output_point_vtu_h
 
+#include <moraine/basis/basis.h>
 #include <moraine/core/units.h>
 #include <moraine/points/point_set.h>
 
@@ -39,7 +40,24 @@ namespace moraine
                   const std::string   &path,
                   const double         time,
                   const unsigned int   step,
-                  const Units       &units = Units());
+                  const Units         &units = Units());
+
+  /**
+   * Write the domains of the points of one step as quadrilaterals or hexahedra
+   * in one VTU file, each with the fields of its point (write_point_vtu()).
+   * The basis has to have domains. Collective. The file appears at @p path only
+   * when it is complete.
+   *
+   * @throws InputError naming the file if it cannot be written.
+   */
+  template <int dim>
+  void
+  write_domain_vtu(const Basis<dim>    &basis,
+                   const PointSet<dim> &points,
+                   const std::string   &path,
+                   const double         time,
+                   const unsigned int   step,
+                   const Units         &units = Units());
 } // namespace moraine
 
 #endif

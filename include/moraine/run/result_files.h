@@ -12,7 +12,9 @@
 
 #include <deal.II/base/timer.h>
 
-#include <optional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -58,18 +60,22 @@ namespace moraine
     run_fails(const Summary &summary) override;
 
   private:
-    /** Make the list of domains, if there are any. */
+    /** Make the folders and lists of what this run writes as VTU. */
     void
-    prepare_domains();
+    prepare_series();
+
+    /** Path of the next file of a series. */
+    std::string
+    next_file(const std::string &series) const;
+
+    /** Put that file into the list of its series. */
+    void
+    list_file(const std::string &series, const double t);
 
     using Increments = std::vector<dealii::Tensor<1, dim>>;
 
     void
     write_vtu(const double t, const Increments &increments);
-
-    /** The surfaces of boundaries, in a folder of their own. */
-    void
-    write_boundaries(const double t);
 
     /**
      * The points alone, which a run that ends early leaves behind: the mesh may
@@ -84,10 +90,8 @@ namespace moraine
     dealii::TimerOutput      &timer;
     const MPI_Comm            communicator;
     History                   history;
-    PvdHistory                points_pvd;
-    PvdHistory                mesh_pvd;
-    PvdHistory                boundaries_pvd;
-    std::optional<PvdHistory> domains_pvd;
+    /** By series: points, mesh, boundaries, domains. */
+    std::map<std::string, PvdHistory> lists;
     /** Of conditions that move; see translations_of_conditions(). */
     NamedTranslations<dim> translations;
     std::vector<std::string>  acting; ///< boundaries, in the last step
