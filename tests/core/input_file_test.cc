@@ -230,8 +230,7 @@ TEST(InputFile, Structure)
             "f.prm:1: found 'set Method', allowed: set KEY = VALUE");
   EXPECT_EQ(
     input_mistake("subsection a/b\nend\n"),
-    "f.prm:1: found 'subsection a/b'; a subsection needs a name without "
-    "'/' and '.'");
+    "f.prm:1: found 'subsection a/b'; a subsection needs a name without '/'");
   EXPECT_EQ(input_mistake("include other.prm\n"),
             "f.prm:1: found 'include other.prm', allowed: subsection NAME, set "
             "KEY = VALUE, end, # comment");
