@@ -478,7 +478,7 @@ class Colours:
         ends = nonsingular(*ends, expander=0.5, tiny=1e-9)
         if args.diverging and not args.range:
             ends = [-max(map(abs, ends)), max(map(abs, ends))]
-        self.levels = MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(
+        self.levels = MaxNLocator(12, steps=[1, 2, 2.5, 5, 10]).tick_values(
             *ends)
         self.map = plt.get_cmap("RdBu_r" if args.diverging else "viridis")
         self.norm = BoundaryNorm(self.levels, self.map.N, extend="both")

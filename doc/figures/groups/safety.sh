@@ -8,7 +8,7 @@ run stands geotechnics/factor-of-safety
 
 render step-9 "$(last stands/points)" "$(last fails/points)" --columns 1 \
   --label "c_u = 32 kPa, the whole weight" "c_u / 1.3, just before it fails" \
-  --field plastic_strain --range 0 0.5 --length-unit m --magnify 1 \
+  --field plastic_strain --range 0 0.5 \
   --heading "Accumulated plastic strain, h = 1 m"
 
 moraine study safety geotechnics/factor-of-safety

@@ -35,5 +35,4 @@ for time in 1.3 1.4 1.48 1.54 1.68; do
 done
 render embankment "${files[@]}" --columns 1 --label "${labels[@]}" --field displacement \
   --component x --diverging --range -0.03 0.03 --magnify 100 \
-  --heading "An embankment 12 m high, shaken through its rock; displacements × 100" \
-  --title "u_x" --unit m --length-unit m
+  --heading "An embankment 12 m high, shaken through its rock; displacements × 100"
