@@ -4,7 +4,7 @@
 
 """Fills the tables of the pages with lines of test references.
 
-A page has a block
+A page has a block, whose comments are lines of their own:
 
     <!-- table: tests/verification/ring.output "ring, * cells: l2_u" by "20 cells" "40 cells" -->
     <!-- end -->
@@ -23,8 +23,9 @@ import pathlib
 import re
 import sys
 
-BLOCK = re.compile(r"<!-- table: (?P<head>[^\n]*?) -->\n(?P<body>.*?)<!-- end -->",
-                   re.DOTALL)
+START = re.compile(r"^<!-- table: ", re.MULTILINE)
+BLOCK = re.compile(r"^<!-- table: (?P<head>[^\n]*?) -->\n(?:\|[^\n]*\n)*<!-- end -->",
+                   re.MULTILINE)
 BOUND = re.compile(r"^(.*?)\s*(<=|>=) (\S+): yes$")
 
 
@@ -117,7 +118,7 @@ def complaints(root, rewrite=False):
         text = page.read_text()
         name = page.relative_to(root)
         try:
-            if text.count("<!-- table: ") != len(BLOCK.findall(text)):
+            if len(START.findall(text)) != len(BLOCK.findall(text)):
                 raise ValueError("a table has no end")
             new = filled(root, text)
         except ValueError as error:

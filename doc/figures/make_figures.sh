@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 #
-# Runs scenes, studies and tutorial programs and makes every picture of
+# Runs scenes, studies and tutorial programs and makes the pictures of
 # doc/figures/ from their results:
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
 # groups/ without its ending (all but 'studies', 'points', 'locking' and 'cut-study' if left
-# out). Needs what ./moraine test installs. The other pictures of doc/studies/ show
-# wall times, too, and come from moraine study itself.
+# out). Needs what ./moraine test installs. Not made here: enforcement-*, fe-mpm and
+# solvers, and those of doc/studies/, which show wall times and come from moraine
+# study itself.
 
 set -euo pipefail
 figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
