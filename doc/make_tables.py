@@ -13,7 +13,8 @@ Each text in quotes is how lines of the file begin; '*' stands for anything.
 These lines become a table of label and value between the two comments. With
 'by' the texts after it become columns: a line whose label has the text as
 words of its own goes to that column, and to the row of what is left of its
-label, without what all rows end with; other lines are left out. A line 'x <= 1e-10: yes' has the value '≤ 1e-10'.
+label, without the words that all rows end with; other lines are left out. A
+line 'x <= 1e-10: yes' has the value '≤ 1e-10'.
 
   doc/make_tables.py [ROOT]          rewrites all pages below ROOT/doc
   doc/make_tables.py --check [ROOT]  exits with 1 if a page would change
@@ -76,7 +77,10 @@ def pivoted(entries, columns):
         for column in columns:
             left = without(label, column)
             if left is not None:
-                rows.setdefault(left, {}).setdefault(column, value)
+                values = rows.setdefault(left, {})
+                if column in values:
+                    raise ValueError(f"two lines for '{left}', '{column}'")
+                values[column] = value
                 break
     for column in columns:
         if not any(column in values for values in rows.values()):
