@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""The numbers of doc/studies/locking.md:
+"""The numbers of doc/topics/locking.md:
 
     locking_study.py MORAINE [cook] [footing] [free] [robust]
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 #
-# Runs scenes, studies and tutorial programs and makes every picture of
+# Runs scenes, studies and tutorial programs and makes the pictures of
 # doc/figures/ from their results:
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in

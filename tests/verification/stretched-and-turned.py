@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Moraine authors
 """A bar that a roller stretches to 1.5 times its length while it turns by 90 degrees
 through the cells: the force is that of finite elements. See 'Means over cells' in
-doc/theory/implicit-boundaries.md."""
+doc/topics/implicit-boundaries.md."""
 
 from math import hypot
 

@@ -90,7 +90,7 @@ namespace moraine
      * at a residual norm of @p enough, and measure it with the residual's
      * entries times @p weights (positive) unless that is null. Where auto
      * solves directly what it began with an iterative solver, the report says
-     * so. It goes on directly while that is cheaper, see doc/theory/solvers.md.
+     * so. It goes on directly while that is cheaper, see doc/topics/solvers.md.
      */
     LinearReport
     solve(LA::Vector       &x,

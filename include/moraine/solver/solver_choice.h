@@ -59,7 +59,7 @@ namespace moraine
 
     /**
      * What a factorisation of @p n unknowns costs: measured, for 4000 to
-     * 80 000 unknowns, see doc/theory/solvers.md.
+     * 80 000 unknowns, see doc/topics/solvers.md.
      */
     static double
     factorisation_cost(const unsigned int n, const unsigned int dim);

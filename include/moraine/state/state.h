@@ -214,7 +214,7 @@ namespace moraine
      *     K_o = 6\, q \min\left(1, \frac q\mu\right) \sqrt{\frac K\mu},
      *     \qquad q = |\mathrm{dev}\,\sigma_n|, \quad
      *     K = \lambda + \frac{2\mu}{n} , @f]
-     * found by trial, doc/theory/locking.md. Next to nothing where stress is
+     * found by trial, doc/topics/locking.md. Next to nothing where stress is
      * small against @f$\mu@f$, as in soil.
      */
     double
