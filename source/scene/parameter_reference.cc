@@ -4,6 +4,7 @@
 #include <moraine/scene/parameter_reference.h>
 
 #include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
 #include <moraine/scene/scene.h>
 
 // Keeps boost 1.74 from printing a note about its own code.
@@ -12,6 +13,8 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace moraine
 {
@@ -50,36 +53,76 @@ namespace moraine
 
 
 
-    void
-    print_section(const Tree &node, const std::string &path, std::ostream &out)
+    /** A value, or both if they differ. */
+    std::string
+    both(const std::string &in_2d, const std::string &in_3d)
     {
+      const auto quoted = [](const std::string &value) {
+        return value.empty() ? "" : "`" + value + "`";
+      };
+      return in_2d == in_3d ? quoted(in_2d) :
+                              quoted(in_2d) + ", 3D " + quoted(in_3d);
+    }
+
+
+
+    /** Of a section, in 2D and in 3D; either may lack it. */
+    void
+    print_section(const Tree        &in_2d,
+                  const Tree        &in_3d,
+                  const std::string &path,
+                  std::ostream      &out)
+    {
+      static const Tree nothing;
+      const auto        other = [](const Tree &tree, const std::string &name)
+        -> const Tree & {
+        const auto found = tree.find(name);
+        return found == tree.not_found() ? nothing : found->second;
+      };
+      // In the order of 3D, and what 2D has alone.
+      std::vector<std::string> names;
+      for (const Tree *tree : {&in_3d, &in_2d})
+        for (const auto &[name, child] : *tree)
+          if (!contains(names, name))
+            names.push_back(name);
       bool has_entries = false;
-      for (const auto &[name, child] : node)
-        if (is_entry(child))
-          {
-            if (!has_entries)
-              out << "\n## " << (path.empty() ? "(top)" : in_cell(path))
-                  << "\n\n| key | default | allowed | meaning |\n"
-                  << "|---|---|---|---|\n";
-            has_entries        = true;
-            const auto initial = child.get<std::string>("default_value");
-            out << "| " << name << " | "
-                << (initial.empty() ? "" : "`" + initial + "`") << " | "
-                << in_cell(
-                     describe(child.get<std::string>("pattern_description")))
-                << " | " << in_cell(child.get<std::string>("documentation"))
-                << " |\n";
-          }
-      for (const auto &[name, child] : node)
-        if (!is_entry(child))
-          print_section(child, path.empty() ? name : path + "/" + name, out);
+      for (const std::string &name : names)
+        {
+          const Tree &a = other(in_2d, name), &b = other(in_3d, name);
+          if (!is_entry(a) && !is_entry(b))
+            continue;
+          if (!has_entries)
+            out << "\n## " << (path.empty() ? "(top)" : in_cell(path))
+                << "\n\n| key | default | allowed | meaning |\n"
+                << "|---|---|---|---|\n";
+          has_entries     = true;
+          const Tree &one = is_entry(a) ? a : b;
+          const auto  get = [](const Tree &tree, const Tree &otherwise) {
+            return (is_entry(tree) ? tree : otherwise)
+              .get<std::string>("default_value");
+          };
+          out << "| " << name
+              << (!is_entry(a) ? " (3D only)" :
+                  !is_entry(b) ? " (2D only)" :
+                                 "")
+              << " | " << both(get(a, b), get(b, a)) << " | "
+              << in_cell(describe(one.get<std::string>("pattern_description")))
+              << " | " << in_cell(one.get<std::string>("documentation"))
+              << " |\n";
+        }
+      for (const std::string &name : names)
+        {
+          const Tree &a = other(in_2d, name), &b = other(in_3d, name);
+          if (!is_entry(a) && !is_entry(b))
+            print_section(a, b, path.empty() ? name : path + "/" + name, out);
+        }
     }
 
 
 
     template <int dim>
-    void
-    print(std::ostream &out)
+    Tree
+    tree_of_parameters()
     {
       Scene<dim>        scene;
       std::stringstream json;
@@ -87,29 +130,25 @@ namespace moraine
         json, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
       Tree tree;
       boost::property_tree::read_json(json, tree);
-      out
-        << "# Parameters in " << dim << "D\n\n"
-        << "Written by `moraine parameters --dimension " << dim
-        << "`. A heading is the path of a section; `<name>` is any name "
-           "you like.\nUnits are yours: length, stress, time and mass have "
-           "to fit each other.\nSection `Constants` holds names of your own: "
-           "with `set h = 0.2` there, `$h` in any value stands for 0.2.\n"
-           "Where a number is wanted, arithmetic gives it: `100/7`, `2*$h`, "
-           "`sqrt(2)*pi`, in lists too; a constant that is arithmetic or an expression stands "
-           "for its value. In tables and lists that blanks separate, write "
-           "it without blanks.\n";
-      print_section(tree, "", out);
+      return tree;
     }
   } // namespace
 
 
 
   void
-  print_parameter_reference(const unsigned int dimension, std::ostream &out)
+  print_parameter_reference(std::ostream &out)
   {
-    if (dimension == 2)
-      print<2>(out);
-    else
-      print<3>(out);
+    out << "# Parameters\n\n"
+           "Written by `moraine parameters`. A heading is the path of a "
+           "section; `<name>` is any name you like.\nUnits are yours: length, "
+           "stress, time and mass have to fit each other.\nSection "
+           "`Constants` holds names of your own: with `set h = 0.2` there, "
+           "`$h` in any value stands for 0.2.\nWhere a number is wanted, "
+           "arithmetic gives it: `100/7`, `2*$h`, `sqrt(2)*pi`, in lists too; "
+           "a constant that is arithmetic or an expression stands for its "
+           "value. In tables and lists that blanks separate, write it without "
+           "blanks.\n";
+    print_section(tree_of_parameters<2>(), tree_of_parameters<3>(), "", out);
   }
 } // namespace moraine

@@ -63,7 +63,7 @@ namespace moraine
         {"parameters",
          "",
          "every parameter with default, allowed values and text",
-         {"--dimension"}},
+         {}},
         {"explain",
          "[ID]",
          "cause, size and cure of a diagnostic; all of them without ID",
@@ -97,8 +97,7 @@ namespace moraine
         {"--output", "DIR", "folder for the results"},
         {"--overwrite", "", "replace the results of an earlier run in it"},
         {"--quiet", "", "show only how the run ends, its warnings, and errors"},
-        {"--verbose", "", "show every Newton iteration"},
-        {"--dimension", "2|3", "of the scenes; 2 if left out"}};
+        {"--verbose", "", "show timings, hints and every Newton iteration"}};
       return all;
     }
 
@@ -155,7 +154,6 @@ namespace moraine
       std::vector<std::string> settings;
       std::string              from;
       RunOptions               options;
-      unsigned int             dimension = 2;
       bool                     help      = false;
     };
 
@@ -188,17 +186,6 @@ namespace moraine
 
 
 
-    unsigned int
-    read_dimension(const std::string &text)
-    {
-      if (text != "2" && text != "3")
-        throw InputError("option '--dimension': found '" + text +
-                         "', allowed: 2, 3");
-      return text == "3" ? 3 : 2;
-    }
-
-
-
     void
     read_option(const std::string                  &option,
                 const std::function<std::string()> &value,
@@ -215,10 +202,8 @@ namespace moraine
         arguments.options.overwrite = true;
       else if (option == "--quiet")
         arguments.options.verbosity = Verbosity::quiet;
-      else if (option == "--verbose")
-        arguments.options.verbosity = Verbosity::verbose;
       else
-        arguments.dimension = read_dimension(value());
+        arguments.options.verbosity = Verbosity::verbose;
     }
 
 
@@ -433,7 +418,7 @@ namespace moraine
           return run_study(arguments, input);
         });
       if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-        print_parameter_reference(arguments.dimension, std::cout);
+        print_parameter_reference(std::cout);
       return done;
     }
   } // namespace

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 
-"""doc/parameters*.md are what `moraine parameters` writes.
+"""doc/parameters.md and doc/diagnostics.md are what the program writes.
 
     check_parameters.py ROOT MORAINE            compare
     check_parameters.py ROOT MORAINE --update   write them anew
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-FILES = {"doc/parameters.md": "2", "doc/parameters-3d.md": "3"}
+FILES = {"doc/parameters.md": "parameters", "doc/diagnostics.md": "explain"}
 
 
 def differences(root, written):
@@ -51,9 +51,9 @@ def self_check(written):
 def main():
     root, program = pathlib.Path(sys.argv[1]), sys.argv[2]
     written = {
-        name: subprocess.run([program, "parameters", "--dimension", dimension],
+        name: subprocess.run([program, command],
                              check=True, capture_output=True, text=True).stdout
-        for name, dimension in FILES.items()}
+        for name, command in FILES.items()}
     if "--update" in sys.argv:
         for name, text in written.items():
             (root / name).write_text(text)

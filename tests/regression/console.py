@@ -92,5 +92,5 @@ for words in (["--help"], ["run", "--help"], ["parameters", "--help"]):
     text("moraine " + " ".join(words), process.returncode)
     for line in process.stdout.splitlines():
         text(" ", line)
-wrong = run(scene, extra=["--dimension", "3"], expect=2)
+wrong = run(scene, extra=["--from", "3"], expect=2)
 text("option of another command", wrong.output.strip())

@@ -10,11 +10,10 @@ namespace moraine
 {
   /**
    * Write every parameter of a scene as Markdown: a table for each section with
-   * key, default, what is allowed, and its text with unit; @p dimension is 2 or
-   * 3.
+   * key, default, what is allowed, and its text with unit.
    */
   void
-  print_parameter_reference(const unsigned int dimension, std::ostream &out);
+  print_parameter_reference(std::ostream &out);
 } // namespace moraine
 
 #endif
