@@ -101,11 +101,8 @@ namespace moraine
   {
     preconditioner.reset();
     if (options.schwarz)
-      preconditioner = std::make_unique<SchwarzPreconditioner>(
-        matrix,
-        near_null_space,
-        options.dim,
-        unknowns_come_by_node(near_null_space, options.dim) ? options.dim : 1);
+      preconditioner =
+        std::make_unique<SchwarzPreconditioner>(matrix, options.dim);
     else
       {
         const MultigridOptions multigrid_options(matrix,

@@ -54,27 +54,32 @@ namespace moraine
                           counts);
       return counts[1] >= most_nodes * counts[0];
     }
+
+
+
+    /**
+     * Whether the unknowns of a node follow each other, component by component,
+     * on every rank. The first dim modes are the translations, so they tell the
+     * component of an unknown; without any nobody knows. Collective.
+     */
+    bool
+    unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
+                          const unsigned int             dim)
+    {
+      if (near_null_space.size() < dim)
+        return false;
+      const auto n_owned = near_null_space[0].locally_owned_size();
+      bool       by_node = n_owned % dim == 0;
+      for (unsigned int c = 0; by_node && c < dim; ++c)
+        {
+          const double *values = near_null_space[c].trilinos_vector()[0];
+          for (unsigned int i = 0; by_node && i < n_owned; ++i)
+            by_node = (values[i] == 0. || i % dim == c);
+        }
+      return !Utilities::MPI::logical_or(
+        !by_node, near_null_space[0].get_mpi_communicator());
+    }
   } // namespace
-
-
-
-  bool
-  unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
-                        const unsigned int             dim)
-  {
-    if (near_null_space.size() < dim)
-      return false;
-    const auto n_owned = near_null_space[0].locally_owned_size();
-    bool       by_node = n_owned % dim == 0;
-    for (unsigned int c = 0; by_node && c < dim; ++c)
-      {
-        const double *values = near_null_space[c].trilinos_vector()[0];
-        for (unsigned int i = 0; by_node && i < n_owned; ++i)
-          by_node = (values[i] == 0. || i % dim == c);
-      }
-    return Utilities::MPI::min(by_node ? 1 : 0,
-                               near_null_space[0].get_mpi_communicator()) == 1;
-  }
 
 
 

@@ -3,7 +3,14 @@
 
 #include <moraine/solver/schwarz_preconditioner.h>
 
-#include <algorithm>
+#include <moraine/core/silent_errors.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Amesos.h>
+#include <Epetra_CrsMatrix.h>
+#include <Ifpack.h>
+#include <Teuchos_ParameterList.hpp>
 
 namespace moraine
 {
@@ -13,39 +20,33 @@ namespace moraine
   {
     /** Layers of the matrix's graph around a subdomain. Fewer cost less each
      * and let the number of iterations grow as Poisson's ratio goes to 0.5. */
-    constexpr unsigned int
+    constexpr int
     layers_around(const unsigned int dim)
     {
       return dim == 2 ? 5 : 4;
-    }
-
-
-
-    LA::Vector
-    vector_of(const LA::SparseMatrix &matrix)
-    {
-      return LA::Vector(matrix.locally_owned_range_indices(),
-                        matrix.get_mpi_communicator());
     }
   } // namespace
 
 
 
-  SchwarzPreconditioner::SchwarzPreconditioner(
-    const LA::SparseMatrix        &matrix,
-    const std::vector<LA::Vector> &modes,
-    const unsigned int             dim,
-    const unsigned int             block)
-    : rows(matrix, layers_around(dim))
-    , subdomains(rows, dim, block, matrix.get_mpi_communicator())
-    , coarse_space(rows, subdomains, modes, vector_of(matrix))
-    , target(rows.n_rows())
+  SchwarzPreconditioner::SchwarzPreconditioner(const LA::SparseMatrix &matrix,
+                                               const unsigned int      dim)
   {
-    for (unsigned int s = 0; s < subdomains.n_subdomains(); ++s)
-      {
-        const auto unknowns = subdomains.with_neighbours(s, layers_around(dim));
-        overlapping.push_back({unknowns, rows.factorise(unknowns)});
-      }
+    const SilentErrors silence;
+    auto              *A =
+      const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix());
+    Teuchos::RCP<Ifpack_Preconditioner> schwarz(
+      Ifpack().Create("Amesos", A, layers_around(dim)));
+    Teuchos::ParameterList options;
+    options.set("schwarz: combine mode", "Add"); // symmetric
+    options.set("schwarz: compute condest", false);
+    options.set("amesos: solver type",
+                Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" :
+                                                 "Amesos_Umfpack");
+    const bool failed = schwarz->SetParameters(options) != 0 ||
+                        schwarz->Initialize() != 0 || schwarz->Compute() != 0;
+    if (!Utilities::MPI::logical_or(failed, matrix.get_mpi_communicator()))
+      preconditioner = schwarz;
   }
 
 
@@ -53,20 +54,9 @@ namespace moraine
   void
   SchwarzPreconditioner::vmult(LA::Vector &dst, const LA::Vector &src) const
   {
-    coarse_space.vmult(dst, src);
-    rows.import(source, src);
-    std::fill(target.begin(), target.end(), 0.);
-    std::vector<double> b, x;
-    for (const Overlapping &subdomain : overlapping)
-      if (!subdomain.factors.is_singular())
-        {
-          b.resize(subdomain.unknowns.size());
-          for (unsigned int k = 0; k < b.size(); ++k)
-            b[k] = source[subdomain.unknowns[k]];
-          subdomain.factors.solve(x, b);
-          for (unsigned int k = 0; k < b.size(); ++k)
-            target[subdomain.unknowns[k]] += x[k];
-        }
-    dst += rows.sum(target);
+    if (preconditioner.is_null())
+      dst = src;
+    else
+      PreconditionBase::vmult(dst, src);
   }
 } // namespace moraine

@@ -150,7 +150,10 @@ TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn2d)
 TEST(LinearSolver, SchwarzIterationsStayBoundedWhereVolumeIsKeptIn3d)
 {
   const unsigned int n = 14, few = schwarz_iterations<3>(n, 0.3);
-  EXPECT_GT(few, 10u) << "several subdomains";
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    {
+      EXPECT_GT(few, 10u) << "several subdomains";
+    }
   EXPECT_LE(schwarz_iterations<3>(n, 0.4999), 2 * few);
 }
 

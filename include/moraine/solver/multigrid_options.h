@@ -37,17 +37,6 @@ namespace moraine
 
 
   /**
-   * Whether the unknowns of a node follow each other, component by component,
-   * on every rank. The first dim modes are the translations, so they tell the
-   * component of an unknown; without any nobody knows. Collective.
-   */
-  bool
-  unknowns_come_by_node(const std::vector<LA::Vector> &near_null_space,
-                        const unsigned int             dim);
-
-
-
-  /**
    * Make block Gauss-Seidel on the finest level from the values that the matrix
    * has now: of its blocks on the diagonal it keeps factors, of the rest it
    * sees every change. Other smoothers stay as they are.

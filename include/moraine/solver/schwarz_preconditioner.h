@@ -8,57 +8,31 @@
 
 #include <moraine/core/linear_algebra.h>
 
-#include <moraine/solver/coarse_space.h>
-#include <moraine/solver/overlapping_rows.h>
-#include <moraine/solver/subdomains.h>
-
-#include <memory>
-#include <vector>
-
 namespace moraine
 {
   /**
-   * The additive Schwarz method of two levels,
+   * The additive Schwarz method
    *
-   *   M^-1 = P A_0^-1 P^T + sum_s R_s^T (R_s A R_s^T)^-1 R_s,
+   * @f[ M^{-1} = \sum_s R_s^T (R_s A R_s^T)^{-1} R_s @f]
    *
-   * with subdomains s that overlap by two layers of the graph of the matrix,
-   * all factorised, and the CoarseSpace P. Iterations depend little on
-   * Poisson's ratio up to 0.5, where those of algebraic multigrid do not end
-   * (Dohrmann and Widlund 2009, doi 10.1137/080724320).
+   * with one subdomain s for each rank, which takes some layers of the graph of
+   * the matrix from other ranks, by Trilinos' Ifpack; each block is factorised.
+   * On one rank it is the inverse.
    */
   class SchwarzPreconditioner
     : public dealii::TrilinosWrappers::PreconditionBase
   {
   public:
-    /**
-     * @p modes are the rigid-body modes, or none. The unknowns of a node are
-     * the @p block that follow each other; @p dim is 2 or 3. Collective.
-     */
-    SchwarzPreconditioner(const LA::SparseMatrix        &matrix,
-                          const std::vector<LA::Vector> &modes,
-                          const unsigned int             dim,
-                          const unsigned int             block);
+    /** @p dim, 2 or 3, chooses the layers. If a block cannot be factorised, all
+     * is the identity. Collective. */
+    SchwarzPreconditioner(const LA::SparseMatrix &matrix,
+                          const unsigned int      dim);
 
     using PreconditionBase::vmult;
 
-    /** dst = M^-1 src. Collective. */
+    /** @f$dst = M^{-1} src@f$. Collective. */
     void
     vmult(LA::Vector &dst, const LA::Vector &src) const override;
-
-  private:
-    /** Unknowns, as rows, and the factors of their block of the matrix. */
-    struct Overlapping
-    {
-      std::vector<unsigned int> unknowns;
-      BlockFactors              factors;
-    };
-
-    const OverlappingRows       rows;
-    const Subdomains            subdomains;
-    const CoarseSpace           coarse_space;
-    std::vector<Overlapping>    overlapping;
-    mutable std::vector<double> source, target;
   };
 } // namespace moraine
 
