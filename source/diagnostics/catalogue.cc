@@ -161,7 +161,7 @@ namespace moraine
        warning,
        "stage",
        "A load or a boundary lies on a body that goes.",
-       "The value is the share of its surface (limit 0.5). From then on it acts "
+       "The value is the share of its surface or points (limit 0.05). From then on it acts "
        "on what is left beside it.",
        "Leave it out of 'Loads' or 'Boundaries' of the stage."},
       {"returned-points",

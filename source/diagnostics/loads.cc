@@ -166,16 +166,36 @@ namespace moraine
                        "-0.1*t reaches -0.1 at t = 1"};
       const auto active =
         acting_conditions(facts.of.grid_conditions, *facts.now.stage);
-      std::vector<unsigned int> n(active.size(), 0);
+      std::vector<unsigned int> n(active.size(), 0), acts = n;
       for (const auto &entry :
            find_prescribed_nodes(active,
                                  facts.of.space,
                                  facts.now.stage->time.start_time)
              .entries)
-        ++n[entry.condition];
+        {
+          ++n[entry.condition];
+          const auto value = [&](const double t) {
+            return active[entry.condition].displacement(
+              facts.of.space.built_position(entry.node), t)[entry.component];
+          };
+          const TimeParameters &time = facts.now.stage->time;
+          if (value(time.start_time) == 0 ||
+              value(time.start_time) != value(time.end_time) ||
+              active[entry.condition].motion.moves())
+            ++acts[entry.condition];
+        }
       Utilities::MPI::sum(n, facts.communicator(), n);
+      Utilities::MPI::sum(acts, facts.communicator(), acts);
       for (unsigned int c = 0; c < active.size(); ++c)
-        if (n[c] == 0)
+        if (n[c] > 0 && acts[c] == 0 && facts.now.before &&
+            !contains(facts.now.before->grid_conditions, active[c].name))
+          return Finding{"no-effect",
+                         active[c].name,
+                         0,
+                         0,
+                         "its 'Displacement' is constant, and only its change "
+                         "from the start of the stage acts"};
+        else if (n[c] == 0)
           return Finding{"no-effect",
                          active[c].name,
                          0,
@@ -247,9 +267,9 @@ namespace moraine
     std::optional<Finding>
     removed_bodies(Facts<dim> &facts, Ledger &)
     {
-      constexpr double allowed = 0.5;
+      constexpr double allowed = 0.05;
       const auto &stage = *facts.now.stage, &before = *facts.now.before;
-      if (stage.bodies == before.bodies)
+      if (stage.bodies == before.bodies && stage.loads == before.loads)
         return {};
       Finding     worst{"removed-body", "", allowed, allowed, ""};
       const auto  take = [&worst](const std::string &name, const double share) {
@@ -278,20 +298,19 @@ namespace moraine
             take(boundary.name(), ground.lost());
           }
       for (const auto &force : facts.of.loads.on_points)
-        if (contains(stage.loads, force.name()) &&
-            contains(before.loads, force.name()))
+        if (contains(stage.loads, force.name()))
           {
-            std::vector<unsigned int> n{0, 0}; // all, those that go
+            std::vector<unsigned int> n{0, 0}; // points that stay, that go
             for (unsigned int p = 0; p < facts.of.points.n_local(); ++p)
               if (force.is_on(facts.of.points.id(p)))
-                {
-                  ++n[0];
-                  n[1] += !contains(
-                    stage.bodies,
-                    facts.of.body_names[facts.of.points.body(p)]);
-                }
+                ++n[contains(stage.bodies,
+                             facts.of.body_names[facts.of.points.body(p)]) ?
+                      0 :
+                      1];
             Utilities::MPI::sum(n, facts.communicator(), n);
-            take(force.name(), n[0] > 0 ? 1. * n[1] / n[0] : 0.);
+            // Or they went while it did not act.
+            if (n[1] > 0 || !contains(before.loads, force.name()))
+              take(force.name(), 1 - 1. * n[0] / force.n_points());
           }
       if (worst.object.empty())
         return {};

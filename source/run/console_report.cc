@@ -492,8 +492,9 @@ namespace moraine
   {
     for (const Finding &finding : summary.found.warnings)
       print(finding);
-    const bool ended = summary.status == "ok";
-    console << "  " << (ended ? "done" : "ended early") << ": "
+    if (summary.status != "ok")
+      console << "  ended early: " << summary.message << '\n';
+    console << "  " << (summary.status == "ok" ? "done: " : "")
             << summary.steps << (summary.steps == 1 ? " step" : " steps")
             << " in " << std::setprecision(3) << summary.wall_seconds << " s";
     if (!summary.found.warnings.empty())
@@ -508,8 +509,6 @@ namespace moraine
                                           " (" + finding.object + ")"));
         console << list_of(names) << "; see 'moraine explain ID'";
       }
-    if (!ended)
-      console << "; " << summary.message;
     console.stream() << std::endl;
   }
 

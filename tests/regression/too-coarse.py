@@ -119,61 +119,6 @@ for height in (2, 2.1):
     show(f"pulled side of a block {height} high",
          [("block", "firm", "0, 0", f"4, {height}")], LOAD)
 
-# A block that is pressed with its mesh, and one through whose mesh it goes, before a
-# load comes.
-for method in "finite element", "GIMP":
-    scene.write_text(f"""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 2
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection soft
-    set Young modulus = 1e3
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 2
-  end
-end
-subsection Boundaries
-  subsection base
-    set Body = block
-    set Part = bottom
-  end
-  subsection top
-    set Body        = block
-    set Part        = top
-    set Translation = 0; -0.4*min(t, 1)
-  end
-end
-{LOAD.replace("right", "left")}
-subsection Stages
-  subsection press
-    set Loads = none
-    subsection Time
-      set Steps = 2
-    end
-  end
-  subsection pull
-    set Loads = pull
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-""")
-    text(f"pulled side of a pressed block, {method}: told",
-         "material fills in part" in run(scene).output)
-
 FLOOR = """
 subsection Boundaries
   subsection floor
