@@ -21,6 +21,7 @@ namespace moraine
       When               when;
       const char        *id;
       checks::Check<dim> check;
+      bool               may_throw = false; ///< asked even if its id was found
     };
 
     template <int dim>
@@ -49,7 +50,7 @@ namespace moraine
         {When::bodies_go, "removed-body", removed_bodies<dim>},
         {When::step_begins, "separation", separation<dim>},
         {When::step_begins, "lost-hold", lost_boundaries<dim>},
-        {When::step_begins, "lost-hold", pushed_off_nodes<dim>},
+        {When::step_begins, "lost-hold", pushed_off_nodes<dim>, true},
         {When::step_begins, "cell-crossing", cell_crossing<dim>},
         {When::step_begins, "bodies-meet", bodies_meet<dim>},
         {When::step_begins, "surface-coverage", grown_past_ends<dim>},
@@ -120,10 +121,12 @@ namespace moraine
   {
     all_facts.set(moment);
     bool found = false;
-    for (const auto &[asked_when, id, check] : checks_in_order<dim>())
-      if (asked_when == when && !ledger.has(id) &&
-          !contains(all_facts.of.scene.output.silence, id))
-        if (const auto finding = check(all_facts, ledger))
+    for (const Asked<dim> &asked : checks_in_order<dim>())
+      if (asked.when == when &&
+          (asked.may_throw ||
+           (!ledger.has(asked.id) &&
+            !contains(all_facts.of.scene.output.silence, asked.id))))
+        if (const auto finding = asked.check(all_facts, ledger))
           found = report(*finding) || found;
     if (when == When::step_ends)
       ask_energy();
