@@ -99,7 +99,7 @@ namespace moraine
        hint,
        "stage",
        "The initial stress is not in equilibrium.",
-       "The value is the share of the forces out of balance (limit 0.01). The "
+       "The value is the share of the forces out of balance (limit 0.001). The "
        "first step without inertia removes it; with inertia it sets the bodies "
        "in motion.",
        "Begin with a stage without inertia."},
@@ -161,7 +161,7 @@ namespace moraine
        warning,
        "stage",
        "A load or a boundary lies on a body that goes.",
-       "The value is the share of its surface or points (limit 0.05). From then on it acts "
+       "The value is the share of its surface (limit 0.5) or points (0.05). From then on it acts "
        "on what is left beside it.",
        "Leave it out of 'Loads' or 'Boundaries' of the stage."},
       {"returned-points",

@@ -3,6 +3,7 @@
 
 // What loads, conditions and boundaries act on.
 
+#include <moraine/assembly/load_terms.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
@@ -33,6 +34,9 @@ namespace moraine
 
       /** Of a cell: by then the force on a pressed column is 3 % too small. */
       constexpr double allowed_push = 0.25;
+
+      /** Of a cell: by then stresses beside a pressed side are wrong by half. */
+      constexpr double allowed_gap_at_side = 0.4;
 
 
 
@@ -279,6 +283,12 @@ namespace moraine
             worst.value  = share;
           }
       };
+      // A surface may go on beside what is dug.
+      const auto take_most = [&take](const std::string &name,
+                                     const double       share) {
+        if (share > 0.5)
+          take(name, share);
+      };
       Ground<dim> ground(facts);
       for (const auto &load : facts.of.loads.carried)
         if (contains(stage.loads, load.name()) &&
@@ -287,7 +297,7 @@ namespace moraine
             for (const auto &place : load.places())
               if (place.active_cell_index != GridSpace<dim>::no_cell)
                 ground.add(place.x, place.active_cell_index, place.weight);
-            take(load.name(), ground.lost());
+            take_most(load.name(), ground.lost());
           }
       for (const auto &boundary : facts.of.boundaries)
         if (facts.holds(boundary.name()) &&
@@ -295,7 +305,7 @@ namespace moraine
           {
             for (const auto &point : boundary.points())
               ground.add(point.x, point.cell, point.JxW);
-            take(boundary.name(), ground.lost());
+            take_most(boundary.name(), ground.lost());
           }
       for (const auto &force : facts.of.loads.on_points)
         if (contains(stage.loads, force.name()))
@@ -375,28 +385,125 @@ namespace moraine
 
 
 
+    namespace
+    {
+      /** Refuse to go on when @p n pieces of what moves or loads material have
+       * become none. @return the most so far. */
+      double
+      most_pieces(const std::string &section, const double n, Ledger &ledger)
+      {
+        double &most = ledger.number("lost-hold/of stage: pieces of " + section);
+        most         = std::max(most, n);
+        if (n == 0 && most > 0)
+          throw ComputationError("section '" + section +
+                                 "': no material is left where it acts; use a "
+                                 "boundary with 'Translation', 'Mesh motion' or "
+                                 "a 'surface traction'");
+        return most;
+      }
+
+
+
+      /** Whether the boundary @p name has a 'Displacement'. */
+      template <int dim>
+      bool
+      has_displacement(const std::string &name, const Facts<dim> &facts)
+      {
+        return std::any_of(facts.of.scene.boundaries.begin(),
+                           facts.of.scene.boundaries.end(),
+                           [&name](const auto &named) {
+                             return named.first == name &&
+                                    !named.second.displacement.empty();
+                           });
+      }
+    } // namespace
+
+
+
     template <int dim>
     std::optional<Finding>
     lost_boundaries(Facts<dim> &facts, Ledger &ledger)
     {
-      // In dynamics a body may leave a wall.
-      if (facts.has_inertia())
-        return {};
+      Worst      worst("lost-hold", allowed_push);
+      const bool moves =
+        facts.of.state.mesh_after_step() != MeshAfterStep::keep;
       for (const auto &boundary : facts.of.boundaries)
-        if (facts.holds(boundary.name()))
-          {
-            double &most =
-              ledger.number("lost-hold/of stage: points of " + boundary.name());
-            const double n = boundary.n_points(facts.communicator());
-            most           = std::max(most, n);
-            if (n == 0 && most > 0)
-              return Finding{"lost-hold",
-                             boundary.name(),
-                             0,
-                             most,
-                             "no material is left at it, and its force is "
-                             "zero; take shorter steps or smaller cells"};
-          }
+        {
+          const std::string &name = boundary.name();
+          if (!facts.holds(name))
+            continue;
+          const double n = boundary.n_points(facts.communicator());
+          if (has_displacement(name, facts))
+            {
+              double largest = 0;
+              for (const auto &point : boundary.points())
+                largest = std::max(
+                  largest,
+                  std::abs(boundary.moved_through(
+                    point, facts.now.stage->time.start_time, facts.now.t)));
+              most_pieces("Boundaries/" + name, n, ledger);
+              if (moves)
+                worst.take(name,
+                           Utilities::MPI::max(largest, facts.communicator()) /
+                             facts.cell_size());
+              continue;
+            }
+          double &most = ledger.number("lost-hold/of stage: points of " + name);
+          most         = std::max(most, n);
+          // In dynamics a body may leave a wall.
+          if (n == 0 && most > 0 && !facts.has_inertia())
+            return Finding{"lost-hold",
+                           name,
+                           0,
+                           most,
+                           "no material is left at it, and its force is zero; "
+                           "take shorter steps or smaller cells"};
+        }
+      return worst.with("its 'Displacement' has moved material through its "
+                        "surface, which stays; use 'Translation'");
+    }
+
+
+
+    template <int dim>
+    std::optional<Finding>
+    left_sides(Facts<dim> &facts, Ledger &ledger)
+    {
+      for (const auto &traction : facts.of.loads.side_tractions)
+        {
+          if (!contains(facts.now.stage->loads, traction.name))
+            continue;
+          const std::string section = "Loads/" + traction.name;
+          const auto        faces =
+            pushed_faces(traction, facts.of.space, facts.of.points);
+          const double most = most_pieces(section, faces.size(), ledger);
+          double       gap  = 0; // in cells, the mean
+          for (const auto &in_cell : facts.of.points.cells())
+            for (const unsigned int f : in_cell.cell->face_indices())
+              if (const auto face = in_cell.cell->face(f);
+                  face->at_boundary() && face->boundary_id() == traction.side)
+                {
+                  const Tensor<1, dim> outward =
+                    face->center() - in_cell.cell->center();
+                  const double h = 2 * outward.norm();
+                  gap += facts.of.points.gap_before(
+                           in_cell.cell->active_cell_index(),
+                           face->center(),
+                           2 / h * outward,
+                           h) /
+                         h / faces.size();
+                }
+          gap = Utilities::MPI::sum(gap, facts.communicator());
+          if (most != faces.size() ||
+              (gap > allowed_gap_at_side && !facts.of.mesh_motion.moves() &&
+               facts.of.state.mesh_after_step() == MeshAfterStep::reset))
+            return Finding{"lost-hold",
+                           traction.name,
+                           gap,
+                           allowed_gap_at_side,
+                           "material has moved away from the side or along it; "
+                           "use a 'surface traction', which goes with it"};
+        }
       return {};
     }
 
@@ -464,12 +571,7 @@ namespace moraine
           push = std::max(push,
                           Utilities::MPI::max(largest, facts.communicator()) /
                             facts.cell_size());
-          if (n == 0 && push > 0)
-            throw ComputationError(
-              "section 'Grid conditions/" + condition.name +
-              "': by t = " + short_number(facts.now.t) +
-              " it has pushed all material off its nodes; use a boundary with "
-              "'Translation', or 'Mesh motion'");
+          most_pieces("Grid conditions/" + condition.name, n, ledger);
           if (push > worst.value)
             {
               worst.value  = push;
@@ -490,6 +592,7 @@ namespace moraine
     MORAINE_INSTANTIATE_CHECK(absorbing_at_rest)
     MORAINE_INSTANTIATE_CHECK(absorbing_on_new_bodies)
     MORAINE_INSTANTIATE_CHECK(lost_boundaries)
+    MORAINE_INSTANTIATE_CHECK(left_sides)
     MORAINE_INSTANTIATE_CHECK(pushed_off_nodes)
   } // namespace checks
 } // namespace moraine

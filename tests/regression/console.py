@@ -78,14 +78,17 @@ orders = [float(o) for o in re.findall(r"order (\S+)", normal.output)]
 text("order of few iterations", "none" if not orders else f"PRINTED {orders}")
 
 # The clock of a run that goes on begins anew, and its table says so.
-saved = run(scene, {"Output/Checkpoint every": "1 step"})
-resumed = run(saved.folder, command="resume", extra=["--from", "3"])
-for name, result in (("run", saved), ("resumed", resumed)):
-    text(f"times of it, {name}", ", ".join(
+def times(result):
+    return ", ".join(
         re.sub(r"\d+\.\d+", "...", " ".join(line.split()))
         for line in (result.folder / "log.txt").read_text().splitlines()
-        if "share" in line or
-        line.startswith(("  whole run", "  all since"))))
+        if "share" in line or line.startswith(("  whole run", "  all since")))
+
+
+saved = run(scene, {"Output/Checkpoint every": "1 step"})
+text("times of it, run", times(saved))
+run(saved.folder, command="resume", extra=["--from", "3"])
+text("times of it, resumed", times(saved))
 
 for words in (["--help"], ["run", "--help"], ["parameters", "--help"]):
     process = subprocess.run([str(program)] + words, capture_output=True,

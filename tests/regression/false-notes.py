@@ -66,7 +66,7 @@ plateau.write_text(PLATEAU)
 for strain in ("small", "finite"):
     result = run(plateau, {"Method/Strain": strain}, expect=1)
     text(f"plateau, {strain} strain: too few points",
-         result.output.count("too few points"))
+         "fictitious-stiffness" in result.ids())
     # Plane strain: 2/sqrt(3) of the yield stress.
     bound(f"plateau, {strain} strain: load over exact - 1",
           1.3 * result.summary["time"] / (2 / 3**0.5) - 1, 0.01)

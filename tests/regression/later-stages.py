@@ -588,8 +588,7 @@ for name, keys in (
           "Grid conditions/wall/Components": "",
           "Stages/held/Grid conditions": "base, pull"})):
     result = run(held, keys, on_ranks=1)
-    text(name, [line.strip() for line in result.output.splitlines()
-                if "Displacement" in line])
+    text(name, result.found())
 
 # A body that comes before one in flight is at rest, also at the nodes they share.
 JOINS = SOLID.replace("10000", "100") + """

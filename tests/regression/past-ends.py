@@ -5,7 +5,6 @@
 on its own 'Part'; not on a longer line, nor beside a footing. In the last step as in
 others."""
 
-import re
 from math import log
 
 SCENE = """

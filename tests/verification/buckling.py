@@ -4,7 +4,6 @@
 """Linear buckling of a cantilever under an axial force N: factors over those of
 Euler's column, (2 k - 1)^2 pi^2 E I / (4 L^2 N); and what it refuses."""
 
-import json
 import math
 
 E, LENGTH, HEIGHT = 120000, 10, 0.5

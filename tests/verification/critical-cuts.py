@@ -4,7 +4,6 @@
 """Bodies that hardly fill any cell, that poke into cells, share them or leave and
 enter them as they move, and a bar stretched until points are cells apart."""
 
-import re
 from math import cos, isclose, log, radians, sin, sqrt
 
 METHODS = "GIMP", "material point", "CPDI1", "CPDI2", "finite element", "DM-GC"

@@ -48,9 +48,10 @@ at_rest("gravity on the clay alone", {"Loads/weight/Bodies": "below"},
 
 
 def balance(result):
-    [line] = [line for line in result.output.splitlines()
-              if "initial stress" in line]
-    return line.strip()
+    """What is out of balance at the start, of all forces; hardly any is no finding."""
+    if "initial-imbalance" not in result.ids():
+        return "in equilibrium"
+    return f"{100 * result.finding('initial-imbalance')['value']:.2g} %"
 
 
 text("in equilibrium", balance(run(SCENE)))

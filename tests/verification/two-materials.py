@@ -5,7 +5,6 @@
 through the mesh: forces, displacements and stresses in closed form."""
 
 from math import log
-from re import sub
 
 SCENE = "prm/verification/two-materials.prm"
 SIGMA = 1e5 * log(1.1) / 1.1
