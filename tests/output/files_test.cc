@@ -276,6 +276,7 @@ namespace moraine
   "pseudo_transient_steps": 0,
   "newton_iterations": 0,
   "linear_iterations": 0,
+  "largest_displacement": 0,
   "bytes_per_point": 0,
   "peak_memory_mib": 0,
   "wall_seconds": 0,
