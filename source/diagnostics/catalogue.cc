@@ -99,7 +99,7 @@ namespace moraine
        hint,
        "stage",
        "The initial stress is not in equilibrium.",
-       "The value is the share of the forces out of balance (limit 0.001). The "
+       "The value is the share of the forces out of balance (limit 1e-12). The "
        "first step without inertia removes it; with inertia it sets the bodies "
        "in motion.",
        "Begin with a stage without inertia."},

@@ -141,7 +141,7 @@ namespace moraine
     void
     report_imbalance(Model<dim> &model, Diagnostics<dim> &diagnostics)
     {
-      constexpr double allowed = 0.001;
+      constexpr double allowed = 1e-12; // round-off
       const double     share   = model.system->unbalanced_share();
       if (share > allowed)
         diagnostics.report({"initial-imbalance",
