@@ -87,15 +87,37 @@ namespace moraine
 
 
 
-    /** @throws ComputationError for a body that is not held; InputError with
-     * the conditions that hold nothing, if there are some. */
+    /** The finding with this id, to go on with a message; "" without one. */
+    template <int dim>
+    std::string
+    cause(const Diagnostics<dim> &diagnostics, const std::string &id)
+    {
+      for (const Finding &finding : diagnostics.ledger.findings())
+        if (finding.id == id)
+          return "; " + finding.object + ": " + finding.text;
+      return "";
+    }
+
+
+
+    /** @throws InputError for a body that is not held, with the condition that
+     * holds nothing, if there is one. */
     template <int dim>
     void
-    check_that_it_is_held(const StageParameters &stage, Model<dim> &model)
+    check_that_it_is_held(const StageParameters  &stage,
+                          Model<dim>             &model,
+                          const Diagnostics<dim> &diagnostics)
     {
       model.system->set_target(stage.time.start_time);
       model.system->assemble(model.space->vector(), true);
-      model.system->check_that_it_is_held(true);
+      try
+        {
+          model.system->check_that_it_is_held(true);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(error.what() + cause(diagnostics, "no-effect"));
+        }
     }
 
 
@@ -249,7 +271,7 @@ namespace moraine
         {
           if (was)
             model.motion->rest();
-          check_that_it_is_held(stage, model);
+          check_that_it_is_held(stage, model, diagnostics);
         }
       else if (forces_jump(*before, stage))
         {
@@ -314,7 +336,8 @@ namespace moraine
       }
     catch (const ComputationError &error)
       {
-        throw ComputationError("stage '" + name + "': " + error.what());
+        throw ComputationError("stage '" + name + "': " + error.what() +
+                               cause(diagnostics, "removed-body"));
       }
     hold(held, t, model, diagnostics);
     if (stage.reset_displacements)
