@@ -3,7 +3,6 @@
 # Copyright (C) 2026 by the Moraine authors
 """Mistakes and faults of finite strain, domains and moving meshes."""
 
-import re
 
 
 def message(output):
