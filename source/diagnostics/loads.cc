@@ -476,8 +476,10 @@ namespace moraine
           const std::string section = "Loads/" + traction.name;
           const auto        faces =
             pushed_faces(traction, facts.of.space, facts.of.points);
-          const double most = most_pieces(section, faces.size(), ledger);
-          double       gap  = 0; // in cells, the mean
+          const double before =
+            ledger.number("lost-hold/of stage: pieces of " + section);
+          most_pieces(section, faces.size(), ledger);
+          double gap = 0; // in cells, the mean
           for (const auto &in_cell : facts.of.points.cells())
             for (const unsigned int f : in_cell.cell->face_indices())
               if (const auto face = in_cell.cell->face(f);
@@ -494,7 +496,7 @@ namespace moraine
                          h / faces.size();
                 }
           gap = Utilities::MPI::sum(gap, facts.communicator());
-          if (most != faces.size() ||
+          if ((before > 0 && before != faces.size()) ||
               (gap > allowed_gap_at_side && !facts.of.mesh_motion.moves() &&
                facts.of.state.mesh_after_step() == MeshAfterStep::reset))
             return Finding{"lost-hold",
