@@ -483,7 +483,7 @@ namespace moraine
 
 
   template <int dim>
-  void
+  bool
   describe(const InputFile &input,
            const MPI_Comm  &communicator,
            Console         &console)
@@ -499,7 +499,8 @@ namespace moraine
     for (const Finding &finding : diagnostics.ledger.findings())
       report.print(finding);
     if (scene.stages.size() > 1)
-      console << "  what begins in a later stage is looked at as it begins\n";
+      console << "  later stages are checked as they begin\n";
+    return !diagnostics.ledger.findings().empty();
   }
 
 
@@ -510,7 +511,7 @@ namespace moraine
                                  const MPI_Comm &,       \
                                  Console &,              \
                                  const AfterRun<dim> &); \
-  template void describe<dim>(const InputFile &, const MPI_Comm &, Console &);
+  template bool describe<dim>(const InputFile &, const MPI_Comm &, Console &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -15,9 +15,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iomanip>
-#include <limits>
 #include <sstream>
 
 namespace moraine
@@ -26,16 +23,6 @@ namespace moraine
 
   namespace
   {
-    /** After that many rejections in a row, shorter steps are no cure. */
-    constexpr unsigned int rejections_before_support = 2;
-
-    /** A node of a cell that is filled this much is touched by enough points.
-     */
-    constexpr double full_cell = 0.9;
-
-    /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
-    constexpr double largest_empty_share = 1e-3;
-
     /** The user wants the step under way to be given up. */
     struct Interruption
     {};
@@ -515,159 +502,6 @@ namespace moraine
                           "the ghost term took " + per_cent(share.of_work) +
                             " of the work of a step; raise 'Ghost factor', or "
                             "use 'Cut cells = aggregation'"});
-  }
-
-
-
-  namespace
-  {
-    /** Whether the largest unbalanced force is where material that may yield
-     * fills a cell: too few points are no cause there. Collective. */
-    template <int dim>
-    bool
-    yields_in_full_cell(const Scene<dim>   &scene,
-                        const Model<dim>   &model,
-                        const NewtonReport &report)
-    {
-      if (!scene.any_yields() ||
-          (report.status != NewtonStatus::diverged &&
-           report.status != NewtonStatus::too_many_iterations))
-        return false;
-      const auto found = largest_imbalance(*model.space,
-                                           *model.points,
-                                           model.system->residual());
-      return found && found->fullest > full_cell;
-    }
-  } // namespace
-
-
-
-  template <int dim>
-  void
-  StepDriver<dim>::reject(const NewtonReport &report,
-                          const std::string  &reason,
-                          unsigned int       &n_rejections)
-  {
-    for (RunObserver<dim> *observer : observers)
-      observer->step_rejected(time_control.trial_time(), reason);
-    const bool in_vain = shorter_is_no_cure(report);
-    // At finite strain the stress of a point makes a matrix regular where it
-    // should be singular, and nodes run away however short the step.
-    const bool supported =
-      model.state->mesh_after_step() == MeshAfterStep::reset &&
-      (in_vain || n_rejections == rejections_before_support) &&
-      ((!yields_in_full_cell(scene, model, report) &&
-        hold_empty_parts()) ||
-       (!in_vain && !report.converged() && take_back_support()));
-    const bool repeats = time_control.reject(reason);
-    if (supported)
-      {
-        time_control.take_back_cuts();
-        n_rejections = 0;
-      }
-    if (supported || (repeats && !in_vain))
-      return;
-    const bool path_may_end =
-      report.status == NewtonStatus::diverged ||
-      report.status == NewtonStatus::too_many_iterations;
-    const std::string message =
-      time_control.message() +
-      (in_vain ? " A shorter step has the same matrix." : "") +
-      (scene.newton.limit_points == "stop" && path_may_end &&
-           scene.strength_reduction.factor == 1 && // else the answer is there
-           !time_control.follows_path() ?
-         " If a path of equilibria ends here, 'Limit points = "
-         "pseudo-transient' in section 'Solver' looks for one beyond; 'Arc "
-         "length' in section 'Time' follows the path where the load falls." :
-         "");
-    if (report.ran_out_of_linear_iterations)
-      throw ComputationError(message);
-    throw NoEquilibrium(message);
-  }
-
-
-
-  template <int dim>
-  bool
-  StepDriver<dim>::shorter_is_no_cure(const NewtonReport &report) const
-  {
-    return report.ran_out_of_linear_iterations && report.iterations == 0 &&
-           model.state->is_linear() &&
-           !scene.stages[stage].second.time.integrator.dynamic();
-  }
-
-
-
-  template <int dim>
-  std::string
-  StepDriver<dim>::reason_to_reject(const NewtonReport &report,
-                                    const LA::Vector   &x)
-  {
-    if (report.status == NewtonStatus::linear_solver_failed)
-      return report.message +
-             cause_of_unsolved(model,
-                               report.ran_out_of_linear_iterations,
-                               method.fictitious_stiffness > 0 || support);
-    if (report.status == NewtonStatus::diverged ||
-        report.status == NewtonStatus::too_many_iterations)
-      return report.message + place_of_imbalance(*model.space,
-                                                 *model.points,
-                                                 model.system->residual());
-    if (!report.converged())
-      return report.message.empty() ? to_string(report.status) : report.message;
-    if (support &&
-        model.system
-            ->share([this](const Term<dim> &term) { return &term == support; })
-            .of_forces > largest_empty_share)
-      return std::string("what points leave empty would carry the load: too "
-                         "few points in the cells, ") +
-             (scene.any_yields() ?
-                "a body that is not held, or a limit load of material that "
-                "yields" :
-                "or a body that is not held");
-    return model.system->reason_to_reject(x);
-  }
-
-
-
-  template <int dim>
-  std::string
-  StepDriver<dim>::error_too_large(const NewtonReport &report,
-                                   const LA::Vector   &x) const
-  {
-    const double tolerance = scene.stages[stage].second.time.error_tolerance;
-    if (!report.converged() || !(tolerance > 0))
-      return "";
-    const double error = error_of_step(x);
-    if (!(error > tolerance))
-      return "";
-    std::ostringstream text;
-    text << "its estimated error is " << error
-         << " of a cell, more than Error tolerance = " << tolerance;
-    return text.str();
-  }
-
-
-
-  template <int dim>
-  double
-  StepDriver<dim>::error_of_step(const LA::Vector &x) const
-  {
-    model.state->set_trial(x);
-    return model.motion->error_of_increment() / model.mesh->cell_size();
-  }
-
-
-
-  template <int dim>
-  double
-  StepDriver<dim>::allowed_growth(const LA::Vector &x) const
-  {
-    // The error goes with the cube of the size.
-    constexpr double margin = 0.9;
-    const double tolerance  = scene.stages[stage].second.time.error_tolerance;
-    return tolerance > 0 ? margin * std::cbrt(tolerance / error_of_step(x)) :
-                           std::numeric_limits<double>::infinity();
   }
 
 

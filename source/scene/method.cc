@@ -361,8 +361,8 @@ namespace moraine
     prm.add_parameter(
       "Strain",
       strain,
-      "small: strains and rotations of a step and of the whole are small; a run "
-      "tells of bodies that are strained by 5 % in the mean or turn. "
+      "small: strains and rotations are small, in a step and in the whole run "
+      "(diagnostic small-strain). "
       "finite: updated Lagrangian, logarithmic strain; any deformation.",
       patterns::selection({"small", "finite"}));
     prm.add_parameter(

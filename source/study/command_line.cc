@@ -358,8 +358,9 @@ namespace moraine
       if (arguments.command == "check")
         {
           Console console(MPI_COMM_WORLD);
-          describe<dim>(input, MPI_COMM_WORLD, console);
-          console << "  nothing wrong was found" << std::endl;
+          if (!describe<dim>(input, MPI_COMM_WORLD, console))
+            console << "  nothing wrong was found\n";
+          console << "" << std::flush;
           return done;
         }
       RunOptions options = arguments.options;

@@ -159,7 +159,7 @@ for name, mesh, side, settings in (
     result = run(folder / "scene.prm", {
         "Mesh/Type": "file", "Mesh/File": "mesh.msh", "Grid conditions/a/Side": side,
         **settings}, command="check")
-    text(name, result.output.splitlines()[-1].strip())
+    text(name, result.found())
 file_refused("side that neither names", named, {
     "Mesh/Side names": "foot: 1", "Grid conditions/a/Side": "low end"})
 # Two blocks that touch and are not joined, but by a physical curve.

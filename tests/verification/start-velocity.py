@@ -82,7 +82,7 @@ def of(velocity, motion=SINE, surface=False, integrator="Newmark", **options):
 
 
 def jumps(result):
-    return [one["text"] for one in result.summary.get("hints", [])
+    return [f"{one['value']:.2e}" for one in result.summary.get("hints", [])
             if one["id"] == "velocity-jump"]
 
 

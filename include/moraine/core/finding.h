@@ -8,7 +8,7 @@
 
 namespace moraine
 {
-  /** What a diagnostic found. */
+  /** A finding of a diagnostic. */
   struct Finding
   {
     std::string id;     ///< of the diagnostic, in kebab-case

@@ -17,9 +17,9 @@
 namespace moraine
 {
   /**
-   * What diagnostics may ask of a run: its objects, the step or stage under
-   * way, and quantities that several of them need, computed once for each
-   * moment. Functions are collective.
+   * A run as diagnostics read it: its objects, the current step and stage, and
+   * shared quantities, which are computed once for each moment. Functions are
+   * collective.
    */
   template <int dim>
   class Facts
@@ -127,8 +127,8 @@ namespace moraine
     double
     largest_modulus() const;
 
-    /** What part of each active cell every body fills: [body][cell], the same
-     * on all ranks. */
+    /** The filled fraction of each active cell: [body][cell], the same on all
+     * ranks. */
     const std::vector<std::vector<double>> &
     filled_parts();
 

@@ -14,8 +14,8 @@
 namespace moraine
 {
   /**
-   * What the diagnostics of a run have found, one finding for each id, and the
-   * numbers that they carry from step to step.
+   * The findings of a run, one for each id, and the numbers that diagnostics
+   * carry from step to step.
    */
   class Ledger : public StatePart
   {

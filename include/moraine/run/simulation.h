@@ -60,9 +60,10 @@ namespace moraine
            Console             &console,
            const AfterRun<dim> &after_run = {});
 
-  /** Set up a scene and say what would be simulated. */
+  /** Set up a scene and print what would be simulated, with the findings of
+   * the diagnostics. @return whether there are any. */
   template <int dim>
-  void
+  bool
   describe(const InputFile &input,
            const MPI_Comm  &communicator,
            Console         &console);

@@ -13,7 +13,10 @@ namespace moraine
    * touch no body, bodies behind a boundary, conditions that contradict each
    * other or have no value, displacements that are not zero as the scene
    * begins, gravity without density. In a step that has begun. Collective.
+   * @param scene what is simulated
+   * @param stage the stage that begins
    * @param first whether it is the first stage
+   * @param model its bodies, boundaries and loads, as the stage begins
    * @throws InputError
    */
   template <int dim>
