@@ -335,12 +335,14 @@ namespace moraine
   void
   MethodParameters<dim>::add_parameters(ParameterHandler &prm)
   {
-    std::vector<std::string> names;
-    std::string              texts;
+    std::vector<std::string> names{"auto"};
+    std::string              texts =
+      "auto: GIMP on a mesh of type 'box' without 'Mesh motion', CPDI1 on "
+      "others.";
     for (const Method<dim> &one : methods<dim>())
       {
         names.push_back(one.name);
-        texts += (texts.empty() ? "" : " ") + one.name + ": " + one.text;
+        texts += " " + one.name + ": " + one.text;
       }
     prm.add_parameter("Method", method, texts, patterns::selection(names));
     prm.add_parameter("Degree",

@@ -148,6 +148,8 @@ namespace moraine
       choose_enforcement("augmented Lagrangian", input);
     else if (is_dynamic())
       choose_enforcement("symmetric Nitsche", input);
+    if (method.method == "auto")
+      choose_method();
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     check(input, given);
@@ -284,6 +286,20 @@ namespace moraine
           prm.set("Band width", 0.01);
         prm.leave_subsection();
       }
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_method()
+  {
+    const bool keeps_equal_cells = mesh.is_box() &&
+                                   mesh_motion.follow.empty() &&
+                                   mesh_motion.stretch.empty();
+    prm.enter_subsection("Method");
+    prm.set("Method", std::string(keeps_equal_cells ? "GIMP" : "CPDI1"));
     prm.leave_subsection();
   }
 

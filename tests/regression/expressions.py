@@ -51,6 +51,7 @@ subsection Mesh
   set Cell size = 0.25
 end
 subsection Method
+  set Method = material point
   set Strain = finite
 end
 subsection Materials

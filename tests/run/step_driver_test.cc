@@ -17,6 +17,9 @@ namespace moraine
   namespace
   {
     const std::string materials_text = R"(
+subsection Method
+  set Method = material point
+end
 subsection Materials
   subsection soil
     set Young modulus = 1000

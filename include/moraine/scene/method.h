@@ -28,7 +28,7 @@ namespace moraine
   template <int dim>
   struct MethodParameters
   {
-    std::string  method               = "material point";
+    std::string  method               = "auto";
     unsigned int degree               = 1;
     unsigned int points_per_direction = 2;
     std::string  point_layout         = "equally spaced";
@@ -52,7 +52,7 @@ namespace moraine
     void
     check() const;
 
-    /** The entry of methods() that is chosen. */
+    /** The entry of methods() that is chosen, once Scene has resolved auto. */
     const Method<dim> &
     chosen() const;
 

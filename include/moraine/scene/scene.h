@@ -225,6 +225,10 @@ namespace moraine
     void
     choose_enforcement(const std::string &if_left_out, const InputFile &input);
 
+    /** GIMP, which needs equal cells, or else CPDI1. */
+    void
+    choose_method();
+
     /** Cell means if nothing is said, volume hardly changes and nothing that
      * is @p given excludes them. */
     void
