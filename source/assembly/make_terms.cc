@@ -81,24 +81,17 @@ namespace moraine
 
 
 
-  template Terms<2>
-  make_terms(std::vector<ImplicitBoundary<2>> &,
-             const std::vector<GridCondition<2>> &,
-             Loads<2> &,
-             const double,
-             const bool,
-             const bool,
-             std::unique_ptr<Term<2>>,
-             const IsActive &,
-             const ShapesOfBodies<2> &);
-  template Terms<3>
-  make_terms(std::vector<ImplicitBoundary<3>> &,
-             const std::vector<GridCondition<3>> &,
-             Loads<3> &,
-             const double,
-             const bool,
-             const bool,
-             std::unique_ptr<Term<3>>,
-             const IsActive &,
-             const ShapesOfBodies<3> &);
+#define INSTANTIATE(dim)                                                  \
+  template Terms<dim> make_terms(std::vector<ImplicitBoundary<dim>> &,    \
+                                 const std::vector<GridCondition<dim>> &, \
+                                 Loads<dim> &,                            \
+                                 const double,                            \
+                                 const bool,                              \
+                                 const bool,                              \
+                                 std::unique_ptr<Term<dim>>,              \
+                                 const IsActive &,                        \
+                                 const ShapesOfBodies<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -6,6 +6,8 @@
 
 #include <moraine/assembly/mechanics_system.h>
 
+#include <moraine/assembly/absorbing_term.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -26,6 +28,17 @@ namespace moraine
       for (unsigned int node = 0; node < forces.size(); ++node)
         sum += forces[node] * increments[node];
       return sum;
+    }
+
+
+
+    /** The term if it adds its force of the whole step. */
+    template <int dim>
+    const ConstraintTerm<dim> *
+    over_step(const Term<dim> &term, const StepContext<dim> &context)
+    {
+      const auto *one = dynamic_cast<const ConstraintTerm<dim> *>(&term);
+      return one && one->acts_over_step(context) ? one : nullptr;
     }
   } // namespace
 
@@ -52,10 +65,11 @@ namespace moraine
   double
   MechanicsSystem<dim>::hold(const std::string &name, const LA::Vector &held)
   {
-    for (const auto &term : terms)
-      if (const auto missed = term->hold(context, name, held))
-        return *missed;
-    return 1.;
+    double missed = 1;
+    each<AbsorbingTerm<dim>>([&](auto &term) {
+      missed = term.hold(context, name, held).value_or(missed);
+    });
+    return missed;
   }
 
 
@@ -68,7 +82,7 @@ namespace moraine
     const auto         find = [this](const double t) {
       context.t_end = t;
       sums.begin(false);
-      add_terms([](const auto &term) { return term.is_dead(); }, false);
+      add_terms([](const auto &term) { return term.traits().is_dead; }, false);
       sums.end(forces.dead);
     };
     const double t_end = context.t_end;
@@ -121,7 +135,7 @@ namespace moraine
   void
   MechanicsSystem<dim>::count_work(const unsigned int i, const double work)
   {
-    const WorkKind kind = terms[i]->work_kind();
+    const WorkKind kind = terms[i]->traits().work_kind;
     if (kind != WorkKind::none)
       forces.works[unsigned(kind)] += work;
     forces.works_of_terms[i] += work;
@@ -138,15 +152,15 @@ namespace moraine
     state.set_step_time({context.t_start, context.t_end});
     state.reject();
     start_over();
-    for (const auto &term : terms)
-      term->note_start(context);
+    each<ConstraintTerm<dim>>([this](auto &term) { term.note_start(context); });
     add_point_forces_by_kind();
     for (unsigned int k = 0; k < Works::n_kinds; ++k)
       {
         bool any = false;
         for (const auto &term : terms)
           if (!dynamic_cast<PointTerm<dim> *>(term.get()) &&
-              !term->is_inertia() && term->work_kind() == WorkKind(k))
+              !term->traits().is_inertia &&
+              term->traits().work_kind == WorkKind(k))
             {
               if (!any)
                 sums.begin(false);
@@ -168,8 +182,9 @@ namespace moraine
     std::array<std::vector<const PointTerm<dim> *>, Works::n_kinds> of_kinds;
     for (const auto &term : terms)
       if (const auto *of_points = dynamic_cast<PointTerm<dim> *>(term.get()))
-        if (term->work_kind() != WorkKind::none)
-          of_kinds[unsigned(term->work_kind())].push_back(of_points);
+        if (const WorkKind kind = term->traits().work_kind;
+            kind != WorkKind::none)
+          of_kinds[unsigned(kind)].push_back(of_points);
     for (NodeValues &of_kind : forces.by_kind)
       of_kind.assign(state.grid().n_nodes(), Tensor<1, dim>());
     StencilBlock<dim> block;
@@ -219,7 +234,7 @@ namespace moraine
       return;
     forces.at_start  = sum_of_kinds();
     const auto which = [this](const auto &term) {
-      return term.acts_over_step(context);
+      return over_step(term, context) != nullptr;
     };
     forces.over_step.clear();
     if (std::any_of(terms.begin(), terms.end(), [&](const auto &term) {
@@ -248,12 +263,12 @@ namespace moraine
     // All of it counts here, and half of what is counted at either end.
     const double at_start = product(forces.over_step, state.nodal_increments());
     for (unsigned int i = 0; i < terms.size(); ++i)
-      if (terms[i]->acts_over_step(context))
+      if (const auto *term = over_step(*terms[i], context))
         {
-          const unsigned int kind     = unsigned(terms[i]->work_kind());
+          const unsigned int kind     = unsigned(terms[i]->traits().work_kind);
           const double       of_force = forces.works_of_terms[i];
           works.at_end[kind] +=
-            2 * terms[i]->work_of_step(context, of_force) - of_force;
+            2 * term->work_of_step(context, of_force) - of_force;
         }
     works.at_start[unsigned(WorkKind::boundaries)] -= at_start;
     if (!context.motion->prescribed_increments().empty())
@@ -291,7 +306,7 @@ namespace moraine
     find_forces_at_start();
     weigh_forces_at_start();
     sums.begin(true);
-    add_terms([](const auto &term) { return term.is_inertia(); }, true);
+    add_terms([](const auto &term) { return term.traits().is_inertia; }, true);
     LA::Vector result = state.grid().vector();
     sums.end(result);
     result += sum_of_kinds();
@@ -339,7 +354,7 @@ namespace moraine
       sums.begin(false);
       add_terms(
         [&which](const auto &term) {
-          return term.work_kind() != WorkKind::none && which(term);
+          return term.traits().work_kind != WorkKind::none && which(term);
         },
         false);
       return product(sums.forces_of_this_rank(),
@@ -347,9 +362,9 @@ namespace moraine
     };
     if (!forces_in_the_middle())
       return work([](const auto &) { return true; });
-    const auto   is_dead = [](const auto &term) { return term.is_dead(); };
-    const double t_end   = context.t_end;
-    double       sum = work([](const auto &term) { return !term.is_dead(); });
+    const auto is_dead = [](const auto &term) { return term.traits().is_dead; };
+    const double t_end = context.t_end;
+    double sum = work([](const auto &term) { return !term.traits().is_dead; });
     sum += 0.5 * work(is_dead);
     context.t_end = context.t_start;
     sum += 0.5 * work(is_dead);
@@ -372,66 +387,23 @@ namespace moraine
 
 
 
-  template LA::Vector
-  MechanicsSystem<2>::constraint_forces(const std::string &,
-                                        const LA::Vector &);
-  template LA::Vector
-  MechanicsSystem<3>::constraint_forces(const std::string &,
-                                        const LA::Vector &);
-  template double
-  MechanicsSystem<2>::hold(const std::string &name, const LA::Vector &held);
-  template double
-  MechanicsSystem<3>::hold(const std::string &name, const LA::Vector &held);
-  template void
-  MechanicsSystem<2>::find_dead_forces();
-  template void
-  MechanicsSystem<3>::find_dead_forces();
-  template void
-  MechanicsSystem<2>::set_target_of_motion();
-  template void
-  MechanicsSystem<3>::set_target_of_motion();
-  template void
-  MechanicsSystem<2>::count_work(const unsigned int, const double);
-  template void
-  MechanicsSystem<3>::count_work(const unsigned int, const double);
-  template void
-  MechanicsSystem<2>::find_forces_at_start();
-  template void
-  MechanicsSystem<2>::add_point_forces_by_kind();
-  template void
-  MechanicsSystem<3>::add_point_forces_by_kind();
-  template void
-  MechanicsSystem<3>::find_forces_at_start();
-  template void
-  MechanicsSystem<2>::weigh_forces_at_start();
-  template void
-  MechanicsSystem<3>::weigh_forces_at_start();
-  template void
-  MechanicsSystem<2>::count_work_over_step(Motion<2>::StepWorks &) const;
-  template void
-  MechanicsSystem<3>::count_work_over_step(Motion<3>::StepWorks &) const;
-  template LA::Vector
-  MechanicsSystem<2>::sum_of_kinds() const;
-  template LA::Vector
-  MechanicsSystem<3>::sum_of_kinds() const;
-  template double
-  MechanicsSystem<2>::unbalanced_share();
-  template double
-  MechanicsSystem<3>::unbalanced_share();
-  template LA::Vector
-  MechanicsSystem<2>::forces_and_mass();
-  template LA::Vector
-  MechanicsSystem<3>::forces_and_mass();
-  template typename Motion<2>::StepWorks
-  MechanicsSystem<2>::works_of_step(const LA::Vector &);
-  template typename Motion<3>::StepWorks
-  MechanicsSystem<3>::works_of_step(const LA::Vector &);
-  template double
-  MechanicsSystem<2>::work_on_prescribed();
-  template double
-  MechanicsSystem<3>::work_on_prescribed();
-  template void
-  MechanicsSystem<2>::assemble_forces_at(const LA::Vector &x);
-  template void
-  MechanicsSystem<3>::assemble_forces_at(const LA::Vector &x);
+#define INSTANTIATE(dim)                                                      \
+  template double     MechanicsSystem<dim>::hold(const std::string &,         \
+                                             const LA::Vector &);         \
+  template LA::Vector MechanicsSystem<dim>::constraint_forces(                \
+    const std::string &, const LA::Vector &);                                 \
+  template void       MechanicsSystem<dim>::find_dead_forces();               \
+  template void       MechanicsSystem<dim>::set_target_of_motion();           \
+  template void       MechanicsSystem<dim>::count_work(const unsigned int,    \
+                                                 const double);         \
+  template double     MechanicsSystem<dim>::unbalanced_share();               \
+  template void       MechanicsSystem<dim>::find_forces_at_start();           \
+  template void       MechanicsSystem<dim>::weigh_forces_at_start();          \
+  template LA::Vector MechanicsSystem<dim>::forces_and_mass();                \
+  template void MechanicsSystem<dim>::assemble_forces_at(const LA::Vector &); \
+  template typename Motion<dim>::StepWorks                                    \
+  MechanicsSystem<dim>::works_of_step(const LA::Vector &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -17,8 +17,7 @@ namespace moraine
   {
     context.t_end = t;
     state.set_step_time({context.t_start, context.t_end});
-    for (const auto &term : terms)
-      term->move_trial(context);
+    each<ConstraintTerm<dim>>([this](auto &term) { term.move_trial(context); });
     if (constraints.any_lines())
       constraints.set_values(lines_of_terms());
     find_dead_forces();

@@ -191,8 +191,8 @@ namespace moraine
     for (const auto &term : terms)
       {
         std::unique_ptr<TimerOutput::Scope> scope;
-        if (!term->timer().empty())
-          scope = std::make_unique<TimerOutput::Scope>(timer, term->timer());
+        if (const std::string section = term->traits().timer; !section.empty())
+          scope = std::make_unique<TimerOutput::Scope>(timer, section);
         new_couplings = term->begin_step(context) || new_couplings;
       }
     context.couplings_changed =
@@ -291,8 +291,8 @@ namespace moraine
   {
     assembled      = false;
     last_violation = std::numeric_limits<double>::max();
-    for (const auto &term : terms)
-      term->begin_trial(context);
+    each<ConstraintTerm<dim>>(
+      [this](auto &term) { term.begin_trial(context); });
   }
 
 
@@ -323,8 +323,9 @@ namespace moraine
     double scale = state.strain_measure() == StrainMeasure::finite ?
                      state.grid().mesh().cell_size() :
                      0.;
-    for (const auto &term : terms)
-      scale = std::max(scale, term->rounded_length());
+    each<ConstraintTerm<dim>>([&scale](const auto &term) {
+      scale = std::max(scale, term.rounded_length());
+    });
     return scale;
   }
 
@@ -391,7 +392,7 @@ namespace moraine
           const double work_before = sums.work();
           terms[i]->add(context, tangent, sums);
           count_work(i, sums.work() - work_before);
-          if (terms[i]->stabilises())
+          if (terms[i]->traits().stabilises)
             scale.stabilising_squares[i] = sums.sum_of_squares() - before;
         }
   }
@@ -418,11 +419,11 @@ namespace moraine
     sums.count_work(
       context.motion ||
       std::any_of(terms.begin(), terms.end(), [](const auto &term) {
-        return term->stabilises();
+        return term->traits().stabilises;
       }));
     sums.begin(tangent, predicted);
     forces.works.fill(0.);
-    add_terms([](const auto &term) { return !term.is_dead(); }, tangent);
+    add_terms([](const auto &term) { return !term.traits().is_dead; }, tangent);
     sums.end(unbalanced);
     unbalanced += forces.dead;
     if (forces.at_start.size() > 0)
@@ -484,8 +485,9 @@ namespace moraine
     double violation = 0, motion = 0;
     for (const auto &u : state.nodal_increments())
       motion = std::max(motion, u.norm());
-    for (const auto &term : terms)
-      violation = std::max(violation, term->violation(context));
+    each<ConstraintTerm<dim>>([&](const auto &term) {
+      violation = std::max(violation, term.violation(context));
+    });
     violation = Utilities::MPI::max(violation, communicator);
     motion    = Utilities::MPI::max(motion, communicator);
     // Stop when the constraint holds to round-off or gets no better, and where
@@ -495,8 +497,7 @@ namespace moraine
     if (violation <= 1e-14 * motion || violation > little * last_violation)
       return false;
     last_violation = violation;
-    for (const auto &term : terms)
-      term->augment(context);
+    each<ConstraintTerm<dim>>([this](auto &term) { term.augment(context); });
     return true;
   }
 
@@ -544,7 +545,7 @@ namespace moraine
       return of_domains;
     std::vector<Tensor<1, dim>> moves;
     if (std::any_of(terms.begin(), terms.end(), [](const auto &term) {
-          return term->watches_points();
+          return term->traits().watches_points;
         }))
       moves = state.point_increments();
     for (const auto &term : terms)
@@ -597,7 +598,7 @@ namespace moraine
   MechanicsSystem<dim>::accept(const LA::Vector &x)
   {
     if (std::any_of(terms.begin(), terms.end(), [](const auto &term) {
-          return term->wants_unbalanced_forces();
+          return term->traits().wants_unbalanced_forces;
         }))
       assemble_forces_at(x);
     state.set_trial(x);

@@ -7,6 +7,7 @@
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/absorbing_boundary.h>
 
+#include <optional>
 #include <vector>
 
 namespace moraine
@@ -32,20 +33,17 @@ namespace moraine
     explicit AbsorbingTerm(AbsorbingBoundary<dim> &boundary,
                            const bool              acts = true);
 
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::absorbed;
+      TermTraits is;
+      is.work_kind = WorkKind::absorbed;
+      is.timer     = "boundary pieces";
+      return is;
     }
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
-
-    std::string
-    timer() const override
-    {
-      return "boundary pieces";
-    }
 
     bool
     begin_step(const StepContext<dim> &context) override;
@@ -82,7 +80,7 @@ namespace moraine
     std::optional<double>
     hold(const StepContext<dim> &context,
          const std::string      &name,
-         const LA::Vector       &forces) override;
+         const LA::Vector       &forces);
 
   private:
     using Matrix = dealii::SymmetricTensor<2, dim>;

@@ -51,22 +51,19 @@ namespace moraine
     explicit GhostTerm(const double factor);
 
     /** It stores nothing from one step to the next. */
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::damping;
+      TermTraits is;
+      is.work_kind  = WorkKind::damping;
+      is.stabilises = true;
+      return is;
     }
 
     std::vector<Effect>
     effects(const StepContext<dim> &) const override
     {
       return {};
-    }
-
-    bool
-    stabilises() const override
-    {
-      return true;
     }
 
     bool
@@ -173,10 +170,12 @@ namespace moraine
   public:
     using GhostTerm<dim>::GhostTerm;
 
-    bool
-    is_inertia() const override
+    TermTraits
+    traits() const override
     {
-      return true;
+      TermTraits is = GhostTerm<dim>::traits();
+      is.is_inertia = true;
+      return is;
     }
 
   private:

@@ -15,7 +15,7 @@ namespace moraine
 {
   /** What an implicit boundary adds to the weak form; see Enforcement. */
   template <int dim>
-  class BoundaryTerm : public Term<dim>
+  class BoundaryTerm : public ConstraintTerm<dim>
   {
   public:
     /** A force that held a place at the end of the last step. */
@@ -35,20 +35,18 @@ namespace moraine
     explicit BoundaryTerm(ImplicitBoundary<dim>     &boundary,
                           const ShapesOfBodies<dim> &shapes = {});
 
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::boundaries;
+      TermTraits is;
+      is.work_kind      = WorkKind::boundaries;
+      is.timer          = "boundary pieces";
+      is.watches_points = boundary.penetration_limit() > 0;
+      return is;
     }
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
-
-    std::string
-    timer() const override
-    {
-      return "boundary pieces";
-    }
 
     bool
     holds_mean_in(const StepContext<dim>                      &context,
@@ -114,12 +112,6 @@ namespace moraine
 
     void
     augment(const StepContext<dim> &context) override;
-
-    bool
-    watches_points() const override
-    {
-      return boundary.penetration_limit() > 0;
-    }
 
     std::string
     failure(const StepContext<dim>                    &context,

@@ -47,10 +47,12 @@ namespace moraine
   class ConservingForce : public PointTerm<dim>
   {
   public:
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::internal;
+      TermTraits is;
+      is.work_kind = WorkKind::internal;
+      return is;
     }
 
     std::vector<Effect>

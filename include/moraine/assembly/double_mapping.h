@@ -33,8 +33,8 @@ namespace moraine
    * own strain (Basis::strain_basis()), not that of the Gauss points. The
    * difference is out of balance until the next step balances it.
    *
-   * With inertia the difference of both stiffnesses would be a damping of either
-   * sign. There all of the force is integrated over points by their own
+   * With inertia the difference of both stiffnesses would be a damping of
+   * either sign. There all of the force is integrated over points by their own
    * functions, at small strain without State::stress_of_recovery().
    *
    * Points of a material that is linear at small strain cost the sums over
@@ -53,16 +53,13 @@ namespace moraine
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::internal;
-    }
-
-    std::string
-    timer() const override
-    {
-      return "stencils";
+      TermTraits is;
+      is.work_kind = WorkKind::internal;
+      is.timer     = "stencils";
+      return is;
     }
 
     /** Find the points that touch each cell, and what they carry that is not in

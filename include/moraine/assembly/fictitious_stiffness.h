@@ -38,10 +38,13 @@ namespace moraine
     }
 
     /** It stores nothing from one step to the next. */
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::damping;
+      TermTraits is;
+      is.work_kind  = WorkKind::damping;
+      is.stabilises = true;
+      return is;
     }
 
     std::vector<Effect>
@@ -53,12 +56,6 @@ namespace moraine
     /** Whether any cell has an empty part. Collective. */
     bool
     any_empty_part(const StepContext<dim> &context) const;
-
-    bool
-    stabilises() const override
-    {
-      return true;
-    }
 
     void
     add(const StepContext<dim> &context,

@@ -20,10 +20,13 @@ namespace moraine
     explicit GridConditionTerm(
       const std::vector<GridCondition<dim>> &conditions);
 
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::none;
+      TermTraits is;
+      is.work_kind               = WorkKind::none;
+      is.wants_unbalanced_forces = true;
+      return is;
     }
 
     std::vector<Effect>
@@ -44,12 +47,6 @@ namespace moraine
                           const std::string      &name,
                           const LA::Vector       &unbalanced,
                           GlobalSystem<dim>      &system) const override;
-
-    bool
-    wants_unbalanced_forces() const override
-    {
-      return true;
-    }
 
     void
     prepare(const StepContext<dim> &context,

@@ -18,20 +18,17 @@ namespace moraine
   class Inertia : public PointTerm<dim>
   {
   public:
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::none;
+      TermTraits is;
+      is.work_kind  = WorkKind::none;
+      is.is_inertia = true;
+      return is;
     }
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
-
-    bool
-    is_inertia() const override
-    {
-      return true;
-    }
 
     using PointTerm<dim>::add;
 

@@ -55,10 +55,12 @@ namespace moraine
   class InternalForce : public PointTerm<dim>
   {
   public:
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::internal;
+      TermTraits is;
+      is.work_kind = WorkKind::internal;
+      return is;
     }
 
     std::vector<Effect>

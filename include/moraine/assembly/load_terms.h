@@ -21,10 +21,12 @@ namespace moraine
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
 
-    bool
-    is_dead() const override
+    TermTraits
+    traits() const override
     {
-      return true;
+      TermTraits is;
+      is.is_dead = true;
+      return is;
     }
 
     using PointTerm<dim>::add;
@@ -52,10 +54,12 @@ namespace moraine
     bool
     begin_step(const StepContext<dim> &context) override;
 
-    bool
-    is_dead() const override
+    TermTraits
+    traits() const override
     {
-      return true;
+      TermTraits is;
+      is.is_dead = true;
+      return is;
     }
 
     using PointTerm<dim>::add;
@@ -107,10 +111,12 @@ namespace moraine
     bool
     begin_step(const StepContext<dim> &context) override;
 
-    bool
-    is_dead() const override
+    TermTraits
+    traits() const override
     {
-      return true;
+      TermTraits is;
+      is.is_dead = true;
+      return is;
     }
 
     void
@@ -138,10 +144,12 @@ namespace moraine
     bool
     begin_step(const StepContext<dim> &context) override;
 
-    bool
-    is_dead() const override
+    TermTraits
+    traits() const override
     {
-      return true;
+      TermTraits is;
+      is.is_dead = true;
+      return is;
     }
 
     void

@@ -72,8 +72,9 @@ namespace moraine
     LA::Vector
     constraint_forces(const std::string &name, const LA::Vector &x);
 
-    /** Let the absorbing surface @p name hold @p forces; see Term::hold().
-     * @return what it cannot hold, as a fraction. Collective. */
+    /** Let the absorbing surface @p name hold @p forces of nodes; see
+     * AbsorbingTerm::hold(). @return what it cannot hold, as a fraction.
+     * Collective. */
     double
     hold(const std::string &name, const LA::Vector &forces);
 
@@ -102,6 +103,16 @@ namespace moraine
      * and had nothing new. */
     void
     add(std::unique_ptr<Term<dim>> term);
+
+    /** Call @p function with each term of a class. */
+    template <typename TermType, typename Function>
+    void
+    each(const Function &function) const
+    {
+      for (const auto &term : terms)
+        if (auto *const one = dynamic_cast<TermType *>(term.get()))
+          function(*one);
+    }
 
     /** What terms are told of the step. */
     const StepContext<dim> &

@@ -55,10 +55,12 @@ namespace moraine
     /** @p factors of each body. */
     explicit RayleighDamping(const std::vector<RayleighFactors> &factors);
 
-    WorkKind
-    work_kind() const override
+    TermTraits
+    traits() const override
     {
-      return WorkKind::damping;
+      TermTraits is;
+      is.work_kind = WorkKind::damping;
+      return is;
     }
 
     std::vector<Effect>

@@ -12,7 +12,6 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,25 @@ namespace moraine
     std::string kind; ///< what the console calls it; "" if it is always there
     std::string text; ///< what the console tells of it
   };
+
+  /** How the assembly treats a term. */
+  struct TermTraits
+  {
+    /** What the work of its forces is counted as. */
+    WorkKind work_kind = WorkKind::external;
+    /** The part of a run that begin_step() is timed as; "" if none is. */
+    const char *timer      = "";
+    bool        is_dead    = false; ///< its forces depend on time alone
+    bool        is_inertia = false; ///< it is minus mass times acceleration
+    /** It only holds what would be free: its share is watched. */
+    bool stabilises = false;
+    /** failure() reads where points would move. */
+    bool watches_points = false;
+    /** prepare() reads the forces of nodes. */
+    bool wants_unbalanced_forces = false;
+  };
+
+
 
   /**
    * A physical effect or a strong condition of a scene, as MechanicsSystem sees
@@ -48,12 +66,10 @@ namespace moraine
     virtual std::vector<Effect>
     effects(const StepContext<dim> &context) const = 0;
 
-    /** The part of a run that begin_step() is counted as; "" if it takes no
-     * time worth counting. */
-    virtual std::string
-    timer() const
+    virtual TermTraits
+    traits() const
     {
-      return "";
+      return {};
     }
 
     /** Before cells are found: whether it holds means over pieces of a surface
@@ -95,66 +111,6 @@ namespace moraine
     check_values(const StepContext<dim> &)
     {}
 
-    /** Aim at the end of the step and forget what was tried before. */
-    virtual void
-    begin_trial(const StepContext<dim> &)
-    {}
-
-    /** Aim at another end of the step; what was tried stays. */
-    virtual void
-    move_trial(const StepContext<dim> &)
-    {}
-
-    /** In dynamics: the trial state is that at the start of the step, whose
-     * forces count half in its work; see Motion. */
-    virtual void
-    note_start(const StepContext<dim> &)
-    {}
-
-    /** In dynamics: whether add() has its force of the whole step, so that the
-     * one at the start is not among those that the integrator adds. */
-    virtual bool
-    acts_over_step(const StepContext<dim> &) const
-    {
-      return false;
-    }
-
-    /** If so, the work of the step on this rank; @p of_force: that of the force
-     * that add() added. */
-    virtual double
-    work_of_step(const StepContext<dim> &, const double of_force) const
-    {
-      return of_force;
-    }
-
-    /** Whether its forces depend on time alone, not on the trial state. */
-    virtual bool
-    is_dead() const
-    {
-      return false;
-    }
-
-    /** Whether it only holds what would be free: its share is watched. */
-    virtual bool
-    stabilises() const
-    {
-      return false;
-    }
-
-    /** To what the work of its forces is counted. */
-    virtual WorkKind
-    work_kind() const
-    {
-      return WorkKind::external;
-    }
-
-    /** Whether it is nothing but minus mass times acceleration. */
-    virtual bool
-    is_inertia() const
-    {
-      return false;
-    }
-
     /**
      * Add the forces of the trial state (positive where they push the nodes
      * along) and, if asked, minus their derivative to the matrix.
@@ -170,34 +126,6 @@ namespace moraine
       return true;
     }
 
-    /** A length that is lost in rounding when it is divided by 1e16, however
-     * small the increments are; zero if there is none. The same on all ranks.
-     */
-    virtual double
-    rounded_length() const
-    {
-      return 0.;
-    }
-
-    /** The largest violation on this rank of what augment() enforces. */
-    virtual double
-    violation(const StepContext<dim> &) const
-    {
-      return 0.;
-    }
-
-    /** Take multipliers from the trial state, until the next begin_trial(). */
-    virtual void
-    augment(const StepContext<dim> &)
-    {}
-
-    /** Whether failure() asks where points would go. */
-    virtual bool
-    watches_points() const
-    {
-      return false;
-    }
-
     /** Why the trial state, in which points move by @p moves, cannot be
      * accepted; or "". Collective. */
     virtual std::string
@@ -205,13 +133,6 @@ namespace moraine
             const std::vector<dealii::Tensor<1, dim>> & /*moves*/) const
     {
       return "";
-    }
-
-    /** Whether prepare() asks for the forces of nodes. */
-    virtual bool
-    wants_unbalanced_forces() const
-    {
-      return false;
     }
 
     /**
@@ -224,17 +145,6 @@ namespace moraine
                           const LA::Vector & /*unbalanced*/,
                           GlobalSystem<dim> &) const
     {}
-
-    /** Hold @p forces of nodes, those of a constraint that ended, from now on,
-     * if this term absorbs on its surface @p name; see AbsorbingTerm::hold().
-     * Collective. @return what it cannot hold, as a fraction, or nothing. */
-    virtual std::optional<double>
-    hold(const StepContext<dim> &,
-         const std::string & /*name*/,
-         const LA::Vector & /*forces*/)
-    {
-      return {};
-    }
 
     /**
      * Find what keep() is to commit, while everything can still be undone.
@@ -256,6 +166,53 @@ namespace moraine
     report(const StepContext<dim> &, std::vector<BoundaryReport<dim>> &) const
     {}
   };
+
+  /** A term that enforces a constraint by forces of its own, which it finds
+   * anew in each trial. */
+  template <int dim>
+  class ConstraintTerm : public Term<dim>
+  {
+  public:
+    /** Aim at the end of the step and forget what was tried before. */
+    virtual void
+    begin_trial(const StepContext<dim> &context) = 0;
+
+    /** Aim at another end of the step; what was tried stays. */
+    virtual void
+    move_trial(const StepContext<dim> &context) = 0;
+
+    /** The largest violation of the constraint on this rank. */
+    virtual double
+    violation(const StepContext<dim> &context) const = 0;
+
+    /** Take multipliers from the trial state, until the next begin_trial(). */
+    virtual void
+    augment(const StepContext<dim> &context) = 0;
+
+    /** A length that is lost in rounding when it is divided by 1e16, however
+     * small the increments are; zero if there is none. The same on all ranks.
+     */
+    virtual double
+    rounded_length() const = 0;
+
+    /** In dynamics: the trial state is that at the start of the step, whose
+     * forces count half in its work; see Motion. */
+    virtual void
+    note_start(const StepContext<dim> &context) = 0;
+
+    /** In dynamics: whether add() has its force of the whole step, so that the
+     * one at the start is not among those that the integrator adds. */
+    virtual bool
+    acts_over_step(const StepContext<dim> &context) const = 0;
+
+    /** If so, the work of the step on this rank; @p of_force: that of the force
+     * that add() added. */
+    virtual double
+    work_of_step(const StepContext<dim> &context,
+                 const double            of_force) const = 0;
+  };
+
+
 
   /** A term that is integrated over the material points. They share one pass
    * over the stencils. */
