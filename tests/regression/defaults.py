@@ -1,7 +1,7 @@
 # ranks: 1
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Cells have means of the volumetric strain by default where a material yields or has
+"""Defaults: the method, and means of the volumetric strain where a material yields or has
 a Poisson ratio above 0.4, if nothing in the scene excludes them."""
 
 BLOCK = "prm/hard-cases/cut-block.prm"
@@ -27,3 +27,10 @@ for name, settings in (
                          **settings})
     text(f"{name}: means", "volumetric strain: cell means" in result.output)
     text(f"{name}: found", result.found())
+
+# A scene that names no method has GIMP where its boxes fit the cells.
+for name, scene in (("a box", "prm/boundaries/tilted-roller.prm"),
+                    ("quadrilaterals", "prm/verification/mesh-quads.prm"),
+                    ("a box that stretches", "prm/large-deformation/stretch-3d.prm")):
+    result = run(scene, {"Method/Method": "auto"}, command="check")
+    text(f"method on {name}", result.output.split("  method      ")[1].split(",")[0])
