@@ -227,7 +227,8 @@ namespace moraine
        "Material misses a boundary that holds it, or has passed it in cells "
        "that no longer hold.",
        "The value is the miss over the largest motion of a step (limit 0.05), "
-       "or the depth behind it (limit a tenth of a cell).",
+       "or the depth behind it (limit a tenth of a cell). A run ends where the "
+       "depth grows by half a cell.",
        "Take smaller cells or steps, or end the boundary on faces of cells."},
       {"surface-place",
        warning,

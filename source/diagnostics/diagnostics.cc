@@ -57,7 +57,7 @@ namespace moraine
         {When::step_begins, "surface-coverage", grown_past_ends<dim>},
         {When::step_ends, "surface-coverage", grown_past_ends<dim>},
         {When::step_ends, "surface-miss", missed_boundaries<dim>},
-        {When::step_ends, "surface-miss", passed_boundaries<dim>},
+        {When::step_ends, "surface-miss", passed_boundaries<dim>, true},
         {When::step_ends, "points-apart", points_apart<dim>},
         {When::step_ends, "small-strain", turned_at_small_strain<dim>},
         {When::step_ends, "slide", slide<dim>},

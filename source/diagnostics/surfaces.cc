@@ -3,6 +3,7 @@
 
 // Which part of a body a boundary holds, and how well.
 
+#include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 
@@ -31,6 +32,10 @@ namespace moraine
       /** Of a cell. */
       constexpr double allowed_gap = 0.1, allowed_depth = 0.25,
                        allowed_behind_ends = 0.1, allowed_passing = 0.1;
+
+      /** Of a cell: points that have passed a surface deeper would move on as
+       * if it were not there. */
+      constexpr double most_passing = 0.5;
 
       /** Of the material along a surface: it lies behind. */
       constexpr double allowed_share_behind = 0.1;
@@ -412,6 +417,12 @@ namespace moraine
             ledger.number(name) = report.penetration;
           worst.take(report.name, report.penetration - ledger.number(name));
         }
+      if (worst.value > most_passing * facts.cell_size())
+        throw ComputationError(
+          "material is " + short_number(worst.value) + " behind '" +
+          worst.object + "' at t = " + short_number(facts.now.t) +
+          " and no longer held; take smaller cells or steps, or set its "
+          "'Penetration limit'");
       return worst.with("material has passed it by " +
                         short_number(worst.value) + " in the step to t = " +
                         short_number(facts.now.t) +
