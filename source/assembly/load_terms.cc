@@ -2,13 +2,6 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/load_terms.h>
-#include <moraine/mesh/active_search.h>
-#include <moraine/mesh/cell_shapes.h>
-
-#include <deal.II/base/qprojector.h>
-#include <deal.II/base/quadrature_lib.h>
-
-#include <algorithm>
 
 namespace moraine
 {
@@ -36,70 +29,7 @@ namespace moraine
           local.force[dim * a + i] += N[a] * f[i];
     }
 
-
-
-    /** Length or area of face @p f per unit of its reference face. */
-    template <int dim>
-    double
-    face_jacobian(const CellMap<dim> &map,
-                  const unsigned int  f,
-                  const Point<dim>   &xi)
-    {
-      const Tensor<2, dim> J  = transpose(map.jacobian(xi));
-      const unsigned int   d  = f / 2;
-      const Tensor<1, dim> t1 = J[(d + 1) % dim];
-      if constexpr (dim == 3)
-        return cross_product_3d(t1, J[(d + 2) % dim]).norm();
-      else
-        return t1.norm();
-    }
-
-
-
-    /** A traction on a face; @p on_face are places in its cell. */
-    template <int dim, int degree>
-    void
-    add_side_traction(const State<dim>        &state,
-                      const SideTraction<dim> &load,
-                      const CellFace<dim>     &face,
-                      const Quadrature<dim>   &on_face,
-                      const double             t,
-                      LocalSystem<dim>        &local)
-    {
-      constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
-      const unsigned int    *nodes = state.grid().cell_nodes(face.cell);
-      Point<dim>             X[n];
-      double                 N[n];
-      Tensor<1, dim>         grad_N[n];
-      for (unsigned int a = 0; a < n; ++a)
-        X[a] = state.grid().node_position(nodes[a]);
-      const CellVertices<dim> vertices = vertices_of<dim>(face.cell);
-      const CellMap<dim>      map(vertices);
-      for (unsigned int q = 0; q < on_face.size(); ++q)
-        {
-          const Point<dim> &xi = on_face.point(q);
-          CellShapes<dim, degree>::evaluate(xi, X, N, grad_N);
-          const double JxW =
-            on_face.weight(q) * face_jacobian(map, face.face, xi);
-          Point<dim> x;
-          for (unsigned int a = 0; a < n; ++a)
-            x += N[a] * X[a];
-          const Tensor<1, dim> traction = load.value(x, t);
-          for (unsigned int a = 0; a < n; ++a)
-            for (unsigned int i = 0; i < dim; ++i)
-              local.force[dim * a + i] += JxW * N[a] * traction[i];
-        }
-    }
   } // namespace
-
-
-
-  template <int dim>
-  Quadrature<dim - 1>
-  side_quadrature(const unsigned int degree)
-  {
-    return QIterated<dim - 1>(QGauss<1>(degree + 1), dim == 2 ? 4 : 2);
-  }
 
 
 
@@ -195,108 +125,6 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<CellFace<dim>>
-  pushed_faces(const SideTraction<dim> &load,
-               const GridSpace<dim>    &space,
-               const PointSet<dim>     &points)
-  {
-    const std::vector<double> filled       = points.volumes_in_cells();
-    const auto                holds_points = [&filled](const auto &cell) {
-      return filled[cell->active_cell_index()] > 0;
-    };
-    std::vector<CellFace<dim>> faces;
-    for (const auto &cell :
-         space.mesh().triangulation().active_cell_iterators())
-      if (cell->at_boundary() && space.is_active(cell))
-        for (const unsigned int f : cell->face_indices())
-          {
-            const unsigned int opposite = f ^ 1u;
-            if (cell->face(f)->at_boundary() &&
-                cell->face(f)->boundary_id() == load.side &&
-                (holds_points(cell) ||
-                 (!cell->at_boundary(opposite) &&
-                  holds_points(cell->neighbor(opposite)))))
-              faces.push_back({cell, f});
-          }
-    return faces;
-  }
-
-
-
-  template <int dim>
-  SideTractionTerm<dim>::SideTractionTerm(const SideTraction<dim> &load)
-    : load(load)
-  {}
-
-
-
-  template <int dim>
-  std::vector<Effect>
-  SideTractionTerm<dim>::effects(const StepContext<dim> &) const
-  {
-    return effect_of("side traction", load.name);
-  }
-
-
-
-  template <int dim>
-  bool
-  SideTractionTerm<dim>::begin_step(const StepContext<dim> &context)
-  {
-    faces =
-      pushed_faces(load, context.state.grid(), context.state.material_points());
-    faces.erase(std::remove_if(faces.begin(),
-                               faces.end(),
-                               [](const CellFace<dim> &face) {
-                                 return !face.cell->is_locally_owned();
-                               }),
-                faces.end());
-    return false;
-  }
-
-
-
-  template <int dim>
-  void
-  SideTractionTerm<dim>::add(const StepContext<dim> &context,
-                             const bool,
-                             GlobalSystem<dim> &system) const
-  {
-    const GridSpace<dim>        &space = context.state.grid();
-    std::vector<Quadrature<dim>> on_faces;
-    for (const unsigned int f : GeometryInfo<dim>::face_indices())
-      on_faces.push_back(
-        QProjector<dim>::project_to_face(ReferenceCells::get_hypercube<dim>(),
-                                         side_quadrature<dim>(space.degree()),
-                                         f));
-    LocalSystem<dim> local;
-    for (const CellFace<dim> &face : faces)
-      {
-        local.reinit(context.state,
-                     space.cell_nodes(face.cell),
-                     space.nodes_per_cell(),
-                     false);
-        if (space.degree() == 1)
-          add_side_traction<dim, 1>(context.state,
-                                    load,
-                                    face,
-                                    on_faces[face.face],
-                                    context.t_end,
-                                    local);
-        else
-          add_side_traction<dim, 2>(context.state,
-                                    load,
-                                    face,
-                                    on_faces[face.face],
-                                    context.t_end,
-                                    local);
-        system.add(local, false);
-      }
-  }
-
-
-
-  template <int dim>
   CarriedLoadTerm<dim>::CarriedLoadTerm(CarriedLoad<dim> &load, const bool acts)
     : load(load)
     , acts(acts)
@@ -310,8 +138,7 @@ namespace moraine
   {
     if (!acts)
       return {};
-    return effect_of(load.is_single() ? "point force" : "surface traction",
-                     load.name());
+    return effect_of(load.kind(), load.name());
   }
 
 
@@ -387,14 +214,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                        \
-  template Quadrature<dim - 1>        side_quadrature<dim>(const unsigned int); \
-  template std::vector<CellFace<dim>> pushed_faces(const SideTraction<dim> &,   \
-                                                   const GridSpace<dim> &,      \
-                                                   const PointSet<dim> &);      \
-  template class BodyForceTerm<dim>;                                            \
-  template class ForceOnPointsTerm<dim>;                                        \
-  template class SideTractionTerm<dim>;                                         \
+#define INSTANTIATE(dim)                 \
+  template class BodyForceTerm<dim>;     \
+  template class ForceOnPointsTerm<dim>; \
   template class CarriedLoadTerm<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -67,9 +67,6 @@ namespace moraine
     for (const auto &force : loads.body_forces)
       if (acts("Loads", force.name))
         terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));
-    for (const auto &traction : loads.side_tractions)
-      if (acts("Loads", traction.name))
-        terms.push_back(std::make_unique<SideTractionTerm<dim>>(traction));
     for (auto &load : loads.carried)
       if (acts("Loads", load.name()))
         terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));

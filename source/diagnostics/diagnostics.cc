@@ -50,7 +50,6 @@ namespace moraine
         {When::bodies_go, "removed-body", removed_bodies<dim>},
         {When::step_begins, "separation", separation<dim>},
         {When::step_begins, "lost-hold", lost_boundaries<dim>, true},
-        {When::step_begins, "lost-hold", left_sides<dim>, true},
         {When::step_begins, "lost-hold", pushed_off_nodes<dim>, true},
         {When::step_begins, "cell-crossing", cell_crossing<dim>},
         {When::step_begins, "bodies-meet", bodies_meet<dim>},

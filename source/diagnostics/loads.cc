@@ -3,7 +3,6 @@
 
 // What loads, conditions and boundaries act on.
 
-#include <moraine/assembly/load_terms.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
@@ -34,9 +33,6 @@ namespace moraine
 
       /** Of a cell: by then the force on a pressed column is 3 % too small. */
       constexpr double allowed_push = 0.25;
-
-      /** Of a cell: by then stresses beside a pressed side are wrong by half. */
-      constexpr double allowed_gap_at_side = 0.4;
 
 
 
@@ -387,7 +383,7 @@ namespace moraine
 
     namespace
     {
-      /** Refuse to go on when @p n pieces of what moves or loads material have
+      /** Refuse to go on when @p n pieces of what moves material have
        * become none. @return the most so far. */
       double
       most_pieces(const std::string &section, const double n, Ledger &ledger)
@@ -397,8 +393,8 @@ namespace moraine
         if (n == 0 && most > 0)
           throw ComputationError("section '" + section +
                                  "': no material is left where it acts; use a "
-                                 "boundary with 'Translation', 'Mesh motion' or "
-                                 "a 'surface traction'");
+                                 "boundary with 'Translation', or 'Mesh "
+                                 "motion'");
         return most;
       }
 
@@ -461,52 +457,6 @@ namespace moraine
         }
       return worst.with("its 'Displacement' has moved material through its "
                         "surface, which stays; use 'Translation'");
-    }
-
-
-
-    template <int dim>
-    std::optional<Finding>
-    left_sides(Facts<dim> &facts, Ledger &ledger)
-    {
-      for (const auto &traction : facts.of.loads.side_tractions)
-        {
-          if (!contains(facts.now.stage->loads, traction.name))
-            continue;
-          const std::string section = "Loads/" + traction.name;
-          const auto        faces =
-            pushed_faces(traction, facts.of.space, facts.of.points);
-          const double before =
-            ledger.number("lost-hold/of stage: pieces of " + section);
-          most_pieces(section, faces.size(), ledger);
-          double gap = 0; // in cells, the mean
-          for (const auto &in_cell : facts.of.points.cells())
-            for (const unsigned int f : in_cell.cell->face_indices())
-              if (const auto face = in_cell.cell->face(f);
-                  face->at_boundary() && face->boundary_id() == traction.side)
-                {
-                  const Tensor<1, dim> outward =
-                    face->center() - in_cell.cell->center();
-                  const double h = 2 * outward.norm();
-                  gap += facts.of.points.gap_before(
-                           in_cell.cell->active_cell_index(),
-                           face->center(),
-                           2 / h * outward,
-                           h) /
-                         h / faces.size();
-                }
-          gap = Utilities::MPI::sum(gap, facts.communicator());
-          if ((before > 0 && before != faces.size()) ||
-              (gap > allowed_gap_at_side && !facts.of.mesh_motion.moves() &&
-               facts.of.state.mesh_after_step() == MeshAfterStep::reset))
-            return Finding{"lost-hold",
-                           traction.name,
-                           gap,
-                           allowed_gap_at_side,
-                           "material has moved away from the side or along it; "
-                           "use a 'surface traction', which goes with it"};
-        }
-      return {};
     }
 
 
@@ -594,7 +544,6 @@ namespace moraine
     MORAINE_INSTANTIATE_CHECK(absorbing_at_rest)
     MORAINE_INSTANTIATE_CHECK(absorbing_on_new_bodies)
     MORAINE_INSTANTIATE_CHECK(lost_boundaries)
-    MORAINE_INSTANTIATE_CHECK(left_sides)
     MORAINE_INSTANTIATE_CHECK(pushed_off_nodes)
   } // namespace checks
 } // namespace moraine

@@ -492,16 +492,14 @@ namespace moraine
   std::vector<typename CarriedPlaces<dim>::Place>
   places_on_side(const BackgroundMesh<dim> &mesh,
                  const types::boundary_id   side,
-                 const Covers<dim>         &covers)
+                 const Covers<dim>         &covers,
+                 const Quadrature<dim - 1> &of_whole_face)
   {
     const StraightMapping<dim> mapping;
     const FE_Nothing<dim>      nothing;
     const UpdateFlags          flags =
       update_quadrature_points | update_JxW_values | update_normal_vectors;
-    FEFaceValues<dim> whole(mapping,
-                            nothing,
-                            QGauss<dim - 1>(n_gauss_points_of_pieces),
-                            flags);
+    FEFaceValues<dim> whole(mapping, nothing, of_whole_face, flags);
     // Of a face on which a body ends.
     FEFaceValues<dim>                               in_parts(mapping,
                                nothing,
@@ -553,7 +551,8 @@ namespace moraine
   template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
     const BackgroundMesh<dim> &,                                           \
     const types::boundary_id,                                              \
-    const Covers<dim> &);
+    const Covers<dim> &,                                                   \
+    const Quadrature<dim - 1> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

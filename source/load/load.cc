@@ -17,10 +17,12 @@ namespace moraine
 
   template <int dim>
   CarriedLoad<dim>::CarriedLoad(const std::string         &name,
+                                const std::string         &kind,
                                 const VectorFunction<dim> &value,
                                 std::vector<Place>         places,
                                 const double               share_outside)
     : load_name(name)
+    , load_kind(kind)
     , function(value)
     , drawn(std::move(places))
     , carried(drawn)
@@ -34,12 +36,20 @@ namespace moraine
   CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
                                const double          search_tolerance)
   {
+    // Cells of a side have material or none.
+    const bool begins_at_side = load_kind == "side traction" && !placed;
+    auto       without =
+      carried.find_cells(space, begins_at_side ? 0. : search_tolerance);
+    if (begins_at_side)
+      {
+        carried.remove(without);
+        without.clear();
+      }
     if (places().empty())
       throw ObjectError("load",
                         load_name,
-                        "found a surface outside the mesh or beside no body, "
-                        "allowed: one on or in a body");
-    const auto without = carried.find_cells(space, search_tolerance);
+                        "found a surface or side outside the mesh or beside no "
+                        "body, allowed: one that a body touches");
     if (!without.empty())
       {
         const Point<dim>  &x = places()[without[0]].x;

@@ -178,6 +178,24 @@ namespace moraine
 
 
 
+    /** Of bodies as drawn; of those whose points are given, whole cells. */
+    template <int dim>
+    Covers<dim>
+    covers_of_bodies(const std::vector<Body<dim>> &bodies,
+                     const BackgroundMesh<dim>    &mesh,
+                     const PointSet<dim>          &points)
+    {
+      if (const Covers<dim> covers = covers_of(shapes_of(bodies)))
+        return covers;
+      return [&mesh, filled = points.volumes_in_cells()](const Point<dim> &x,
+                                                         const double) {
+        const auto found = mesh.cell_around(x);
+        return found && filled[found->first->active_cell_index()] > 0;
+      };
+    }
+
+
+
     /** Of all that holds in a stage. */
     template <int dim>
     std::unique_ptr<Term<dim>>
@@ -236,7 +254,11 @@ namespace moraine
       state->aggregate_below(fill, scene.method.has_ghost_term());
     boundaries      = make_boundaries(scene);
     grid_conditions = make_grid_conditions(scene, *mesh);
-    loads = make_loads(scene, *mesh, body_names, united(shapes_of(bodies)));
+    loads           = make_loads(scene,
+                       *mesh,
+                       body_names,
+                       united(shapes_of(bodies)),
+                       covers_of_bodies(bodies, *mesh, *points));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
     set_initial_stress(scene, *this);

@@ -5,7 +5,6 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
-#include <moraine/assembly/load_terms.h>
 #include <moraine/boundary/condition_agreement.h>
 #include <moraine/core/words.h>
 
@@ -209,7 +208,7 @@ namespace moraine
 
     template <int dim>
     void
-    check_loads(const StageParameters &stage, const Model<dim> &model)
+    check_loads(const Model<dim> &model)
     {
       for (const auto &force : model.loads.body_forces)
         for (unsigned int b = 0; b < model.bodies.size(); ++b)
@@ -220,12 +219,6 @@ namespace moraine
               model.bodies[b].name +
               "', whose material has no 'Density', allowed: bodies with a "
               "density > 0");
-      for (const auto &traction : model.loads.side_tractions)
-        if (contains(stage.loads, traction.name) &&
-            pushed_faces(traction, *model.space, *model.points).empty())
-          throw InputError("section 'Loads/" + traction.name +
-                           "': found a side of the mesh without a body beside "
-                           "it, allowed: a side that a body touches");
     }
   } // namespace
 
@@ -245,7 +238,7 @@ namespace moraine
         check_sides_of_boundaries(stage, model);
         check_displacements(scene, stage, model);
       }
-    check_loads(stage, model);
+    check_loads(model);
   }
 
 

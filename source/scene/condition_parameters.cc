@@ -185,10 +185,10 @@ namespace moraine
       "Type",
       type,
       "body force (force/volume that the material has at the start of a step), "
-      "gravity (acceleration, times density: its mass stays), side "
-      "traction (force/area on a side of the mesh), surface traction "
-      "(force on a surface carried by the material, a dead load per area of "
-      "the undeformed body), point force (force "
+      "gravity (acceleration, times density: its mass stays), surface "
+      "traction (force on a surface carried by the material, a dead load per "
+      "area of the undeformed body), side traction (the same on the material "
+      "that is at a side of the mesh), point force (force "
       "at a place that the mesh carries along), force on points (force on the "
       "material points nearest to a place at the start).",
       patterns::selection({"body force",

@@ -8,6 +8,8 @@
 #include <moraine/core/words.h>
 #include <moraine/scene/scene_bodies.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -370,11 +372,18 @@ namespace moraine
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names,
-             const ShapePointer<dim>        &body)
+             const ShapePointer<dim>        &body,
+             const Covers<dim>              &covers)
   {
     using Place                   = typename CarriedLoad<dim>::Place;
     const NamedShapes<dim> shapes = body_shapes(scene);
-    Loads<dim>             loads;
+    const bool             through_mesh =
+      scene.method.after_step() == MeshAfterStep::reset;
+    // Finer than functions need, as an expression may jump inside of a face.
+    const QIterated<dim - 1> face_quadrature(QGauss<1>(scene.method.degree + 1),
+                                             (dim == 2 ? 4 : 2) *
+                                               (through_mesh ? 2 : 1));
+    Loads<dim>               loads;
     for (const auto &[name, parameters] : scene.loads)
       {
         const std::string section = "Loads/" + name;
@@ -387,21 +396,26 @@ namespace moraine
              body_flags(parameters.bodies, body_names, section),
              parameters.coordinates == "original"});
         else if (parameters.type == "side traction")
-          loads.side_tractions.push_back(
-            {name,
-             mesh.boundary_id(parameters.side, place(section, "Side")),
-             value});
+          loads.carried.emplace_back(
+            name,
+            parameters.type,
+            value,
+            places_on_side(mesh,
+                           mesh.boundary_id(parameters.side,
+                                            place(section, "Side")),
+                           covers,
+                           face_quadrature));
         else if (parameters.type == "surface traction")
           {
             const SurfacePointer<dim> surface =
               make_surface<dim>(parameters.surface, shapes, section);
             loads.carried.emplace_back(name,
+                                       parameters.type,
                                        value,
                                        places_on(*surface,
                                                  mesh,
                                                  body,
-                                                 scene.method.after_step() ==
-                                                     MeshAfterStep::reset ?
+                                                 through_mesh ?
                                                    Spacing::through_mesh :
                                                    Spacing::for_cells),
                                        share_outside(*surface, mesh, body));
@@ -414,6 +428,7 @@ namespace moraine
               loads.on_points.emplace_back(name, value, at);
             else
               loads.carried.emplace_back(name,
+                                         parameters.type,
                                          value,
                                          std::vector<Place>{{at, 1.}});
           }
@@ -456,7 +471,8 @@ namespace moraine
   template Loads<dim> make_loads(const Scene<dim> &,                      \
                                  const BackgroundMesh<dim> &,             \
                                  const std::vector<std::string> &,        \
-                                 const ShapePointer<dim> &);              \
+                                 const ShapePointer<dim> &,               \
+                                 const Covers<dim> &);                    \
   template std::function<Tensor<1, dim>(const unsigned int,               \
                                         const Point<dim> &)>              \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);

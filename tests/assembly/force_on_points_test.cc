@@ -151,7 +151,10 @@ namespace
     const auto push = [](const Point<2> &, const double t) {
       return Tensor<1, 2>({t, 0.});
     };
-    CarriedLoad<2> load("push", push, {{Point<2>(1.5, 2.2), 1.}});
+    CarriedLoad<2> load("push",
+                        "point force",
+                        push,
+                        {{Point<2>(1.5, 2.2), 1.}});
     load.find_cells(scene.space, 0.5);
     load.set_functions(scene.basis->functions_at(load.places()));
     const Tensor<1, 2>              shift({0.3, -0.1});
@@ -167,7 +170,7 @@ namespace
 
     Archive archive;
     load.write(archive);
-    CarriedLoad<2> copy("push", push, {{Point<2>(), 1.}});
+    CarriedLoad<2> copy("push", "point force", push, {{Point<2>(), 1.}});
     copy.read(archive);
     EXPECT_EQ(copy.places()[0].x, load.places()[0].x);
   }
@@ -188,6 +191,7 @@ namespace
       std::vector<Tensor<1, 2>>(scene.space.n_nodes(), shift));
     const Point<2> X(1.5, 2.2);
     CarriedLoad<2> load("push",
+                        "point force",
                         [](const Point<2> &, const double) {
                           return Tensor<1, 2>();
                         },

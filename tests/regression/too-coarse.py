@@ -3,8 +3,8 @@
 # Copyright (C) 2026 by the Moraine authors
 """What the cells of a scene are too coarse for is told before it runs: bodies drawn
 apart that stick together, a soft layer in cells that a stiff one shares, thin bodies
-of any stage, a side with a load on cells filled in part, a surface that ends inside
-cells; and one that begins away from ground that has settled."""
+of any stage, a surface that ends inside cells; and one that begins away from ground
+that has settled."""
 
 SCENE = """
 subsection Mesh
@@ -105,19 +105,6 @@ def layers(top_of_seam):
 
 for top in (2, 1.9, 1.9995, 2.35):
     show(f"seam up to {top}", layers(top))
-
-LOAD = """
-subsection Loads
-  subsection pull
-    set Type  = side traction
-    set Side  = right
-    set Value = 1; 0
-  end
-end
-"""
-for height in (2, 2.1):
-    show(f"pulled side of a block {height} high",
-         [("block", "firm", "0, 0", f"4, {height}")], LOAD)
 
 FLOOR = """
 subsection Boundaries

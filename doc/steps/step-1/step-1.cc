@@ -77,6 +77,7 @@ make_loads(const BackgroundMesh<dim> &mesh)
   Loads<dim> loads;
   loads.carried.emplace_back(
     "tension",
+    "surface traction",
     [](const Point<dim> &, const double t) {
       return Tensor<1, dim>(Point<dim>(final_tension * t, 0));
     },

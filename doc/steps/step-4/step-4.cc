@@ -87,6 +87,7 @@ make_loads(const BackgroundMesh<dim> &mesh)
   Loads<dim> loads;
   loads.carried.emplace_back(
     "end force",
+    "surface traction",
     [](const Point<dim> &, const double factor) {
       const double P = factor * bending_stiffness / (length * length);
       return Tensor<1, dim>(Point<dim>(0, -P / height));

@@ -126,12 +126,13 @@ Loads<dim>
 make_loads(const BackgroundMesh<dim> &mesh)
 {
   Loads<dim> loads;
-  loads.side_tractions.push_back({"pulse",
-                                  mesh.boundary_id("top", "step-7"),
-                                  [](const Point<dim> &, const double t) {
-                                    return Tensor<1, dim>(
-                                      Point<dim>(0, -pressure(t)));
-                                  }});
+  loads.carried.emplace_back(
+    "pulse",
+    "side traction",
+    [](const Point<dim> &, const double t) {
+      return Tensor<1, dim>(Point<dim>(0, -pressure(t)));
+    },
+    places_on_side(mesh, mesh.boundary_id("top", "step-7")));
   return loads;
 }
 

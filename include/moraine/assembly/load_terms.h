@@ -7,8 +7,6 @@
 #include <moraine/assembly/term.h>
 #include <moraine/load/load.h>
 
-#include <deal.II/base/quadrature.h>
-
 namespace moraine
 {
   /** @f$\sum_p N_a b\, v_p@f$, or gravity @f$\sum_p N_a g\, m_p@f$. */
@@ -72,61 +70,6 @@ namespace moraine
 
   private:
     ForceOnPoints<dim> &force;
-  };
-
-  /** Where the traction on a face of a side is evaluated: finer than functions
-   * of @p degree need, as an expression may jump inside of a face. */
-  template <int dim>
-  dealii::Quadrature<dim - 1>
-  side_quadrature(const unsigned int degree);
-
-  /** A face of a cell of the mesh. */
-  template <int dim>
-  struct CellFace
-  {
-    typename GridSpace<dim>::CellIterator cell;
-    unsigned int                          face;
-  };
-
-  /** The faces, of all ranks, on which a traction on a side of the mesh pushes:
-   * those of active cells that hold points, or have such a cell behind them
-   * where material has left the side. Into other active cells a domain only
-   * reaches, as where the rim of a body bulges along the side. Collective. */
-  template <int dim>
-  std::vector<CellFace<dim>>
-  pushed_faces(const SideTraction<dim> &load,
-               const GridSpace<dim>    &space,
-               const PointSet<dim>     &points);
-
-  /** @f$\int N_a t\,d\Gamma@f$ over a side of the mesh. */
-  template <int dim>
-  class SideTractionTerm : public Term<dim>
-  {
-  public:
-    explicit SideTractionTerm(const SideTraction<dim> &load);
-
-    std::vector<Effect>
-    effects(const StepContext<dim> &context) const override;
-
-    bool
-    begin_step(const StepContext<dim> &context) override;
-
-    TermTraits
-    traits() const override
-    {
-      TermTraits is;
-      is.is_dead = true;
-      return is;
-    }
-
-    void
-    add(const StepContext<dim> &context,
-        const bool              tangent,
-        GlobalSystem<dim>      &system) const override;
-
-  private:
-    const SideTraction<dim>   &load;
-    std::vector<CellFace<dim>> faces; ///< of this rank
   };
 
   /** @f$\sum_k w_k N_a(x_k)\, t@f$ over places that the material carries. */

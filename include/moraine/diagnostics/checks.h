@@ -77,7 +77,6 @@ namespace moraine
     // As a step begins
     MORAINE_CHECK(separation)
     MORAINE_CHECK(lost_boundaries)
-    MORAINE_CHECK(left_sides)
     MORAINE_CHECK(pushed_off_nodes)
     MORAINE_CHECK(cell_crossing)
     MORAINE_CHECK(bodies_meet)

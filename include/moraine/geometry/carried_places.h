@@ -8,6 +8,8 @@
 #include <moraine/geometry/covered_pieces.h>
 #include <moraine/mesh/grid_space.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <string>
 #include <vector>
 
@@ -162,13 +164,16 @@ namespace moraine
                 const BackgroundMesh<dim> &mesh,
                 const ShapePointer<dim>   &body = nullptr);
 
-  /** The places of a side of a mesh, the same on all ranks; where @p covers is
-   * given, those at a body. */
+  /** The places of a side of a mesh, the same on all ranks: those of
+   * @p of_whole_face, or finer ones on a face on which a body ends. Where
+   * @p covers is given, those at a body. */
   template <int dim>
   std::vector<typename CarriedPlaces<dim>::Place>
-  places_on_side(const BackgroundMesh<dim>       &mesh,
-                 const dealii::types::boundary_id side,
-                 const Covers<dim>               &covers = {});
+  places_on_side(const BackgroundMesh<dim>         &mesh,
+                 const dealii::types::boundary_id   side,
+                 const Covers<dim>                 &covers = {},
+                 const dealii::Quadrature<dim - 1> &of_whole_face =
+                   dealii::QGauss<dim - 1>(3));
 } // namespace moraine
 
 #endif

@@ -38,17 +38,9 @@ namespace moraine
     bool                at_start = false; ///< x of value is that of the start
   };
 
-  /** A force per area (2D: per length) on a side of the mesh. */
-  template <int dim>
-  struct SideTraction
-  {
-    std::string                name;
-    dealii::types::boundary_id side = 0;
-    VectorFunction<dim>        value;
-  };
-
   /**
-   * Forces carried by the material: tractions on a surface, or single forces.
+   * Forces carried by the material: tractions on a surface or on what is at a
+   * side of the mesh as they begin to act, or single forces.
    */
   template <int dim>
   class CarriedLoad : public StatePart
@@ -56,15 +48,18 @@ namespace moraine
   public:
     using Place = typename CarriedPlaces<dim>::Place;
 
-    /** @p share_outside: the part of its surface that is outside the mesh. */
+    /** @p kind: side traction, surface traction or point force; @p
+     * share_outside: the part of its surface that is outside the mesh. */
     CarriedLoad(const std::string         &name,
+                const std::string         &kind,
                 const VectorFunction<dim> &value,
                 std::vector<Place>         places,
                 const double               share_outside = 0.);
 
     /**
      * Find the cells of the places, which the first time are where they were in
-     * the mesh as it was built. Collective.
+     * the mesh as it was built; those of a side that are beside no material
+     * then are left out. Collective.
      * @throws InputError naming the load if there are none or one is not on the
      * material the first time, ComputationError later.
      */
@@ -143,15 +138,14 @@ namespace moraine
       return outside;
     }
 
-    /** Whether it is one force at one place. */
-    bool
-    is_single() const
+    const std::string &
+    kind() const
     {
-      return places().size() == 1 && places()[0].weight == 1;
+      return load_kind;
     }
 
   private:
-    const std::string         load_name;
+    const std::string         load_name, load_kind;
     const VectorFunction<dim> function;
     const std::vector<Place>  drawn;
     CarriedPlaces<dim>        carried;
@@ -250,7 +244,6 @@ namespace moraine
   struct Loads
   {
     std::vector<BodyForce<dim>>     body_forces;
-    std::vector<SideTraction<dim>>  side_tractions;
     std::vector<CarriedLoad<dim>>   carried;
     std::vector<ForceOnPoints<dim>> on_points;
   };

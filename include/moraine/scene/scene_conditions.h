@@ -39,13 +39,15 @@ namespace moraine
                        const BackgroundMesh<dim> &mesh);
 
   /** Surfaces on which they act end where @p body does, the union of all; null
-   * if nothing is known of one. */
+   * if nothing is known of one. Sides are loaded where @p covers says that a
+   * body is. */
   template <int dim>
   Loads<dim>
   make_loads(const Scene<dim>               &scene,
              const BackgroundMesh<dim>      &mesh,
              const std::vector<std::string> &body_names,
-             const ShapePointer<dim>        &body);
+             const ShapePointer<dim>        &body,
+             const Covers<dim>              &covers);
 
   /** Velocities at the start, by body. */
   template <int dim>
