@@ -259,6 +259,37 @@ namespace moraine
 
 
   template <int dim>
+  double
+  distance_to_simplex(const std::array<Point<dim>, dim> &simplex,
+                      const Point<dim>                  &x)
+  {
+    const auto to_edge = [&](const unsigned int i, const unsigned int j) {
+      const Tensor<1, dim> along = simplex[j] - simplex[i],
+                           to_x  = x - simplex[i];
+      const double share =
+        std::clamp(along * to_x / along.norm_square(), 0., 1.);
+      return (to_x - share * along).norm();
+    };
+    if constexpr (dim == 2)
+      return to_edge(0, 1);
+    else
+      {
+        const Tensor<1, 3> normal =
+          cross_product_3d(simplex[1] - simplex[0], simplex[2] - simplex[0]);
+        bool above = true;
+        for (unsigned int i = 0; i < 3; ++i)
+          above = above &&
+                  normal * cross_product_3d(simplex[(i + 1) % 3] - simplex[i],
+                                            x - simplex[i]) >=
+                    0;
+        return above ? std::abs(normal * (x - simplex[0])) / normal.norm() :
+                       std::min({to_edge(0, 1), to_edge(1, 2), to_edge(2, 0)});
+      }
+  }
+
+
+
+  template <int dim>
   CellVertices<dim>
   layer_beyond(const unsigned int       face,
                const CellVertices<dim> &cell,
@@ -321,29 +352,14 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                      \
-  template GridSpace<dim>::CellIterator nearest_active_cell(                  \
-    const GridSpace<dim> &,                                                   \
-    const GridSpace<dim>::CellIterator &,                                     \
-    const Point<dim> &,                                                       \
-    const double);                                                            \
-  template CellVertices<dim> layer_beyond(const unsigned int,                 \
-                                          const CellVertices<dim> &,          \
-                                          const double);                      \
-  template double distance_to_cell<dim>(const GridSpace<dim>::CellIterator &, \
-                                        const Point<dim> &);                  \
-  template void   evaluate_shapes(const GridSpace<dim> &,                     \
-                                  const unsigned int,                         \
-                                  const Point<dim> &,                         \
-                                  double *,                                   \
-                                  Tensor<1, dim> *);                          \
-  template void   continue_shapes(const GridSpace<dim> &,                     \
-                                  const unsigned int,                         \
-                                  const Point<dim> &,                         \
-                                  double *);                                  \
-  template Tensor<1, dim> move_of_nodes_at(const GridSpace<dim> &,            \
-                                           const unsigned int,                \
-                                           const Point<dim> &);
+#define INSTANTIATE(dim)                                                \
+  template decltype(nearest_active_cell<dim>) nearest_active_cell<dim>; \
+  template decltype(layer_beyond<dim>)        layer_beyond<dim>;        \
+  template decltype(distance_to_cell<dim>)    distance_to_cell<dim>;    \
+  template decltype(distance_to_simplex<dim>) distance_to_simplex<dim>; \
+  template decltype(evaluate_shapes<dim>)     evaluate_shapes<dim>;     \
+  template decltype(continue_shapes<dim>)     continue_shapes<dim>;     \
+  template decltype(move_of_nodes_at<dim>)    move_of_nodes_at<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

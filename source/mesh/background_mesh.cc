@@ -3,6 +3,7 @@
 
 #include <moraine/mesh/background_mesh.h>
 
+#include <moraine/core/archive_components.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/make_mesh.h>
 
@@ -234,16 +235,6 @@ namespace moraine
 
   template <int dim>
   void
-  BackgroundMesh<dim>::check_motion(
-    const std::function<Point<dim>(const Point<dim> &)> &motion) const
-  {
-    moved_vertices(motion);
-  }
-
-
-
-  template <int dim>
-  void
   BackgroundMesh<dim>::move_vertices(
     const std::function<Point<dim>(const Point<dim> &)> &motion)
   {
@@ -258,25 +249,6 @@ namespace moraine
     // Renews the search caches, ours and that of the points; unknowns and
     // points do not listen to it.
     tria.signals.mesh_movement();
-  }
-
-
-
-  template <int dim>
-  void
-  BackgroundMesh<dim>::keep_built_vertices()
-  {
-    if (built.empty())
-      built = tria.get_vertices();
-  }
-
-
-
-  template <int dim>
-  double
-  BackgroundMesh<dim>::round_off() const
-  {
-    return std::max(1e-9 * largest_edge, std::ldexp(largest_coordinate, -43));
   }
 
 
@@ -306,6 +278,58 @@ namespace moraine
           found.emplace(cell, xi);
       }
     return found;
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::write(Archive &archive) const
+  {
+    archive.write("mesh/vertex_position",
+                  components_of(tria.get_vertices()),
+                  dim,
+                  "length");
+    std::vector<double> grid;
+    if (box)
+      {
+        grid.assign(box->lower_corner.begin_raw(), box->lower_corner.end_raw());
+        grid.insert(grid.end(),
+                    box->cell_size.begin_raw(),
+                    box->cell_size.end_raw());
+      }
+    archive.write("mesh/box_corner_and_cell_size",
+                  std::move(grid),
+                  dim,
+                  "length");
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::read(const Archive &archive)
+  {
+    const auto &places = archive.numbers("mesh/vertex_position", dim);
+    AssertThrow(places.size() == dim * tria.n_vertices(),
+                ExcMessage("The archive is of another mesh."));
+    keep_built_vertices();
+    for (const auto &cell : tria.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        std::copy_n(places.begin() + dim * cell->vertex_index(v),
+                    dim,
+                    cell->vertex(v).begin_raw());
+    const auto &grid = archive.numbers("mesh/box_corner_and_cell_size", dim);
+    if (grid.empty())
+      box.reset();
+    else
+      {
+        box.emplace().n_cells = cells_of_box;
+        std::copy_n(grid.begin(), dim, box->lower_corner.begin_raw());
+        std::copy_n(grid.begin() + dim, dim, box->cell_size.begin_raw());
+      }
+    measure_cells();
+    tria.signals.mesh_movement();
   }
 
 

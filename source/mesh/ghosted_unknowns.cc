@@ -50,15 +50,6 @@ namespace moraine
 
 
 
-  std::vector<double> &
-  GhostedUnknowns::zero_array()
-  {
-    std::fill(values.begin(), values.end(), 0.);
-    return values;
-  }
-
-
-
   void
   GhostedUnknowns::add_to_owners(LA::Vector &sums)
   {

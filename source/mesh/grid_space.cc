@@ -215,15 +215,6 @@ namespace moraine
 
 
   template <int dim>
-  LA::Vector
-  GridSpace<dim>::vector() const
-  {
-    return unknowns.zero_vector();
-  }
-
-
-
-  template <int dim>
   void
   GridSpace<dim>::move_nodes(const std::vector<Tensor<1, dim>> &displacement)
   {
@@ -231,6 +222,59 @@ namespace moraine
     moves.resize(n_nodes());
     for (unsigned int node = 0; node < n_nodes(); ++node)
       moves[node] += displacement[node];
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::write_node_values(const std::vector<Tensor<1, dim>> &values,
+                                    const std::string                 &group,
+                                    const std::string                 &unit,
+                                    Archive &archive) const
+  {
+    std::vector<unsigned int> ids;
+    std::vector<double>       rows;
+    for (const auto &cell : background.triangulation().active_cell_iterators())
+      if (!values.empty() && cell->is_locally_owned() && knows(cell))
+        for (unsigned int a = 0; a < n_nodes_per_cell; ++a)
+          {
+            ids.push_back(cell->active_cell_index());
+            ids.push_back(a);
+            const Tensor<1, dim> &value = values[cell_nodes(cell)[a]];
+            rows.insert(rows.end(), value.begin_raw(), value.end_raw());
+          }
+    archive.distribute(group, std::move(ids), 2);
+    archive.write(group + "/value", std::move(rows), dim, unit);
+  }
+
+
+
+  template <int dim>
+  void
+  GridSpace<dim>::read_node_values(const Archive               &archive,
+                                   const std::string           &group,
+                                   std::vector<Tensor<1, dim>> &values) const
+  {
+    // A rank also knows nodes of cells that are another's.
+    const auto ids =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.integers(group + "/id", 2));
+    const auto rows =
+      Utilities::MPI::all_gather(communicator(),
+                                 archive.numbers(group + "/value", dim));
+    values.clear();
+    for (unsigned int rank = 0; rank < ids.size(); ++rank)
+      for (unsigned int row = 0; row < ids[rank].size() / 2; ++row)
+        {
+          const unsigned int cell = ids[rank][2 * row],
+                             a    = ids[rank][2 * row + 1];
+          values.resize(n_nodes());
+          if (cell_slot.at(cell) != no_cell)
+            std::copy_n(rows[rank].begin() + dim * row,
+                        dim,
+                        values[cell_nodes(cell)[a]].begin_raw());
+        }
   }
 
 

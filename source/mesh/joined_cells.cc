@@ -3,6 +3,8 @@
 
 #include <moraine/mesh/joined_cells.h>
 
+#include <moraine/mesh/active_search.h>
+
 #include <deal.II/base/bounding_box.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -64,20 +66,6 @@ namespace moraine
 
 
 
-    template <int dim>
-    BoundingBox<dim>
-    box_around(Point<dim> lower, Point<dim> upper, const double margin)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] -= margin;
-          upper[d] += margin;
-        }
-      return BoundingBox<dim>({lower, upper});
-    }
-
-
-
     /** The vertices of a part of a cell, in ascending order. */
     std::vector<unsigned int>
     sorted(std::vector<unsigned int> vertices)
@@ -129,48 +117,22 @@ namespace moraine
 
 
 
-    /** Distance from the segment, or from the triangle between its corners. */
-    template <int dim>
-    double
-    distance(const Point<dim>              &x,
-             const Point<dim>              &a,
-             const std::vector<Point<dim>> &others)
-    {
-      const Tensor<1, dim> to_x = x - a;
-      const Tensor<1, dim> r    = others[0] - a;
-      const double along   = std::clamp((to_x * r) / r.norm_square(), 0., 1.);
-      double       nearest = (to_x - along * r).norm();
-      if (others.size() == 2)
-        {
-          const Tensor<1, dim> s = others[1] - a;
-          const double rr = r * r, rs = r * s, ss = s * s, xr = to_x * r,
-                       xs = to_x * s, det = rr * ss - rs * rs;
-          const double u = (xr * ss - xs * rs) / det,
-                       v = (xs * rr - xr * rs) / det;
-          if (u >= 0 && v >= 0 && u + v <= 1)
-            nearest = std::min(nearest, (to_x - u * r - v * s).norm());
-        }
-      return nearest;
-    }
-
-
-
     /** Distance from a face, in 3D from the triangles at its corners. */
     template <int dim, class Face>
     double
     distance_from_face(const Point<dim> &x, const Face &face)
     {
       if constexpr (dim == 2)
-        return distance<2>(x, face->vertex(0), {face->vertex(1)});
+        return distance_to_simplex<2>({{face->vertex(0), face->vertex(1)}}, x);
       else
         {
           double nearest = std::numeric_limits<double>::infinity();
           for (const unsigned int v : {0, 1, 2, 3})
             nearest = std::min(nearest,
-                               distance<3>(x,
-                                           face->vertex(v),
-                                           {face->vertex(v ^ 1u),
-                                            face->vertex(v ^ 2u)}));
+                               distance_to_simplex<3>({{face->vertex(v),
+                                                        face->vertex(v ^ 1u),
+                                                        face->vertex(v ^ 2u)}},
+                                                      x));
           return nearest;
         }
     }
@@ -192,9 +154,10 @@ namespace moraine
     std::vector<std::pair<unsigned int, unsigned int>> pairs;
     for (const auto &[x, v] : entries)
       {
-        unsigned int first = v;
-        const auto   near  = boost::geometry::index::intersects(
-          box_around(x, x, same_place * shortest[v]));
+        unsigned int     first = v;
+        BoundingBox<dim> around({x, x});
+        around.extend(same_place * shortest[v]);
+        const auto near = boost::geometry::index::intersects(around);
         for (auto other = tree.qbegin(near); other != tree.qend(); ++other)
           if (other->first.distance(x) <
               same_place * std::min(shortest[v], shortest[other->second]))
@@ -285,14 +248,7 @@ namespace moraine
     for (const auto &face : cells.active_face_iterators())
       if (face->at_boundary() && face->boundary_id() == 0)
         {
-          Point<dim> lower = face->vertex(0), upper = lower;
-          for (const unsigned int v : face->vertex_indices())
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                lower[d] = std::min(lower[d], face->vertex(v)[d]);
-                upper[d] = std::max(upper[d], face->vertex(v)[d]);
-              }
-          boxes.emplace_back(BoundingBox<dim>({lower, upper}), faces.size());
+          boxes.emplace_back(face->bounding_box(), faces.size());
           faces.push_back(face);
         }
     const auto tree = pack_rtree(boxes);
@@ -300,8 +256,9 @@ namespace moraine
       {
         const Point<dim> &x      = places[v];
         const double      margin = same_place * shortest[v];
-        const auto        near =
-          boost::geometry::index::intersects(box_around(x, x, margin));
+        BoundingBox<dim>  around({x, x});
+        around.extend(margin);
+        const auto near = boost::geometry::index::intersects(around);
         for (auto box = tree.qbegin(near); box != tree.qend(); ++box)
           {
             const Face &face      = faces[box->second];
@@ -317,17 +274,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                        \
-  template std::vector<std::pair<unsigned int, unsigned int>>   \
-  coincident_vertices(const Triangulation<dim> &);              \
-  template std::optional<Point<dim>> find_torn_face(            \
-    const std::vector<std::pair<unsigned int, unsigned int>> &, \
-    const Triangulation<dim> &);                                \
-  template void join_cells(                                     \
-    const std::vector<std::pair<unsigned int, unsigned int>> &, \
-    Triangulation<dim> &);                                      \
-  template std::optional<Point<dim>> find_unmatched_vertex(     \
-    const Triangulation<dim> &);
+#define INSTANTIATE(dim)                                                  \
+  template decltype(coincident_vertices<dim>)   coincident_vertices<dim>; \
+  template decltype(find_torn_face<dim>)        find_torn_face<dim>;      \
+  template decltype(join_cells<dim>)            join_cells<dim>;          \
+  template decltype(find_unmatched_vertex<dim>) find_unmatched_vertex<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

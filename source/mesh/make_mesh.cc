@@ -496,15 +496,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                  \
-  template MeshSides  make_mesh(const MeshParameters<dim> &,              \
-                                Triangulation<dim> &);                    \
-  template CellGroups groups_of_cells(const MeshParameters<dim> &,        \
-                                      const Triangulation<dim> &);        \
-  template void       require_memory_for_cells<dim>(const double,         \
-                                              const std::string &); \
-  template std::optional<Point<dim>> find_inverted_cell(                  \
-    const Triangulation<dim> &, const std::vector<Point<dim>> &);
+#define INSTANTIATE(dim)                                                    \
+  template decltype(make_mesh<dim>)       make_mesh<dim>;                   \
+  template decltype(groups_of_cells<dim>) groups_of_cells<dim>;             \
+  template decltype(require_memory_for_cells<dim>)                          \
+                                             require_memory_for_cells<dim>; \
+  template decltype(find_inverted_cell<dim>) find_inverted_cell<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -6,6 +6,8 @@
 
 #include <moraine/mesh/grid_space.h>
 
+#include <array>
+
 namespace moraine
 {
   /**
@@ -27,6 +29,12 @@ namespace moraine
   double
   distance_to_cell(const typename GridSpace<dim>::CellIterator &cell,
                    const dealii::Point<dim>                    &x);
+
+  /** How far @p x is from a segment, or in 3D from a triangle. */
+  template <int dim>
+  double
+  distance_to_simplex(const std::array<dealii::Point<dim>, dim> &simplex,
+                      const dealii::Point<dim>                  &x);
 
   /** What lies beyond a face of a cell, by no more than @p thickness. */
   template <int dim>

@@ -95,7 +95,10 @@ namespace moraine
     void
     check_motion(
       const std::function<dealii::Point<dim>(const dealii::Point<dim> &)>
-        &motion) const;
+        &motion) const
+    {
+      moved_vertices(motion);
+    }
 
     const dealii::parallel::shared::Triangulation<dim> &
     triangulation() const
@@ -162,7 +165,10 @@ namespace moraine
     /** How far round-off may part what is one place of the mesh: far from the
      * origin that of the coordinates. */
     double
-    round_off() const;
+    round_off() const
+    {
+      return std::max(1e-9 * largest_edge, std::ldexp(largest_coordinate, -43));
+    }
 
   private:
     /** Where vertices go. @throws ComputationError if that inverts a cell. */
@@ -173,7 +179,11 @@ namespace moraine
 
     /** Before vertices move. */
     void
-    keep_built_vertices();
+    keep_built_vertices()
+    {
+      if (built.empty())
+        built = tria.get_vertices();
+    }
 
     /** Put the cells in order along the curve. */
     void

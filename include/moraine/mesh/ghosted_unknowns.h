@@ -48,7 +48,11 @@ namespace moraine
 
     /** An array of zeros to be filled, for add_to_owners(). */
     std::vector<double> &
-    zero_array();
+    zero_array()
+    {
+      std::fill(values.begin(), values.end(), 0.);
+      return values;
+    }
 
     /** The sums over all ranks of what is in the array now. Collective. */
     void

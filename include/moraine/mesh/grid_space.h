@@ -168,7 +168,10 @@ namespace moraine
 
     /** A zero vector of the owned unknowns. */
     LA::Vector
-    vector() const;
+    vector() const
+    {
+      return unknowns.zero_vector();
+    }
 
     /** Move every node by its value in @p displacement; the mesh stays. */
     void
@@ -200,12 +203,18 @@ namespace moraine
 
     /** Group "nodes/move", if any moved. */
     void
-    write(Archive &archive) const override;
+    write(Archive &archive) const override
+    {
+      write_node_values(moves, "nodes/move", "length", archive);
+    }
 
     /** Nodes of cells that were not active when it was written have not moved.
      */
     void
-    read(const Archive &archive) override;
+    read(const Archive &archive) override
+    {
+      read_node_values(archive, "nodes/move", moves);
+    }
 
     const dealii::DoFHandler<dim> &
     dof_handler() const
