@@ -7,15 +7,6 @@ namespace moraine
 {
   using namespace dealii;
 
-  LinearElastic::LinearElastic(const double E,
-                               const double nu,
-                               const double rho)
-    : stiffness(lame_constants(E, nu))
-    , rho(rho)
-  {}
-
-
-
   void
   LinearElastic::respond(const StepTime &,
                          const ArrayView<PrincipalState> &points) const

@@ -9,13 +9,6 @@ namespace moraine
 {
   using namespace dealii;
 
-  NeoHookean::NeoHookean(const double E, const double nu, const double rho)
-    : stiffness(lame_constants(E, nu))
-    , rho(rho)
-  {}
-
-
-
   void
   NeoHookean::respond(const StepTime &,
                       const ArrayView<PrincipalState> &points) const

@@ -27,8 +27,7 @@ namespace moraine
                      const double                                  nu,
                      const double                                  rho,
                      const std::vector<std::pair<double, double>> &yield_radius)
-    : stiffness(lame_constants(E, nu))
-    , rho(rho)
+    : IsotropicMaterial(E, nu, rho)
   {
     Assert(!yield_radius.empty() && yield_radius.front().first == 0,
            ExcMessage("The yield radius is not given from kappa = 0 on."));
@@ -69,15 +68,6 @@ namespace moraine
                                          return k < s.kappa;
                                        });
     return next - 1;
-  }
-
-
-
-  double
-  VonMises::yield_radius(const double kappa) const
-  {
-    const Segment &segment = *segment_at(kappa);
-    return segment.radius + segment.slope * (kappa - segment.kappa);
   }
 
 

@@ -13,40 +13,21 @@ namespace moraine
    * stress and logarithmic strain) at finite strain,
    * @f$\tau = C : \varepsilon^e@f$.
    */
-  class LinearElastic : public Material
+  class LinearElastic : public IsotropicMaterial
   {
   public:
-    /** @param E > 0 [stress], @param nu in (-1, 0.5), @param rho mass density
-     */
-    LinearElastic(const double E, const double nu, const double rho);
-
+    using IsotropicMaterial::IsotropicMaterial;
     using Material::respond;
 
     void
     respond(const StepTime                          &time,
             const dealii::ArrayView<PrincipalState> &points) const override;
 
-    LameConstants
-    elastic_stiffness() const override
-    {
-      return stiffness;
-    }
-
-    double
-    density() const override
-    {
-      return rho;
-    }
-
     bool
     is_linear() const override
     {
       return true;
     }
-
-  private:
-    const LameConstants stiffness;
-    const double        rho;
   };
 } // namespace moraine
 

@@ -240,6 +240,42 @@ namespace moraine
       return "its material has no stress at this strain";
     }
   };
+
+  /** A material with an isotropic elastic stiffness. */
+  class IsotropicMaterial : public Material
+  {
+  public:
+    /** @param E > 0 [stress], @param nu in (-1, 0.5), @param rho mass density
+     */
+    IsotropicMaterial(const double E, const double nu, const double rho)
+      : stiffness(lame_constants(E, nu))
+      , rho(rho)
+    {}
+
+    LameConstants
+    elastic_stiffness() const override
+    {
+      return stiffness;
+    }
+
+    double
+    density() const override
+    {
+      return rho;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return false;
+    }
+
+  protected:
+    const LameConstants stiffness;
+
+  private:
+    const double rho;
+  };
 } // namespace moraine
 
 #endif

@@ -19,13 +19,10 @@ namespace moraine
    * @f]
    * A law of finite strain: at small strain it is linear elasticity.
    */
-  class NeoHookean : public Material
+  class NeoHookean : public IsotropicMaterial
   {
   public:
-    /** @param E > 0 [stress], @param nu in (-1, 0.5), @param rho mass density
-     */
-    NeoHookean(const double E, const double nu, const double rho);
-
+    using IsotropicMaterial::IsotropicMaterial;
     using Material::respond;
 
     void
@@ -37,33 +34,11 @@ namespace moraine
       const dealii::ArrayView<const dealii::Tensor<1, 3>> &strains,
       const dealii::ArrayView<double> &energies) const override;
 
-    LameConstants
-    elastic_stiffness() const override
-    {
-      return stiffness;
-    }
-
-    double
-    density() const override
-    {
-      return rho;
-    }
-
-    bool
-    is_linear() const override
-    {
-      return false;
-    }
-
     bool
     has_small_strain_limit() const override
     {
       return false;
     }
-
-  private:
-    const LameConstants stiffness;
-    const double        rho;
   };
 } // namespace moraine
 

@@ -40,7 +40,7 @@ namespace moraine
    * 1992 (logarithmic strain). Ours allows for softening: where it is as steep
    * as @f$H \le -3G@f$ and the return gets there, there is no stress.
    */
-  class VonMises : public Material
+  class VonMises : public IsotropicMaterial
   {
   public:
     /**
@@ -59,24 +59,6 @@ namespace moraine
     void
     respond(const StepTime                          &time,
             const dealii::ArrayView<PrincipalState> &points) const override;
-
-    LameConstants
-    elastic_stiffness() const override
-    {
-      return stiffness;
-    }
-
-    double
-    density() const override
-    {
-      return rho;
-    }
-
-    bool
-    is_linear() const override
-    {
-      return false;
-    }
 
     bool
     dissipates() const override
@@ -104,7 +86,11 @@ namespace moraine
 
     /** The yield radius @f$R(\kappa)@f$ [stress]. */
     double
-    yield_radius(const double kappa) const;
+    yield_radius(const double kappa) const
+    {
+      const Segment &segment = *segment_at(kappa);
+      return segment.radius + segment.slope * (kappa - segment.kappa);
+    }
 
   private:
     /** From kappa to that of the next segment; the last has no end. */
@@ -129,8 +115,6 @@ namespace moraine
     std::vector<Segment>::const_iterator
     find_return(const double trial_radius, double &kappa) const;
 
-    const LameConstants  stiffness;
-    const double         rho;
     std::vector<Segment> segments;
   };
 } // namespace moraine
