@@ -100,15 +100,52 @@ namespace moraine
       {}
 
       NewtonReport
-      run();
+      run()
+      {
+        system.initial_guess(x);
+        evaluate(true);
+        measure.start();
+        record();
+        if (!is_number_at_start())
+          return report;
+        const std::string not_held = system.why_not_held();
+        if (!not_held.empty())
+          {
+            stop(NewtonStatus::not_held, not_held);
+            return report;
+          }
+        // The first residual may be a linearised one.
+        if (system.linearised() && small())
+          evaluate(false);
+        if (!is_number_at_start())
+          return report;
+        const bool balanced   = iterate();
+        report.observed_order = observed_order(report.residuals);
+        if (balanced)
+          settle_multipliers();
+        return end();
+      }
 
       /** From x, which @p found; the same report goes on. */
       NewtonReport
-      go_on(const NewtonReport &found);
+      go_on(const NewtonReport &found)
+      {
+        report = found;
+        evaluate(true);
+        measure.start();
+        if (iterate())
+          settle_multipliers();
+        return end();
+      }
 
     private:
       NewtonReport
-      end();
+      end()
+      {
+        if (tangent_is_factorised)
+          report.condition_number = linear_solver.condition_number();
+        return report;
+      }
 
       const NewtonParameters &parameters;
       NonlinearSystem        &system;
@@ -123,364 +160,245 @@ namespace moraine
       bool                    tangent_is_factorised = false;
 
       void
-      evaluate(const bool tangent);
+      evaluate(const bool tangent)
+      {
+        system.assemble(x, tangent);
+        measure.update(x, tangent);
+        tangent_is_at_x = tangent;
+      }
 
       void
-      factorise();
+      factorise()
+      {
+        if (!tangent_is_at_x)
+          evaluate(true);
+        linear_solver.set_up(system.tangent(),
+                             system.symmetric(),
+                             system.near_null_space());
+        tangent_is_factorised = true;
+      }
 
 
 
       bool
-      small() const;
+      small() const
+      {
+        return measure.distance() <= 1.;
+      }
 
       void
-      record();
+      record()
+      {
+        report.residuals.push_back(measure.relative());
+      }
 
       bool
-      stop(const NewtonStatus status, const std::string &message);
+      stop(const NewtonStatus status, const std::string &message)
+      {
+        report.status  = status;
+        report.message = message;
+        return false;
+      }
 
       /** The system's word on a residual that is not finite, or @p otherwise.
        */
       std::string
-      cause(const std::string &otherwise) const;
+      cause(const std::string &otherwise) const
+      {
+        const std::string failure = system.failure();
+        return failure.empty() ? otherwise : failure;
+      }
 
       bool
-      is_number_at_start();
+      is_number_at_start()
+      {
+        return measure.finite() ||
+               stop(NewtonStatus::not_a_number,
+                    cause(
+                      "the residual is not a number at the start of the step"));
+      }
 
+      /**
+       * Solve for a correction with the factorisation at hand and take it.
+       * @p enough: the distance that the linear equations may leave.
+       */
       bool
       correct(const bool   line_search,
-              const double enough = goal_of_linear_solver);
+              const double enough = goal_of_linear_solver)
+      {
+        if (iterations_since_pass == parameters.maximum_iterations)
+          return stop(NewtonStatus::too_many_iterations,
+                      "no equilibrium after " +
+                        std::to_string(iterations_since_pass) + " iterations");
+        LA::Vector         dx(system.residual());
+        const LinearReport linear =
+          linear_solver.solve(dx,
+                              system.residual(),
+                              small() ? 0. : measure.weighted_norm(enough),
+                              measure.weights());
+        report.linear_solver = linear.solver;
+        report.linear_iterations += linear.iterations;
+        report.ran_out_of_linear_iterations = linear.ran_out_of_iterations;
+        if (!linear.converged)
+          return stop(NewtonStatus::linear_solver_failed,
+                      failure_of(linear, system));
+        if (!linear.message.empty())
+          report.message = linear.message;
+        system.apply_constraints(dx);
+        ++report.iterations;
+        ++iterations_since_pass;
+        const bool taken = take_step(dx, line_search);
+        record();
+        if (watcher)
+          watcher({report.iterations,
+                   report.residuals.back(),
+                   linear.iterations,
+                   length});
+        return taken;
+      }
+
+      /**
+       * Add dx if that reduces the residual or the next correction, else half
+       * of it, a quarter, ..., the first that reduces the residual.
+       */
+      bool
+      take_step(const LA::Vector &dx, const bool line_search)
+      {
+        // A linearised residual is no measure for the true one.
+        const bool          any_will_do = system.linearised() || !line_search;
+        const ResidualParts start       = measure.parts();
+        const LA::Vector    x_start(x);
+        const unsigned int  n_trials = line_search ? 1 + maximum_halvings : 1;
+        double              factor   = 1.;
+        for (unsigned int i = 0; i < n_trials; ++i, factor *= 0.5)
+          {
+            length = factor;
+            x      = x_start;
+            x.add(factor, dx);
+            evaluate(false);
+            if (measure.finite() &&
+                (any_will_do || small() ||
+                 measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
+                 (i == 0 && next_is_shorter(dx))))
+              return true;
+          }
+        if (!measure.finite())
+          return stop(NewtonStatus::not_a_number,
+                      cause("the residual is not a number after a correction"));
+        return stop(NewtonStatus::diverged,
+                    "no step along the correction reduces the residual");
+      }
+
+      /**
+       * Whether the tangent that gave dx has a shorter correction for the
+       * residual after it. Where a stiff part of the material, as the volume of
+       * a nearly incompressible one, meets a rotation for the first time, the
+       * residual grows although the step is a good one: displacements do not.
+       */
+      bool
+      next_is_shorter(const LA::Vector &dx)
+      {
+        LA::Vector         next(dx);
+        const LinearReport linear =
+          linear_solver.solve(next,
+                              system.residual(),
+                              measure.weighted_norm(largest_forcing *
+                                                    measure.distance()),
+                              measure.weights());
+        report.linear_iterations += linear.iterations;
+        if (!linear.message.empty())
+          report.message = linear.message;
+        system.apply_constraints(next);
+        return linear.converged &&
+               next.l2_norm() <= (1. - sufficient_shortening) * dx.l2_norm();
+      }
 
       bool
-      take_step(const LA::Vector &dx, const bool line_search);
+      iterate()
+      {
+        // The first as well as needed in the end: the problem may be linear.
+        double forcing = 0.;
+        while (!small())
+          {
+            factorise();
+            const ResidualParts before = measure.parts();
+            if (!correct(parameters.line_search,
+                         std::max(goal_of_linear_solver,
+                                  forcing * measure.distance())))
+              return false;
+            const double ratio = measure.ratio_to(before);
+            forcing = std::min(largest_forcing, forcing_factor * ratio * ratio);
+          }
+        go_on_below_rounding();
+        return true;
+      }
 
-      bool
-      next_is_shorter(const LA::Vector &dx);
-
-      bool
-      iterate();
-
+      /**
+       * What rounding may leave is an estimate, and much too large where a
+       * point is crushed, or was by the start of a step: go on while the
+       * residual falls.
+       */
       void
-      go_on_below_rounding();
+      go_on_below_rounding()
+      {
+        for (bool falls = true; falls && measure.much_is_forgiven();)
+          {
+            const LA::Vector    found(x);
+            const ResidualParts before  = measure.parts();
+            const std::string   message = report.message;
+            factorise();
+            const double ratio = correct(false) ? measure.ratio_to(before) : 2.;
+            falls              = ratio < still_falls;
+            if (ratio <= 1.)
+              continue;
+            report.status  = NewtonStatus::converged;
+            report.message = message;
+            x              = found;
+            evaluate(false);
+          }
+      }
+
+      /**
+       * At least one correction with the factorisation at hand, more while they
+       * help, then Newton's own if still needed.
+       */
+      bool
+      iterate_with_kept_tangent()
+      {
+        if (!tangent_is_factorised)
+          factorise();
+        ResidualParts before;
+        do
+          {
+            before = measure.parts();
+            if (!correct(false))
+              return false;
+          }
+        while (!small() && measure.ratio_to(before) < slow_pass);
+        return iterate();
+      }
 
       bool
-      iterate_with_kept_tangent();
-
-      bool
-      settle_multipliers();
+      settle_multipliers()
+      {
+        while (system.augment(x))
+          {
+            if (report.augmentations == parameters.maximum_augmentations)
+              return stop(NewtonStatus::too_many_iterations,
+                          "multipliers still change after " +
+                            std::to_string(report.augmentations) + " updates");
+            ++report.augmentations;
+            iterations_since_pass = 0;
+            evaluate(false);
+            if (!iterate_with_kept_tangent())
+              return false;
+          }
+        return true;
+      }
     };
 
 
 
-    void
-    Iteration::evaluate(const bool tangent)
-    {
-      system.assemble(x, tangent);
-      measure.update(x, tangent);
-      tangent_is_at_x = tangent;
-    }
-
-
-
-    void
-    Iteration::factorise()
-    {
-      if (!tangent_is_at_x)
-        evaluate(true);
-      linear_solver.set_up(system.tangent(),
-                           system.symmetric(),
-                           system.near_null_space());
-      tangent_is_factorised = true;
-    }
-
-
-
-    bool
-    Iteration::small() const
-    {
-      return measure.distance() <= 1.;
-    }
-
-
-
-    void
-    Iteration::record()
-    {
-      report.residuals.push_back(measure.relative());
-    }
-
-
-
-    bool
-    Iteration::stop(const NewtonStatus status, const std::string &message)
-    {
-      report.status  = status;
-      report.message = message;
-      return false;
-    }
-
-
-
-    std::string
-    Iteration::cause(const std::string &otherwise) const
-    {
-      const std::string failure = system.failure();
-      return failure.empty() ? otherwise : failure;
-    }
-
-
-
-    /**
-     * Solve for a correction with the factorisation at hand and take it.
-     * @p enough: the distance that the linear equations may leave.
-     */
-    bool
-    Iteration::correct(const bool line_search, const double enough)
-    {
-      if (iterations_since_pass == parameters.maximum_iterations)
-        return stop(NewtonStatus::too_many_iterations,
-                    "no equilibrium after " +
-                      std::to_string(iterations_since_pass) + " iterations");
-      LA::Vector         dx(system.residual());
-      const LinearReport linear =
-        linear_solver.solve(dx,
-                            system.residual(),
-                            small() ? 0. : measure.weighted_norm(enough),
-                            measure.weights());
-      report.linear_solver = linear.solver;
-      report.linear_iterations += linear.iterations;
-      report.ran_out_of_linear_iterations = linear.ran_out_of_iterations;
-      if (!linear.converged)
-        return stop(NewtonStatus::linear_solver_failed,
-                    failure_of(linear, system));
-      if (!linear.message.empty())
-        report.message = linear.message;
-      system.apply_constraints(dx);
-      ++report.iterations;
-      ++iterations_since_pass;
-      const bool taken = take_step(dx, line_search);
-      record();
-      if (watcher)
-        watcher({report.iterations,
-                 report.residuals.back(),
-                 linear.iterations,
-                 length});
-      return taken;
-    }
-
-
-
-    /**
-     * Whether the tangent that gave dx has a shorter correction for the
-     * residual after it. Where a stiff part of the material, as the volume of a
-     * nearly incompressible one, meets a rotation for the first time, the
-     * residual grows although the step is a good one: displacements do not.
-     */
-    bool
-    Iteration::next_is_shorter(const LA::Vector &dx)
-    {
-      LA::Vector         next(dx);
-      const LinearReport linear =
-        linear_solver.solve(next,
-                            system.residual(),
-                            measure.weighted_norm(largest_forcing *
-                                                  measure.distance()),
-                            measure.weights());
-      report.linear_iterations += linear.iterations;
-      if (!linear.message.empty())
-        report.message = linear.message;
-      system.apply_constraints(next);
-      return linear.converged &&
-             next.l2_norm() <= (1. - sufficient_shortening) * dx.l2_norm();
-    }
-
-
-
-    /**
-     * Add dx if that reduces the residual or the next correction, else half of
-     * it, a quarter, ..., the first that reduces the residual.
-     */
-    bool
-    Iteration::take_step(const LA::Vector &dx, const bool line_search)
-    {
-      // A linearised residual is no measure for the true one.
-      const bool          any_will_do = system.linearised() || !line_search;
-      const ResidualParts start       = measure.parts();
-      const LA::Vector    x_start(x);
-      const unsigned int  n_trials = line_search ? 1 + maximum_halvings : 1;
-      double              factor   = 1.;
-      for (unsigned int i = 0; i < n_trials; ++i, factor *= 0.5)
-        {
-          length = factor;
-          x      = x_start;
-          x.add(factor, dx);
-          evaluate(false);
-          if (measure.finite() &&
-              (any_will_do || small() ||
-               measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
-               (i == 0 && next_is_shorter(dx))))
-            return true;
-        }
-      if (!measure.finite())
-        return stop(NewtonStatus::not_a_number,
-                    cause("the residual is not a number after a correction"));
-      return stop(NewtonStatus::diverged,
-                  "no step along the correction reduces the residual");
-    }
-
-
-
-    bool
-    Iteration::iterate()
-    {
-      // The first as well as needed in the end: the problem may be linear.
-      double forcing = 0.;
-      while (!small())
-        {
-          factorise();
-          const ResidualParts before = measure.parts();
-          if (!correct(parameters.line_search,
-                       std::max(goal_of_linear_solver,
-                                forcing * measure.distance())))
-            return false;
-          const double ratio = measure.ratio_to(before);
-          forcing = std::min(largest_forcing, forcing_factor * ratio * ratio);
-        }
-      go_on_below_rounding();
-      return true;
-    }
-
-
-
-    /**
-     * What rounding may leave is an estimate, and much too large where a point
-     * is crushed, or was by the start of a step: go on while the residual
-     * falls.
-     */
-    void
-    Iteration::go_on_below_rounding()
-    {
-      for (bool falls = true; falls && measure.much_is_forgiven();)
-        {
-          const LA::Vector    found(x);
-          const ResidualParts before  = measure.parts();
-          const std::string   message = report.message;
-          factorise();
-          const double ratio = correct(false) ? measure.ratio_to(before) : 2.;
-          falls              = ratio < still_falls;
-          if (ratio <= 1.)
-            continue;
-          report.status  = NewtonStatus::converged;
-          report.message = message;
-          x              = found;
-          evaluate(false);
-        }
-    }
-
-
-
-    /**
-     * At least one correction with the factorisation at hand, more while they
-     * help, then Newton's own if still needed.
-     */
-    bool
-    Iteration::iterate_with_kept_tangent()
-    {
-      if (!tangent_is_factorised)
-        factorise();
-      ResidualParts before;
-      do
-        {
-          before = measure.parts();
-          if (!correct(false))
-            return false;
-        }
-      while (!small() && measure.ratio_to(before) < slow_pass);
-      return iterate();
-    }
-
-
-
-    bool
-    Iteration::settle_multipliers()
-    {
-      while (system.augment(x))
-        {
-          if (report.augmentations == parameters.maximum_augmentations)
-            return stop(NewtonStatus::too_many_iterations,
-                        "multipliers still change after " +
-                          std::to_string(report.augmentations) + " updates");
-          ++report.augmentations;
-          iterations_since_pass = 0;
-          evaluate(false);
-          if (!iterate_with_kept_tangent())
-            return false;
-        }
-      return true;
-    }
-
-
-
-    NewtonReport
-    Iteration::end()
-    {
-      if (tangent_is_factorised)
-        report.condition_number = linear_solver.condition_number();
-      return report;
-    }
-
-
-
-    bool
-    Iteration::is_number_at_start()
-    {
-      return measure.finite() ||
-             stop(NewtonStatus::not_a_number,
-                  cause(
-                    "the residual is not a number at the start of the step"));
-    }
-
-
-
-    NewtonReport
-    Iteration::run()
-    {
-      system.initial_guess(x);
-      evaluate(true);
-      measure.start();
-      record();
-      if (!is_number_at_start())
-        return report;
-      const std::string not_held = system.why_not_held();
-      if (!not_held.empty())
-        {
-          stop(NewtonStatus::not_held, not_held);
-          return report;
-        }
-      // The first residual may be a linearised one.
-      if (system.linearised() && small())
-        evaluate(false);
-      if (!is_number_at_start())
-        return report;
-      const bool balanced   = iterate();
-      report.observed_order = observed_order(report.residuals);
-      if (balanced)
-        settle_multipliers();
-      return end();
-    }
-
-
-
-    NewtonReport
-    Iteration::go_on(const NewtonReport &found)
-    {
-      report = found;
-      evaluate(true);
-      measure.start();
-      if (iterate())
-        settle_multipliers();
-      return end();
-    }
   } // namespace
 
 

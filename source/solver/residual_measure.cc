@@ -57,16 +57,6 @@ namespace moraine
 
 
 
-  ResidualMeasure::ResidualMeasure(const NonlinearSystem &system,
-                                   const double           tolerance,
-                                   const double           absolute_tolerance)
-    : system(system)
-    , tolerance(tolerance)
-    , absolute_tolerance(absolute_tolerance)
-  {}
-
-
-
   std::vector<double>
   ResidualMeasure::norms_of_parts(const LA::Vector &v) const
   {
@@ -139,14 +129,6 @@ namespace moraine
     for (double &goal : now.goals)
       if (goal == 0.)
         goal = largest;
-  }
-
-
-
-  void
-  ResidualMeasure::start()
-  {
-    scales_at_start = scales;
   }
 
 

@@ -33,8 +33,7 @@ namespace moraine
                                                const unsigned int      dim)
   {
     const SilentErrors silence;
-    auto              *A =
-      const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix());
+    auto *A = const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix());
     Teuchos::RCP<Ifpack_Preconditioner> schwarz(
       Ifpack().Create("Amesos", A, layers_around(dim)));
     Teuchos::ParameterList options;

@@ -68,14 +68,6 @@ namespace moraine
 
 
 
-  void
-  SolverChoice::spend(const double iterations)
-  {
-    spent += iterations;
-  }
-
-
-
   unsigned int
   SolverChoice::allowed_iterations() const
   {

@@ -39,7 +39,11 @@ namespace moraine
   public:
     ResidualMeasure(const NonlinearSystem &system,
                     const double           tolerance,
-                    const double           absolute_tolerance);
+                    const double           absolute_tolerance)
+      : system(system)
+      , tolerance(tolerance)
+      , absolute_tolerance(absolute_tolerance)
+    {}
 
     /** After an assemble() at @p x; @p tangent: with a new tangent. */
     void
@@ -47,7 +51,10 @@ namespace moraine
 
     /** The force scales are now those of the start of the step. */
     void
-    start();
+    start()
+    {
+      scales_at_start = scales;
+    }
 
     const ResidualParts &
     parts() const

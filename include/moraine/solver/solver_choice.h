@@ -30,7 +30,10 @@ namespace moraine
 
     /** What a hierarchy or iterations for the matrix took. */
     void
-    spend(const double iterations);
+    spend(const double iterations)
+    {
+      spent += iterations;
+    }
 
     /**
      * Iterations that the matrix may still take: until it has cost twice as
