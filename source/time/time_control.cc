@@ -109,39 +109,6 @@ namespace moraine
 
 
 
-  unsigned int
-  TimeControl::stage() const
-  {
-    return stops[std::min<std::size_t>(next_stop, stops.size() - 1)].stage;
-  }
-
-
-
-  double
-  TimeControl::path_length() const
-  {
-    return follows_path() ? current - parameters().start_time : 0.;
-  }
-
-
-
-  bool
-  TimeControl::path_leaves_interval(const double t) const
-  {
-    return t <= parameters().earliest_time() || t >= parameters().end_time;
-  }
-
-
-
-  void
-  TimeControl::set_trial_time(const double t)
-  {
-    Assert(follows_path(), ExcMessage("Steps of time have theirs."));
-    found_time = t;
-  }
-
-
-
   void
   TimeControl::next()
   {
@@ -343,79 +310,6 @@ namespace moraine
             " (Smallest step = " + in_words(parameters().smallest_step) +
             " of a step).";
     return false;
-  }
-
-
-
-  void
-  TimeControl::take_back_cuts()
-  {
-    size      = accepted_size;
-    parts.cut = 1.;
-  }
-
-
-
-  bool
-  TimeControl::finished() const
-  {
-    return path_ended || next_stop == stops.size();
-  }
-
-
-
-  double
-  TimeControl::time() const
-  {
-    return current_time;
-  }
-
-
-
-  double
-  TimeControl::trial_time() const
-  {
-    return found_time;
-  }
-
-
-
-  bool
-  TimeControl::at_step_end() const
-  {
-    return on_step_end;
-  }
-
-
-
-  unsigned int
-  TimeControl::n_completed_steps() const
-  {
-    return completed_steps;
-  }
-
-
-
-  unsigned int
-  TimeControl::n_accepted() const
-  {
-    return accepted;
-  }
-
-
-
-  unsigned int
-  TimeControl::n_rejected() const
-  {
-    return rejected;
-  }
-
-
-
-  const std::string &
-  TimeControl::message() const
-  {
-    return text;
   }
 
 

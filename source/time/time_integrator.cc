@@ -125,14 +125,6 @@ namespace moraine
 
 
   TimeIntegrator
-  TimeIntegrator::energy_momentum()
-  {
-    return {0.5, 1., 0., 0., true};
-  }
-
-
-
-  TimeIntegrator
   TimeIntegrator::second_part_of_bathe(const double rho, const double ratio)
   {
     const double s  = 1 / (1 + ratio); // where the first part ended
@@ -164,13 +156,4 @@ namespace moraine
 
 
 
-  TimeIntegrator::TimeIntegrator(const IntegratorParameters &parameters)
-    : TimeIntegrator(parameters.integrator == "generalised-alpha" ?
-                       generalised_alpha(parameters.spectral_radius) :
-                     parameters.integrator == "energy-momentum" ?
-                       energy_momentum() :
-                     parameters.integrator == "Bathe" ?
-                       newmark(0.25, 0.5) :
-                       newmark(parameters.beta, parameters.gamma))
-  {}
 } // namespace moraine

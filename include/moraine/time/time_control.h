@@ -146,7 +146,10 @@ namespace moraine
 
     /** Of the path so far; 0 without one. */
     double
-    path_length() const;
+    path_length() const
+    {
+      return follows_path() ? current - parameters().start_time : 0.;
+    }
 
     /** Change of time per length in the last accepted step along a path. */
     double
@@ -169,7 +172,11 @@ namespace moraine
 
     /** Of a trial step along a path: where it ends. */
     void
-    set_trial_time(const double t);
+    set_trial_time(const double t)
+    {
+      Assert(follows_path(), dealii::ExcMessage("Steps of time have theirs."));
+      found_time = t;
+    }
 
     /** What is divided into steps: time, or where a path begins, its length on
      * top of that. It always grows. */
@@ -188,7 +195,10 @@ namespace moraine
 
     /** To which the next step belongs; the last one at the end. */
     unsigned int
-    stage() const;
+    stage() const
+    {
+      return stops[std::min<std::size_t>(next_stop, stops.size() - 1)].stage;
+    }
 
     /** Choose the next trial time. */
     void
@@ -233,35 +243,63 @@ namespace moraine
      * last accepted step, because something else than its size was mended.
      */
     void
-    take_back_cuts();
+    take_back_cuts()
+    {
+      size      = accepted_size;
+      parts.cut = 1.;
+    }
 
     bool
-    finished() const;
+    finished() const
+    {
+      return path_ended || next_stop == stops.size();
+    }
 
     /** Of the last accepted step. */
     double
-    time() const;
+    time() const
+    {
+      return current_time;
+    }
 
     double
-    trial_time() const;
+    trial_time() const
+    {
+      return found_time;
+    }
 
     /** Whether time() ends one of the user's steps. */
     bool
-    at_step_end() const;
+    at_step_end() const
+    {
+      return on_step_end;
+    }
 
     /** The user's steps completed. */
     unsigned int
-    n_completed_steps() const;
+    n_completed_steps() const
+    {
+      return completed_steps;
+    }
 
     /** Those in two parts count once. */
     unsigned int
-    n_accepted() const;
+    n_accepted() const
+    {
+      return accepted;
+    }
 
     unsigned int
-    n_rejected() const;
+    n_rejected() const
+    {
+      return rejected;
+    }
 
     const std::string &
-    message() const;
+    message() const
+    {
+      return text;
+    }
 
   private:
     struct Stop
@@ -309,7 +347,10 @@ namespace moraine
     }
 
     bool
-    path_leaves_interval(const double t) const;
+    path_leaves_interval(const double t) const
+    {
+      return t <= parameters().earliest_time() || t >= parameters().end_time;
+    }
 
     void
     add_stops(const unsigned int stage, const std::vector<double> &asked);

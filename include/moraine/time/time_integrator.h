@@ -99,14 +99,25 @@ namespace moraine
 
     /** With forces in the middle of the step. */
     static TimeIntegrator
-    energy_momentum();
+    energy_momentum()
+    {
+      return {0.5, 1., 0., 0., true};
+    }
 
     /** The second part of Bathe's rule, over the length of the first. */
     static TimeIntegrator
     second_part_of_bathe(const double spectral_radius, const double ratio);
 
     /** Of steps that are not divided, and of the first part of others. */
-    explicit TimeIntegrator(const IntegratorParameters &parameters);
+    explicit TimeIntegrator(const IntegratorParameters &parameters)
+      : TimeIntegrator(parameters.integrator == "generalised-alpha" ?
+                         generalised_alpha(parameters.spectral_radius) :
+                       parameters.integrator == "energy-momentum" ?
+                         energy_momentum() :
+                       parameters.integrator == "Bathe" ?
+                         newmark(0.25, 0.5) :
+                         newmark(parameters.beta, parameters.gamma))
+    {}
 
     /**
      * A rule of Newmark's as the balance of the means of both ends, @f$M (a_n +
