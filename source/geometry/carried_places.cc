@@ -3,6 +3,7 @@
 
 #include <moraine/geometry/carried_places.h>
 
+#include <moraine/core/archive_components.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/mesh/active_search.h>
 #include <moraine/mesh/straight_mapping.h>
@@ -17,6 +18,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <deal.II/numerics/rtree.h>
+
+#include <deal.II/physics/elasticity/kinematics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -252,16 +255,6 @@ namespace moraine
 
 
   template <int dim>
-  void
-  CarriedPlaces<dim>::remove(const std::vector<unsigned int> &numbers)
-  {
-    for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
-      now.erase(now.begin() + *number);
-  }
-
-
-
-  template <int dim>
   std::vector<typename CarriedPlaces<dim>::Increment>
   CarriedPlaces<dim>::increments(
     const GridSpace<dim>              &space,
@@ -320,8 +313,7 @@ namespace moraine
         if (turn)
           {
             const Tensor<2, dim> F =
-              Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
-              increments[k].gradient;
+              Physics::Elasticity::Kinematics::F(increments[k].gradient);
             const Tensor<1, dim> area =
               determinant(F) * (transpose(invert(F)) * place.normal);
             place.weight *= area.norm();
@@ -347,21 +339,16 @@ namespace moraine
   void
   CarriedPlaces<dim>::write(Archive &archive, const std::string &group) const
   {
-    std::vector<double> x, in_mesh, normals, weights;
-    for (const Place &place : now)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            x.push_back(place.x[d]);
-            in_mesh.push_back(place.in_mesh[d]);
-            normals.push_back(place.normal[d]);
-          }
-        weights.push_back(place.weight);
-      }
-    archive.write(group + "/place", x, dim, "length");
-    archive.write(group + "/place in mesh", in_mesh, dim, "length");
-    archive.write(group + "/normal", normals, dim);
-    archive.write(group + "/weight", weights);
+    archive.write(group + "/place",
+                  components_of(now, &Place::x),
+                  dim,
+                  "length");
+    archive.write(group + "/place in mesh",
+                  components_of(now, &Place::in_mesh),
+                  dim,
+                  "length");
+    archive.write(group + "/normal", components_of(now, &Place::normal), dim);
+    archive.write(group + "/weight", components_of(now, &Place::weight));
   }
 
 
@@ -370,31 +357,17 @@ namespace moraine
   void
   CarriedPlaces<dim>::read(const Archive &archive, const std::string &group)
   {
-    const auto &x       = archive.numbers(group + "/place", dim);
-    const auto &in_mesh = archive.numbers(group + "/place in mesh", dim);
-    const auto &normals = archive.numbers(group + "/normal", dim);
     const auto &weights = archive.numbers(group + "/weight");
     now.resize(weights.size());
-    for (unsigned int k = 0; k < now.size(); ++k)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            now[k].x[d]       = x[dim * k + d];
-            now[k].in_mesh[d] = in_mesh[dim * k + d];
-            now[k].normal[d]  = normals[dim * k + d];
-          }
-        now[k].weight = weights[k];
-      }
+    set_components(weights, now, &Place::weight);
+    set_components(archive.numbers(group + "/place", dim), now, &Place::x);
+    set_components(archive.numbers(group + "/place in mesh", dim),
+                   now,
+                   &Place::in_mesh);
+    set_components(archive.numbers(group + "/normal", dim),
+                   now,
+                   &Place::normal);
     undo();
-  }
-
-
-
-  template <int dim>
-  void
-  CarriedPlaces<dim>::undo()
-  {
-    next.clear();
   }
 
 
@@ -538,21 +511,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template class CarriedPlaces<dim>;                                       \
-  template std::vector<typename CarriedPlaces<dim>::Place> places_on(      \
-    const Surface<dim> &,                                                  \
-    const BackgroundMesh<dim> &,                                           \
-    const ShapePointer<dim> &,                                             \
-    const Spacing);                                                        \
-  template double share_outside(const Surface<dim> &,                      \
-                                const BackgroundMesh<dim> &,               \
-                                const ShapePointer<dim> &);                \
-  template std::vector<typename CarriedPlaces<dim>::Place> places_on_side( \
-    const BackgroundMesh<dim> &,                                           \
-    const types::boundary_id,                                              \
-    const Covers<dim> &,                                                   \
-    const Quadrature<dim - 1> &);
+#define INSTANTIATE(dim)                                     \
+  template class CarriedPlaces<dim>;                         \
+  template decltype(places_on<dim>)      places_on<dim>;     \
+  template decltype(share_outside<dim>)  share_outside<dim>; \
+  template decltype(places_on_side<dim>) places_on_side<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

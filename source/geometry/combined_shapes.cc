@@ -356,13 +356,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                           \
-  template ShapePointer<dim> make_moved(const ShapePointer<dim> &, \
-                                        const Placement<dim> &);   \
-  template ShapePointer<dim> combine(const Operation,              \
-                                     const ShapePointer<dim> &,    \
-                                     const ShapePointer<dim> &,    \
-                                     const std::array<std::string, 2> &);
+#define INSTANTIATE(dim)                              \
+  template decltype(make_moved<dim>) make_moved<dim>; \
+  template decltype(combine<dim>)    combine<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

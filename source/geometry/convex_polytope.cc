@@ -404,15 +404,6 @@ namespace moraine
 
 
   template <int dim>
-  double
-  ConvexPolytope<dim>::volume() const
-  {
-    return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
-  }
-
-
-
-  template <int dim>
   Point<dim>
   ConvexPolytope<dim>::centroid() const
   {

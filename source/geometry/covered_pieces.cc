@@ -177,29 +177,14 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                     \
-  template bool        covers_place(const Shape<dim> &,                      \
-                                    const Point<dim> &,                      \
-                                    const double);                           \
-  template Covers<dim> covers_of(                                            \
-    const std::vector<std::shared_ptr<const Shape<dim>>> &);                 \
-  template bool is_at_body(const Covers<dim> &,                              \
-                           const Point<dim> &,                               \
-                           const Tensor<1, dim> &,                           \
-                           const double);                                    \
-  template bool is_near_body(const Covers<dim> &,                            \
-                             const Point<dim> &,                             \
-                             const Tensor<1, dim> &,                         \
-                             const double);                                  \
-  template void add_kept_pieces(                                             \
-    const Surface<dim> &,                                                    \
-    const CellVertices<dim> &,                                               \
-    const unsigned int,                                                      \
-    const std::function<bool(const SurfacePoint<dim> &)> &,                  \
-    std::vector<SurfacePoint<dim>> &,                                        \
-    const unsigned int);                                                     \
-  template ShapePointer<dim> united(const std::vector<ShapePointer<dim>> &); \
-  template Extent<dim>       beside(const ShapePointer<dim> &, const double);
+#define INSTANTIATE(dim)                                        \
+  template decltype(covers_place<dim>)    covers_place<dim>;    \
+  template decltype(covers_of<dim>)       covers_of<dim>;       \
+  template decltype(is_at_body<dim>)      is_at_body<dim>;      \
+  template decltype(is_near_body<dim>)    is_near_body<dim>;    \
+  template decltype(add_kept_pieces<dim>) add_kept_pieces<dim>; \
+  template decltype(united<dim>)          united<dim>;          \
+  template decltype(beside<dim>)          beside<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -518,21 +518,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                     \
-  template void    add_curved_pieces(const LevelFunction<dim> &,             \
-                                     const bool,                             \
-                                     const ConvexPolytope<dim> &,            \
-                                     const double,                           \
-                                     SignedPieces<dim> &);                   \
-  template Overlap overlap_by_values(const LevelFunction<dim> &,             \
-                                     const ConvexPolytope<dim> &);           \
-  template std::vector<DiscChord<dim>> chords_in_disc<dim>(                  \
-    const ConvexPolytope<dim>::PointList &, const Point<2> &, const double); \
-  template VolumeMoments<dim> moments_in_round(const ConvexPolytope<dim> &,  \
-                                               const Point<dim> &,           \
-                                               const Tensor<1, dim> &,       \
-                                               const double,                 \
-                                               const Point<dim> &);
+#define INSTANTIATE(dim)                                            \
+  template decltype(add_curved_pieces<dim>) add_curved_pieces<dim>; \
+  template decltype(overlap_by_values<dim>) overlap_by_values<dim>; \
+  template decltype(chords_in_disc<dim>)    chords_in_disc<dim>;    \
+  template decltype(moments_in_round<dim>)  moments_in_round<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -443,11 +443,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                 \
-  template std::shared_ptr<const SmoothShape<dim>> make_ball(            \
-    const Point<dim> &, const double);                                   \
-  template std::shared_ptr<const SmoothShape<dim>> make_expression<dim>( \
-    const std::string &, const std::string &);
+#define INSTANTIATE(dim)                                  \
+  template decltype(make_ball<dim>)       make_ball<dim>; \
+  template decltype(make_expression<dim>) make_expression<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
+#include <moraine/mesh/active_search.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -22,40 +23,6 @@ namespace moraine
   namespace
   {
     namespace bgi = boost::geometry::index;
-
-
-
-    /** Distance of @p x from a segment, or from a triangle: from its plane or
-     * from its nearest edge. */
-    template <int dim>
-    double
-    distance_from(const std::array<Point<dim>, dim> &simplex,
-                  const Point<dim>                  &x)
-    {
-      const auto from_edge = [&](const unsigned int i, const unsigned int j) {
-        const Tensor<1, dim> along = simplex[j] - simplex[i],
-                             to_x  = x - simplex[i];
-        const double share =
-          std::clamp(along * to_x / along.norm_square(), 0., 1.);
-        return (to_x - share * along).norm();
-      };
-      if constexpr (dim == 2)
-        return from_edge(0, 1);
-      else
-        {
-          const Tensor<1, 3> normal =
-            cross_product_3d(simplex[1] - simplex[0], simplex[2] - simplex[0]);
-          bool above = true;
-          for (unsigned int i = 0; i < 3; ++i)
-            above = above &&
-                    normal * cross_product_3d(simplex[(i + 1) % 3] - simplex[i],
-                                              x - simplex[i]) >=
-                      0;
-          return above ? std::abs(normal * (x - simplex[0])) / normal.norm() :
-                         std::min(
-                           {from_edge(0, 1), from_edge(1, 2), from_edge(2, 0)});
-        }
-    }
 
 
 
@@ -208,12 +175,13 @@ namespace moraine
         double least = 0;
         for (const auto &face :
              tree | bgi::adaptors::queried(bgi::nearest(p, 1)))
-          least = distance_from<dim>(rim[face.second], p);
+          least = distance_to_simplex<dim>(rim[face.second], p);
         BoundingBox<dim> around(std::make_pair(p, p));
         around.extend(least);
         for (const auto &face :
              tree | bgi::adaptors::queried(bgi::intersects(around)))
-          least = std::min(least, distance_from<dim>(rim[face.second], p));
+          least =
+            std::min(least, distance_to_simplex<dim>(rim[face.second], p));
         return least;
       }
 

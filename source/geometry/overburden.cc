@@ -43,15 +43,8 @@ namespace moraine
         }
       else
         {
-          unsigned int smallest = 0;
-          for (unsigned int d = 1; d < dim; ++d)
-            if (std::abs(up[d]) < std::abs(up[smallest]))
-              smallest = d;
-          Tensor<1, dim> axis;
-          axis[smallest]   = 1;
-          Tensor<1, dim> a = cross_product_3d(up, axis);
-          a /= a.norm();
-          const Tensor<1, dim> b = cross_product_3d(up, a);
+          const PlaneFrame     across(Point<3>(), up);
+          const Tensor<1, dim> a = across.first, b = across.second;
           const double         c = std::cos(0.3), s = std::sin(0.3);
           return {c * a + s * b, c * b - s * a, -c * a - s * b, s * a - c * b};
         }

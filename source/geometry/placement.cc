@@ -191,15 +191,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                            \
-  template BoundingBox<dim> unlimited_box();                        \
-  template BoundingBox<dim> intersection(const BoundingBox<dim> &,  \
-                                         const BoundingBox<dim> &); \
-  template bool             is_inside(const BoundingBox<dim> &,     \
-                                      const Point<dim> &,           \
-                                      const double);                \
-  template bool             is_finite(const BoundingBox<dim> &);    \
-  template class Placement<dim>;                                    \
+#define INSTANTIATE(dim)                                    \
+  template decltype(unlimited_box<dim>) unlimited_box<dim>; \
+  template decltype(intersection<dim>)  intersection<dim>;  \
+  template decltype(is_inside<dim>)     is_inside<dim>;     \
+  template decltype(is_finite<dim>)     is_finite<dim>;     \
+  template class Placement<dim>;                            \
   template class RigidMotion<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -271,16 +271,6 @@ namespace moraine
 
 
   template <int dim>
-  bool
-  Extent<dim>::contains(const Point<dim> &x, const Tensor<1, dim> &normal) const
-  {
-    const double tolerance = 1e-10 * coordinate_magnitude<dim>(x);
-    return limits.empty() || value(x, normal, tolerance) >= -2. * tolerance;
-  }
-
-
-
-  template <int dim>
   std::vector<Stretch>
   Extent<dim>::stretches(
     const Stretch &piece,
@@ -493,7 +483,7 @@ namespace moraine
   template class Surface<dim>;      \
   template struct Extent<dim>;      \
   template class MovedSurface<dim>; \
-  template SurfacePointer<dim> join(const std::vector<SurfacePointer<dim>> &);
+  template decltype(join<dim>) join<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -421,20 +421,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                  \
-  template Placement<dim>    make_placement(const ShapeParameters<dim> &, \
-                                            const std::string &);         \
-  template ShapePointer<dim> make_shape(const ShapeParameters<dim> &,     \
-                                        const NamedShapes<dim> &,         \
-                                        const std::string &,              \
-                                        const ShapeOfGroups<dim> &);      \
-  template NamedShapes<dim>  make_shapes(                                 \
-     const std::map<std::string, ShapeParameters<dim>> &,                 \
-     const std::string &,                                                 \
-     const ShapeOfGroups<dim> &);                                         \
-  template SurfacePointer<dim> make_surface(const ShapeParameters<dim> &, \
-                                            const NamedShapes<dim> &,     \
-                                            const std::string &);
+#define INSTANTIATE(dim)                                      \
+  template decltype(make_placement<dim>) make_placement<dim>; \
+  template decltype(make_shape<dim>)     make_shape<dim>;     \
+  template decltype(make_shapes<dim>)    make_shapes<dim>;    \
+  template decltype(make_surface<dim>)   make_surface<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -263,13 +263,10 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                       \
-  template ShapePointer<dim> make_convex(const std::vector<HalfSpace<dim>> &,  \
-                                         const BoundingBox<dim> &,             \
-                                         const std::vector<std::string> &);    \
-  template ShapePointer<dim> make_box(const Point<dim> &, const Point<dim> &); \
-  template ShapePointer<dim> make_polygon(const std::vector<Point<2>> &,       \
-                                          const std::pair<double, double> &);
+#define INSTANTIATE(dim)                                 \
+  template decltype(make_convex<dim>)  make_convex<dim>; \
+  template decltype(make_box<dim>)     make_box<dim>;    \
+  template decltype(make_polygon<dim>) make_polygon<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

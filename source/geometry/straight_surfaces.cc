@@ -557,14 +557,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                       \
-  template SurfacePointer<dim> make_plane(                                     \
-    const HalfSpace<dim> &,                                                    \
-    const Extent<dim> &,                                                       \
-    const std::vector<HalfSpace<dim>> &);                                      \
-  template SurfacePointer<dim> make_flat_face(const std::vector<Point<dim>> &, \
-                                              const bool,                      \
-                                              const Extent<dim> &);
+#define INSTANTIATE(dim)                                  \
+  template decltype(make_plane<dim>)     make_plane<dim>; \
+  template decltype(make_flat_face<dim>) make_flat_face<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -80,7 +80,11 @@ namespace moraine
 
     /** Leave out places by their numbers, ascending. */
     void
-    remove(const std::vector<unsigned int> &numbers);
+    remove(const std::vector<unsigned int> &numbers)
+    {
+      for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
+        now.erase(now.begin() + *number);
+    }
 
     /** Trial increments of all places. Collective. */
     std::vector<Increment>
@@ -111,7 +115,10 @@ namespace moraine
     read(const Archive &archive, const std::string &group);
 
     void
-    undo();
+    undo()
+    {
+      next.clear();
+    }
 
     const std::vector<Place> &
     places() const

@@ -168,7 +168,10 @@ namespace moraine
 
     /** Area (2D) or volume (3D); at least 0. */
     double
-    volume() const;
+    volume() const
+    {
+      return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
+    }
 
     /**
      * Centre of mass; the mean of the vertices if the volume vanishes. The

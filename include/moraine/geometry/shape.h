@@ -211,7 +211,11 @@ namespace moraine
     /** Whether x is within the limits or at an end, up to round-off. */
     bool
     contains(const dealii::Point<dim>     &x,
-             const dealii::Tensor<1, dim> &normal) const;
+             const dealii::Tensor<1, dim> &normal) const
+    {
+      const double tolerance = 1e-10 * coordinate_magnitude<dim>(x);
+      return limits.empty() || value(x, normal, tolerance) >= -2. * tolerance;
+    }
 
     /**
      * The parts within the limits of a piece of a curve, of which @p curve
