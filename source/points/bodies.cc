@@ -434,18 +434,8 @@ namespace moraine
 
 
 
-  template void
-  request_columns(const std::vector<Body<2>> &, PointFields &);
-  template void
-  request_columns(const std::vector<Body<3>> &, PointFields &);
-  template std::vector<double>
-  seed_bodies(const std::vector<Body<2>> &,
-              const CellSeeder<2> &,
-              PointSet<2> &,
-              const Meet &);
-  template std::vector<double>
-  seed_bodies(const std::vector<Body<3>> &,
-              const CellSeeder<3> &,
-              PointSet<3> &,
-              const Meet &);
+  template decltype(request_columns<2>) request_columns<2>;
+  template decltype(request_columns<3>) request_columns<3>;
+  template decltype(seed_bodies<2>)     seed_bodies<2>;
+  template decltype(seed_bodies<3>)     seed_bodies<3>;
 } // namespace moraine

@@ -95,16 +95,6 @@ namespace moraine
 
 
 
-  template <int dim>
-  Tensor<1, dim>
-  BodyCover<dim>::displacement(const unsigned int p) const
-  {
-    return moved ? points->displacement_field()(points->values(p)) :
-                   Tensor<1, dim>();
-  }
-
-
-
   template class BodyCover<2>;
   template class BodyCover<3>;
 } // namespace moraine

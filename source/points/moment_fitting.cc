@@ -111,7 +111,45 @@ namespace moraine
 
       /** Whether the residual vanishes. */
       bool
-      solve();
+      solve()
+      {
+        // Each column enters about once; ten times as many steps are a failure.
+        for (unsigned int n = 0; n < 10 * b.size(); ++n)
+          {
+            if (residual.l2_norm() <= tolerance_of_moments * b.l2_norm())
+              return true;
+            unsigned int best     = 0;
+            double       steepest = 0.;
+            for (unsigned int j = 0; j < columns.size(); ++j)
+              if (weights[j] == 0. && columns[j] * residual > steepest)
+                {
+                  best     = j;
+                  steepest = columns[j] * residual;
+                }
+            if (steepest == 0. || chosen.size() == b.size())
+              return false;
+            chosen.push_back(best);
+            for (;;)
+              {
+                const Vector<double> z = unconstrained();
+                if (std::all_of(z.begin(), z.end(), [](const double w) {
+                      return w > 0.;
+                    }))
+                  {
+                    for (unsigned int j = 0; j < chosen.size(); ++j)
+                      weights[chosen[j]] = z[j];
+                    break;
+                  }
+                step_towards(z);
+                if (chosen.empty())
+                  return false;
+              }
+            residual = b;
+            for (const unsigned int j : chosen)
+              residual.add(-weights[j], columns[j]);
+          }
+        return false;
+      }
 
       const std::vector<Vector<double>> &columns;
       const Vector<double>              &b;
@@ -120,11 +158,37 @@ namespace moraine
     private:
       /** The unconstrained solution with the chosen columns. */
       Vector<double>
-      unconstrained() const;
+      unconstrained() const
+      {
+        FullMatrix<double> matrix(b.size(), chosen.size());
+        for (unsigned int j = 0; j < chosen.size(); ++j)
+          for (unsigned int i = 0; i < b.size(); ++i)
+            matrix(i, j) = columns[chosen[j]][i];
+        Vector<double> z(chosen.size());
+        Householder<double>(matrix).least_squares(z, b);
+        return z;
+      }
 
       /** Go towards @p z until a weight vanishes, and drop its column. */
       void
-      step_towards(const Vector<double> &z);
+      step_towards(const Vector<double> &z)
+      {
+        double       length = 1.;
+        unsigned int first  = 0;
+        for (unsigned int j = 0; j < chosen.size(); ++j)
+          {
+            const double x = weights[chosen[j]];
+            if (z[j] <= 0. && x / (x - z[j]) <= length)
+              {
+                length = x / (x - z[j]);
+                first  = j;
+              }
+          }
+        for (unsigned int j = 0; j < chosen.size(); ++j)
+          weights[chosen[j]] += length * (z[j] - weights[chosen[j]]);
+        weights[chosen[first]] = 0.;
+        chosen.erase(chosen.begin() + first);
+      }
 
       std::vector<unsigned int> chosen;
       Vector<double>            residual;
@@ -132,82 +196,6 @@ namespace moraine
 
 
 
-    Vector<double>
-    NonnegativeLeastSquares::unconstrained() const
-    {
-      FullMatrix<double> matrix(b.size(), chosen.size());
-      for (unsigned int j = 0; j < chosen.size(); ++j)
-        for (unsigned int i = 0; i < b.size(); ++i)
-          matrix(i, j) = columns[chosen[j]][i];
-      Vector<double> z(chosen.size());
-      Householder<double>(matrix).least_squares(z, b);
-      return z;
-    }
-
-
-
-    void
-    NonnegativeLeastSquares::step_towards(const Vector<double> &z)
-    {
-      double       length = 1.;
-      unsigned int first  = 0;
-      for (unsigned int j = 0; j < chosen.size(); ++j)
-        {
-          const double x = weights[chosen[j]];
-          if (z[j] <= 0. && x / (x - z[j]) <= length)
-            {
-              length = x / (x - z[j]);
-              first  = j;
-            }
-        }
-      for (unsigned int j = 0; j < chosen.size(); ++j)
-        weights[chosen[j]] += length * (z[j] - weights[chosen[j]]);
-      weights[chosen[first]] = 0.;
-      chosen.erase(chosen.begin() + first);
-    }
-
-
-
-    bool
-    NonnegativeLeastSquares::solve()
-    {
-      // Each column enters about once; ten times as many steps are a failure.
-      for (unsigned int n = 0; n < 10 * b.size(); ++n)
-        {
-          if (residual.l2_norm() <= tolerance_of_moments * b.l2_norm())
-            return true;
-          unsigned int best     = 0;
-          double       steepest = 0.;
-          for (unsigned int j = 0; j < columns.size(); ++j)
-            if (weights[j] == 0. && columns[j] * residual > steepest)
-              {
-                best     = j;
-                steepest = columns[j] * residual;
-              }
-          if (steepest == 0. || chosen.size() == b.size())
-            return false;
-          chosen.push_back(best);
-          for (;;)
-            {
-              const Vector<double> z = unconstrained();
-              if (std::all_of(z.begin(), z.end(), [](const double w) {
-                    return w > 0.;
-                  }))
-                {
-                  for (unsigned int j = 0; j < chosen.size(); ++j)
-                    weights[chosen[j]] = z[j];
-                  break;
-                }
-              step_towards(z);
-              if (chosen.empty())
-                return false;
-            }
-          residual = b;
-          for (const unsigned int j : chosen)
-            residual.add(-weights[j], columns[j]);
-        }
-      return false;
-    }
   } // namespace
 
 
@@ -281,14 +269,6 @@ namespace moraine
 
 
 
-  template Quadrature<2>
-  moment_fitted_rule(const std::vector<SignedPiece<2>> &,
-                     const Shape<2> &,
-                     const double,
-                     const unsigned int);
-  template Quadrature<3>
-  moment_fitted_rule(const std::vector<SignedPiece<3>> &,
-                     const Shape<3> &,
-                     const double,
-                     const unsigned int);
+  template decltype(moment_fitted_rule<2>) moment_fitted_rule<2>;
+  template decltype(moment_fitted_rule<3>) moment_fitted_rule<3>;
 } // namespace moraine

@@ -211,16 +211,8 @@ namespace moraine
 
 
 
-  template PointList<2>
-  read_point_file(const std::string &);
-  template PointList<3>
-  read_point_file(const std::string &);
-  template PointList<2>
-  make_point_grid(const ShapeParameters<2> &,
-                  const std::vector<unsigned int> &,
-                  const std::string &);
-  template PointList<3>
-  make_point_grid(const ShapeParameters<3> &,
-                  const std::vector<unsigned int> &,
-                  const std::string &);
+  template decltype(read_point_file<2>) read_point_file<2>;
+  template decltype(read_point_file<3>) read_point_file<3>;
+  template decltype(make_point_grid<2>) make_point_grid<2>;
+  template decltype(make_point_grid<3>) make_point_grid<3>;
 } // namespace moraine

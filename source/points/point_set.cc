@@ -418,16 +418,6 @@ namespace moraine
 
 
   template <int dim>
-  unsigned int
-  PointSet<dim>::bytes_per_point() const
-  {
-    return 2 * sizeof(Point<dim>) + sizeof(types::particle_index) +
-           layout.n_values() * sizeof(double);
-  }
-
-
-
-  template <int dim>
   void
   PointSet<dim>::reset_displacements()
   {

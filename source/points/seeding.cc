@@ -103,17 +103,6 @@ namespace moraine
       return Point<2>(first / area);
     }
 
-    // of a box that may be infinite
-    template <int dim>
-    double
-    box_volume(const BoundingBox<dim> &box)
-    {
-      double volume = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        volume *= box.side_length(d);
-      return is_finite(box) ? volume : std::numeric_limits<double>::infinity();
-    }
-
     /** int (x - c) (x - c)^T dV, the sum over tetrahedra with one tip. */
     SymmetricTensor<2, 3>
     second_moments(const ConvexPolytope<3> &polytope, const Point<3> &c)
@@ -303,16 +292,6 @@ namespace moraine
 
 
   template <int dim>
-  CellVertices<dim>
-  CellSeeder<dim>::sub_cell_around(const CellVertices<dim> &cell,
-                                   const Point<dim>        &xi) const
-  {
-    return sub_cell(cell, sub_cell_index(xi));
-  }
-
-
-
-  template <int dim>
   Tensor<1, dim>
   CellSeeder<dim>::distance_to_faces(const Point<dim> &xi) const
   {
@@ -409,7 +388,7 @@ namespace moraine
       }
     if (fitted_degree > 0 && seed_fitted(cell, shape, points))
       return;
-    const double       body_volume = box_volume(shape.bounding_box());
+    const double       body_volume = shape.bounding_box().volume();
     const unsigned int n_before    = points.size();
     const bool is_skewed = !is_parallelepiped<dim>(cell, round_off<dim>(cell));
     bool       is_cut    = false;

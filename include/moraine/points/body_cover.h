@@ -50,7 +50,11 @@ namespace moraine
            const double              margin) const;
 
     dealii::Tensor<1, dim>
-    displacement(const unsigned int p) const;
+    displacement(const unsigned int p) const
+    {
+      return moved ? points->displacement_field()(points->values(p)) :
+                     dealii::Tensor<1, dim>();
+    }
 
     const PointSet<dim>       *points;
     const ShapesOfBodies<dim> *shapes;

@@ -30,9 +30,46 @@ namespace moraine
     tensor
   };
 
-  /** How a value of type T is stored at a point. */
+  template <class T>
+  inline constexpr FieldKind kind_of_field = FieldKind::number;
+
+  template <int dim>
+  inline constexpr FieldKind kind_of_field<dealii::Tensor<1, dim>> =
+    FieldKind::vector;
+
+  template <>
+  inline constexpr FieldKind kind_of_field<dealii::SymmetricTensor<2, 3>> =
+    FieldKind::symmetric_tensor;
+
+  template <int dim>
+  inline constexpr FieldKind kind_of_field<dealii::Tensor<2, dim>> =
+    FieldKind::tensor;
+
+  /** How a value of type T is stored at a point: its components in deal.II's
+   * order, row by row or xx, yy, zz, xy[, xz, yz]; of a symmetric tensor in
+   * plane strain the others are 0. */
   template <int dim, class T>
-  struct FieldStorage;
+  struct FieldStorage
+  {
+    static constexpr FieldKind    kind = kind_of_field<T>;
+    static constexpr unsigned int n_components =
+      kind == FieldKind::symmetric_tensor ? n_stress_components<dim> :
+                                            T::n_independent_components;
+
+    static T
+    load(const double *components)
+    {
+      T value;
+      std::copy_n(components, n_components, value.begin_raw());
+      return value;
+    }
+
+    static void
+    store(const T &value, double *components)
+    {
+      std::copy_n(value.begin_raw(), n_components, components);
+    }
+  };
 
   template <int dim>
   struct FieldStorage<dim, double>
@@ -50,73 +87,6 @@ namespace moraine
     store(const double value, double *components)
     {
       *components = value;
-    }
-  };
-
-  template <int dim>
-  struct FieldStorage<dim, dealii::Tensor<1, dim>>
-  {
-    static constexpr FieldKind    kind         = FieldKind::vector;
-    static constexpr unsigned int n_components = dim;
-
-    static dealii::Tensor<1, dim>
-    load(const double *components)
-    {
-      dealii::Tensor<1, dim> value;
-      std::copy_n(components, dim, value.begin_raw());
-      return value;
-    }
-
-    static void
-    store(const dealii::Tensor<1, dim> &value, double *components)
-    {
-      std::copy_n(value.begin_raw(), dim, components);
-    }
-  };
-
-  /** xx, yy, zz, xy[, xz, yz]; in plane strain the others are 0. */
-  template <int dim>
-  struct FieldStorage<dim, dealii::SymmetricTensor<2, 3>>
-  {
-    static constexpr FieldKind    kind         = FieldKind::symmetric_tensor;
-    static constexpr unsigned int n_components = n_stress_components<dim>;
-
-    static dealii::SymmetricTensor<2, 3>
-    load(const double *components)
-    {
-      dealii::SymmetricTensor<2, 3> value;
-      for (unsigned int c = 0; c < n_components; ++c)
-        value.access_raw_entry(c) = components[c];
-      return value;
-    }
-
-    static void
-    store(const dealii::SymmetricTensor<2, 3> &value, double *components)
-    {
-      for (unsigned int c = 0; c < n_components; ++c)
-        components[c] = value.access_raw_entry(c);
-    }
-  };
-
-  /** Row by row. */
-  template <int dim>
-  struct FieldStorage<dim, dealii::Tensor<2, dim>>
-  {
-    static constexpr FieldKind    kind         = FieldKind::tensor;
-    static constexpr unsigned int n_components = dim * dim;
-
-    static dealii::Tensor<2, dim>
-    load(const double *components)
-    {
-      dealii::Tensor<2, dim> value;
-      std::copy_n(components, dim * dim, value.begin_raw());
-      return value;
-    }
-
-    static void
-    store(const dealii::Tensor<2, dim> &value, double *components)
-    {
-      std::copy_n(value.begin_raw(), dim * dim, components);
     }
   };
 

@@ -307,7 +307,12 @@ namespace moraine
 
     /** Bytes of one point: location, reference location, id and values. */
     unsigned int
-    bytes_per_point() const;
+    bytes_per_point() const
+    {
+      return 2 * sizeof(dealii::Point<dim>) +
+             sizeof(dealii::types::particle_index) +
+             layout.n_values() * sizeof(double);
+    }
 
   private:
     struct LostPoint

@@ -96,7 +96,10 @@ namespace moraine
     /** The sub-cell of @p cell that holds its reference position @p xi. */
     CellVertices<dim>
     sub_cell_around(const CellVertices<dim>  &cell,
-                    const dealii::Point<dim> &xi) const;
+                    const dealii::Point<dim> &xi) const
+    {
+      return sub_cell(cell, sub_cell_index(xi));
+    }
 
     /** The distances from @p xi in a unit cell to the nearer faces of the
      * sub-cell that holds it. */
