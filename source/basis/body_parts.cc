@@ -5,10 +5,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <numeric>
 
 namespace moraine
 {
@@ -21,33 +22,7 @@ namespace moraine
 
 
 
-    /** Sets of the numbers below n that were joined. */
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t n)
-        : parent(n)
-      {
-        std::iota(parent.begin(), parent.end(), std::size_t(0));
-      }
-
-      std::size_t
-      find(std::size_t i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void
-      join(const std::size_t i, const std::size_t j)
-      {
-        parent[find(i)] = find(j);
-      }
-
-    private:
-      std::vector<std::size_t> parent;
-    };
+    using DisjointSets = boost::disjoint_sets_with_storage<>;
 
 
 
@@ -109,8 +84,8 @@ namespace moraine
               for (unsigned int a = 0; a < block.n_nodes; ++a)
                 if (gradient[a].norm_square() > limit)
                   {
-                    sets.join(of_body + block.nodes[a],
-                              of_body + block.nodes[first]);
+                    sets.union_set(of_body + block.nodes[a],
+                                   of_body + block.nodes[first]);
                     touched[of_body + block.nodes[a]] = 1;
                   }
               home.emplace_back(of_body + block.nodes[first], p);
@@ -118,7 +93,7 @@ namespace moraine
         }
       for (const auto &[node, p] : home)
         {
-          std::array<double, 4> &moments = moments_at[sets.find(node)];
+          std::array<double, 4> &moments = moments_at[sets.find_set(node)];
           moments[0] += points.volume(p);
           for (unsigned int d = 0; d < dim; ++d)
             moments[d + 1] += points.volume(p) * points.position(p)[d];
@@ -133,9 +108,10 @@ namespace moraine
       if (n_ranks > 1)
         for (std::size_t i = 0; i < touched.size(); ++i)
           if (touched[i])
-            parts.joints.push_back({{i / n_nodes,
-                                     space.node_dof(i % n_nodes),
-                                     space.node_dof(sets.find(i) % n_nodes)}});
+            parts.joints.push_back(
+              {{i / n_nodes,
+                space.node_dof(i % n_nodes),
+                space.node_dof(sets.find_set(i) % n_nodes)}});
       return parts;
     }
   } // namespace
@@ -155,14 +131,15 @@ namespace moraine
     for (const auto &of_rank :
          Utilities::MPI::all_gather(space.communicator(), local.joints))
       for (const auto &[body, a, b] : of_rank)
-        sets.join(body * n_dofs + a, body * n_dofs + b);
+        sets.union_set(body * n_dofs + a, body * n_dofs + b);
 
     std::map<std::size_t, std::array<double, 4>> moments_at;
     for (const auto &of_rank :
          Utilities::MPI::all_gather(space.communicator(), local.sums))
       for (const Sum &sum : of_rank)
         {
-          auto &moments = moments_at[sets.find(sum.body * n_dofs + sum.node)];
+          auto &moments =
+            moments_at[sets.find_set(sum.body * n_dofs + sum.node)];
           for (unsigned int k = 0; k < moments.size(); ++k)
             moments[k] += sum.moments[k];
         }
@@ -187,12 +164,8 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                            \
-  template std::vector<std::vector<BodyPart<dim>>> parts_of_bodies( \
-    const GridSpace<dim> &,                                         \
-    const PointSet<dim> &,                                          \
-    const Basis<dim> &,                                             \
-    const unsigned int);
+#define INSTANTIATE(dim) \
+  template decltype(parts_of_bodies<dim>) parts_of_bodies<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

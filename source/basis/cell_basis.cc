@@ -17,16 +17,6 @@ namespace moraine
 
   template <int dim>
   void
-  Basis<dim>::mark_cells(std::vector<unsigned char> &active)
-  {
-    for (const auto &in_cell : points.cells())
-      active[in_cell.cell->active_cell_index()] = 1;
-  }
-
-
-
-  template <int dim>
-  void
   Basis<dim>::evaluate_parts(const unsigned int       batch,
                              const StencilBlock<dim> &block,
                              CellParts<dim>          &parts) const
@@ -47,22 +37,12 @@ namespace moraine
   CellBasis<dim, degree>::batch_points()
   {
     constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
-    this->batches.clear();
-    this->batch_node_list.clear();
-    this->order.resize(this->points.n_local());
-    std::iota(this->order.begin(), this->order.end(), 0u);
-    for (const auto &in_cell : this->points.cells())
-      {
-        this->batches.push_back(
-          {in_cell.first,
-           in_cell.last - in_cell.first,
-           static_cast<unsigned int>(this->batch_node_list.size()),
-           n});
-        const unsigned int *nodes = this->space.cell_nodes(in_cell.cell);
-        this->batch_node_list.insert(this->batch_node_list.end(),
-                                     nodes,
-                                     nodes + n);
-      }
+    this->batch_points_by_cell([this](const auto &cell) {
+      const unsigned int *nodes = this->space.cell_nodes(cell);
+      this->batch_node_list.insert(this->batch_node_list.end(),
+                                   nodes,
+                                   nodes + n);
+    });
     // The nodes of active cells couple anyway.
     return false;
   }
@@ -75,16 +55,11 @@ namespace moraine
                                    StencilBlock<dim> &block) const
   {
     constexpr unsigned int n = CellShapes<dim, degree>::n_nodes;
-    const auto            &g = this->batches[batch];
-    block.reinit(g.n_points,
-                 &this->order[g.first_point],
-                 n,
-                 &this->batch_node_list[g.first_node]);
-
+    this->reinit(batch, block);
     Point<dim> X[n];
     for (unsigned int a = 0; a < n; ++a)
       X[a] = this->space.node_position(block.nodes[a]);
-    for (unsigned int p = 0; p < g.n_points; ++p)
+    for (unsigned int p = 0; p < block.n_points; ++p)
       CellShapes<dim, degree>::evaluate(this->points.reference_position(
                                           block.points[p]),
                                         X,

@@ -389,10 +389,8 @@ namespace moraine
 
 
 
-  template std::array<unsigned int, 2>
-  place_in<2>(const BoxGrid<2> &, const Point<2> &);
-  template std::array<unsigned int, 3>
-  place_in<3>(const BoxGrid<3> &, const Point<3> &);
+  template decltype(place_in<2>) place_in<2>;
+  template decltype(place_in<3>) place_in<3>;
   template class CellNeighbours<2>;
   template class CellNeighbours<3>;
   template class CellPatch<2>;

@@ -12,15 +12,6 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  CompositeBasis<dim>::CompositeBasis(const GridSpace<dim> &space,
-                                      const PointSet<dim>  &points)
-    : Basis<dim>(space, points)
-    , neighbours(space.mesh())
-  {}
-
-
-
-  template <int dim>
   typename CompositeBasis<dim>::Patch
   CompositeBasis<dim>::patch_of(const std::array<unsigned int, dim> &cell) const
   {
@@ -77,27 +68,14 @@ namespace moraine
                   MPI_UNSIGNED_CHAR,
                   MPI_MAX,
                   this->space.communicator());
-    this->batches.clear();
-    this->batch_node_list.clear();
     patches.clear();
-    this->order.resize(this->points.n_local());
-    std::iota(this->order.begin(), this->order.end(), 0u);
-    for (const auto &in_cell : this->points.cells())
-      {
-        patches.push_back(
-          patch_of(place_in(*mesh.box_grid(), in_cell.cell->center())));
-        const unsigned int first_node = this->batch_node_list.size();
-        append_nodes(patches.back().window,
-                     neighbours,
-                     this->space,
-                     this->batch_node_list);
-        this->batches.push_back(
-          {in_cell.first,
-           in_cell.last - in_cell.first,
-           first_node,
-           static_cast<unsigned int>(this->batch_node_list.size()) -
-             first_node});
-      }
+    this->batch_points_by_cell([&](const auto &cell) {
+      patches.push_back(patch_of(place_in(*mesh.box_grid(), cell->center())));
+      append_nodes(patches.back().window,
+                   neighbours,
+                   this->space,
+                   this->batch_node_list);
+    });
     // They recover strains and couple no unknowns.
     return false;
   }
@@ -110,17 +88,10 @@ namespace moraine
                                 StencilBlock<dim> &block) const
   {
     const BoxGrid<dim> &grid  = *this->space.mesh().box_grid();
-    const auto         &g     = this->batches[batch];
     const Patch        &patch = patches[batch];
-    block.reinit(g.n_points,
-                 &this->order[g.first_point],
-                 g.n_nodes,
-                 &this->batch_node_list[g.first_node]);
-    constexpr unsigned int max_nodes = 4;
-    double                 N[3][max_nodes], dN[3][max_nodes];
-    N[2][0] = 1;
-    std::array<unsigned int, 3> n{{1, 1, 1}};
-    for (unsigned int p = 0; p < g.n_points; ++p)
+    this->reinit(batch, block);
+    LineFunctions along;
+    for (unsigned int p = 0; p < block.n_points; ++p)
       {
         const Point<dim> &x = this->points.position(block.points[p]);
         for (unsigned int d = 0; d < dim; ++d)
@@ -128,26 +99,18 @@ namespace moraine
             const double h = grid.cell_size[d];
             const double xi =
               2 * ((x[d] - grid.lower_corner[d]) / h - patch.cell[d]) - 1;
-            n[d] = composite_functions(
-              xi,
-              patch.window.first[d]<patch.cell[d], patch.window.last[d]> patch
-                .cell[d],
-              N[d],
-              dN[d]);
-            for (unsigned int a = 0; a < n[d]; ++a)
-              dN[d][a] *= 2 / h;
+            const bool below =
+              patch.window
+                .first[d]<patch.cell[d], above = patch.window.last[d]>
+                  patch.cell[d];
+            along.n[d] = composite_functions(
+              xi, below, above, along.values[d], along.slopes[d]);
+            for (unsigned int a = 0; a < along.n[d]; ++a)
+              along.slopes[d][a] *= 2 / h;
           }
-        unsigned int a = p * g.n_nodes;
-        for (unsigned int k = 0; k < n[2]; ++k)
-          for (unsigned int j = 0; j < n[1]; ++j)
-            for (unsigned int i = 0; i < n[0]; ++i, ++a)
-              {
-                block.values[a]       = N[0][i] * N[1][j] * N[2][k];
-                block.gradients[a][0] = dN[0][i] * N[1][j] * N[2][k];
-                block.gradients[a][1] = N[0][i] * dN[1][j] * N[2][k];
-                if constexpr (dim == 3)
-                  block.gradients[a][2] = N[0][i] * N[1][j] * dN[2][k];
-              }
+        multiply(along,
+                 &block.values[p * block.n_nodes],
+                 &block.gradients[p * block.n_nodes]);
       }
   }
 

@@ -9,35 +9,6 @@ namespace moraine
 
   template <int dim>
   void
-  Cpdi1Basis<dim>::request_fields(PointFields &fields)
-  {
-    DomainTools::request_vectors<dim, dim>(fields, "half_edge");
-  }
-
-
-
-  template <int dim>
-  Cpdi1Basis<dim>::Cpdi1Basis(const GridSpace<dim>         &space,
-                              const PointSet<dim>          &points,
-                              const CellSeeder<dim>        &seeder,
-                              const std::vector<Body<dim>> &bodies,
-                              const bool                    split,
-                              const bool                    gradients_of_mesh)
-    : CpdiBasis<dim>(space,
-                     points,
-                     seeder,
-                     bodies,
-                     split,
-                     gradients_of_mesh,
-                     "CPDI1")
-    , offsets(
-        DomainTools::offsets_of_vectors<dim, dim>(points.fields(), "half_edge"))
-  {}
-
-
-
-  template <int dim>
-  void
   Cpdi1Basis<dim>::initialise_points(PointSet<dim> &points) const
   {
     const auto domains = this->initial_domains(points);
@@ -70,15 +41,6 @@ namespace moraine
       for (unsigned int i = 0; i < dim; ++i)
         R[i][d] = this->points.values(p)[offsets[d] + i];
     return R;
-  }
-
-
-
-  template <int dim>
-  CellVertices<dim>
-  Cpdi1Basis<dim>::domain_corners(const unsigned int p) const
-  {
-    return DomainTools::parallelepiped(this->points.position(p), half_edges(p));
   }
 
 

@@ -3,51 +3,11 @@
 
 #include <moraine/basis/cpdi2_basis.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 namespace moraine
 {
   using namespace dealii;
-
-  template <int dim>
-  void
-  Cpdi2Basis<dim>::request_fields(PointFields &fields)
-  {
-    DomainTools::request_vectors<dim, n_corners>(fields, "corner");
-  }
-
-
-
-  template <int dim>
-  Cpdi2Basis<dim>::Cpdi2Basis(const GridSpace<dim>         &space,
-                              const PointSet<dim>          &points,
-                              const CellSeeder<dim>        &seeder,
-                              const std::vector<Body<dim>> &bodies,
-                              const bool                    split,
-                              const bool                    gradients_of_mesh)
-    : CpdiBasis<dim>(space,
-                     points,
-                     seeder,
-                     bodies,
-                     split,
-                     gradients_of_mesh,
-                     "CPDI2")
-    , finite_strain(DomainTools::finite_strain(points))
-    , offsets(DomainTools::offsets_of_vectors<dim, n_corners>(points.fields(),
-                                                              "corner"))
-  {}
-
-
-
-  template <int dim>
-  void
-  Cpdi2Basis<dim>::store_corners(PointSet<dim>           &points,
-                                 const unsigned int       p,
-                                 const CellVertices<dim> &corners) const
-  {
-    for (unsigned int c = 0; c < n_corners; ++c)
-      std::copy_n(corners[c].begin_raw(), dim, points.values(p) + offsets[c]);
-  }
-
-
 
   template <int dim>
   void
@@ -77,17 +37,6 @@ namespace moraine
                   dim,
                   corners[c].begin_raw());
     return corners;
-  }
-
-
-
-  template <int dim>
-  void
-  Cpdi2Basis<dim>::weights(const unsigned int p,
-                           double            *w,
-                           Tensor<1, dim>    *g) const
-  {
-    DomainTools::average_weights<dim>(domain_corners(p), w, g);
   }
 
 
@@ -137,10 +86,9 @@ namespace moraine
     for (unsigned int p = 0; p < points.n_local(); ++p)
       if (finite_strain)
         {
-          const auto     corners = moved_corners(p, nodal_increments);
-          Tensor<2, dim> dF      = gradients[p];
-          for (unsigned int d = 0; d < dim; ++d)
-            dF[d][d] += 1;
+          const auto           corners = moved_corners(p, nodal_increments);
+          const Tensor<2, dim> dF =
+            Physics::Elasticity::Kinematics::F(gradients[p]);
           // It has followed the gradient until here.
           points.set_volume(p,
                             points.volume(p) *
@@ -171,23 +119,11 @@ namespace moraine
                          const unsigned int upper,
                          const unsigned int d) const
   {
-    struct Region
-    {
-      double     volume;
-      Point<dim> centroid;
-    };
-    const auto region = [](const CellVertices<dim> &corners) {
-      double         w[n_corners];
-      Tensor<1, dim> g[n_corners];
-      Region found{DomainTools::average_weights<dim>(corners, w, g), {}};
-      for (unsigned int c = 0; c < n_corners; ++c)
-        found.centroid += w[c] * corners[c];
-      return found;
-    };
     const auto whole  = domain_corners(lower);
     const auto parts  = DomainTools::halves_of<dim>(whole, d);
-    const auto before = region(whole), below = region(parts[0]),
-               above = region(parts[1]);
+    const auto before = DomainTools::region_of<dim>(whole),
+               below  = DomainTools::region_of<dim>(parts[0]),
+               above  = DomainTools::region_of<dim>(parts[1]);
     store_corners(points, lower, parts[0]);
     store_corners(points, upper, parts[1]);
     DomainTools::Halves<dim> halves;

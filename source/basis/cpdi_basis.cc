@@ -155,11 +155,7 @@ namespace moraine
               this->batch_node_list.push_back(nodes[a]);
           }
       }
-    this->batches.push_back(
-      {0,
-       0,
-       first_node,
-       static_cast<unsigned int>(this->batch_node_list.size()) - first_node});
+    Basis<dim>::append_batch(first_node);
   }
 
 
@@ -171,9 +167,7 @@ namespace moraine
     AssertDimension(corner_cells.size(), this->points.n_local() * n_corners);
     const std::vector<unsigned int> previous_nodes =
       std::move(this->batch_node_list);
-    this->batches.clear();
-    this->batch_node_list.clear();
-    this->order.clear();
+    this->clear_batches();
     first_place.clear();
     cells_of_batches.clear();
     cell_of_batch.clear();
@@ -222,12 +216,8 @@ namespace moraine
   CpdiBasis<dim>::evaluate(const unsigned int batch,
                            StencilBlock<dim> &block) const
   {
-    const auto          &g      = this->batches[batch];
+    const auto          &g      = this->reinit(batch, block);
     const unsigned char *places = &places_of_nodes[first_place[batch]];
-    block.reinit(g.n_points,
-                 &this->order[g.first_point],
-                 g.n_nodes,
-                 &this->batch_node_list[g.first_node]);
     std::fill_n(block.values.begin(), g.n_points * g.n_nodes, 0.);
     std::fill_n(block.gradients.begin(),
                 g.n_points * g.n_nodes,
@@ -290,22 +280,6 @@ namespace moraine
     /** Of the way from a point to a corner of its domain: what has to be in the
      * mesh, for a half mostly outside of it would soon leave it. */
     constexpr double inner_part = 0.9;
-
-
-
-    /** The centroid of a domain. */
-    template <int dim>
-    Point<dim>
-    middle_of(const CellVertices<dim> &corners)
-    {
-      double         w[1 << dim];
-      Tensor<1, dim> g[1 << dim];
-      DomainTools::average_weights<dim>(corners, w, g);
-      Point<dim> middle;
-      for (unsigned int c = 0; c < corners.size(); ++c)
-        middle += w[c] * corners[c];
-      return middle;
-    }
 
 
 
@@ -410,9 +384,9 @@ namespace moraine
       if (is_outside(x + inner_part * (corner - x)))
         return false;
     // At a hole in the mesh the middle may be outside though no corner is.
-    const Point<dim> whole = middle_of<dim>(corners);
+    const Point<dim> whole = DomainTools::region_of<dim>(corners).centroid;
     for (const auto &half : DomainTools::halves_of<dim>(corners, d))
-      if (is_outside(x + (middle_of<dim>(half) - whole)))
+      if (is_outside(x + (DomainTools::region_of<dim>(half).centroid - whole)))
         return false;
     return true;
   }

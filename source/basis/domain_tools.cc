@@ -188,27 +188,25 @@ namespace moraine
     {
       std::vector<InitialDomain<dim>> domains;
       domains.reserve(points.n_local());
-      double         w[1 << dim];
-      Tensor<1, dim> g[1 << dim];
       for (const auto &in_cell : points.cells())
         {
           const auto vertices = vertices_of<dim>(in_cell.cell);
           double     filled   = 0;
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             filled += points.volume(p);
-          const double volume = average_weights<dim>(vertices, w, g);
+          const double whole_cell = volume<dim>(vertices);
           // The Gauss points of a full skewed cell have not the volumes of
           // their sub-cells; only their sum is right.
           const bool is_full =
             in_cell.last - in_cell.first == seeder.n_sub_cells() &&
-            std::abs(filled - volume) < 1e-12 * volume;
+            std::abs(filled - whole_cell) < 1e-12 * whole_cell;
           for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
             if (is_seeded[points.body(p)])
               {
                 const auto sub_cell =
                   seeder.sub_cell_around(vertices,
                                          points.reference_position(p));
-                const double whole = average_weights<dim>(sub_cell, w, g);
+                const double whole = volume<dim>(sub_cell);
                 if (is_full ||
                     std::abs(points.volume(p) - whole) < 1e-12 * whole)
                   domains.push_back({sub_cell, false});
@@ -362,25 +360,13 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                         \
-  template std::string       name_of(const PointSet<dim> &, const unsigned int); \
-  template double            average_weights<dim>(const CellVertices<dim> &,     \
-                                       double *,                      \
-                                       Tensor<1, dim> *);             \
-  template CellVertices<dim> parallelepiped(const Point<dim> &,                  \
-                                            const Tensor<2, dim> &);             \
-  template std::vector<InitialDomain<dim>> initial_domains(                      \
-    const PointSet<dim> &,                                                       \
-    const CellSeeder<dim> &,                                                     \
-    const std::vector<bool> &,                                                   \
-    const std::vector<Tensor<2, dim>> &);                                        \
-  template std::array<CellVertices<dim>, 2> halves_of<dim>(                      \
-    const CellVertices<dim> &, const unsigned int);                              \
-  template bool split_points(                                                    \
-    PointSet<dim> &,                                                             \
-    const std::function<unsigned int(const unsigned int)> &,                     \
-    const std::function<Halves<dim>(                                             \
-      const unsigned int, const unsigned int, const unsigned int)> &);
+#define INSTANTIATE(dim)                                        \
+  template decltype(name_of<dim>)         name_of<dim>;         \
+  template decltype(average_weights<dim>) average_weights<dim>; \
+  template decltype(parallelepiped<dim>)  parallelepiped<dim>;  \
+  template decltype(initial_domains<dim>) initial_domains<dim>; \
+  template decltype(halves_of<dim>)       halves_of<dim>;       \
+  template decltype(split_points<dim>)    split_points<dim>;
     INSTANTIATE(2)
     INSTANTIATE(3)
 #undef INSTANTIATE

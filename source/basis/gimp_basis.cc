@@ -84,11 +84,7 @@ namespace moraine
   {
     const unsigned int first_node = this->batch_node_list.size();
     append_nodes(window, neighbours, this->space, this->batch_node_list);
-    this->batches.push_back(
-      {0,
-       0,
-       first_node,
-       static_cast<unsigned int>(this->batch_node_list.size()) - first_node});
+    Basis<dim>::append_batch(first_node);
   }
 
 
@@ -99,9 +95,7 @@ namespace moraine
   {
     const std::vector<unsigned int> previous_nodes =
       std::move(this->batch_node_list);
-    this->batches.clear();
-    this->batch_node_list.clear();
-    this->order.clear();
+    this->clear_batches();
     windows.clear();
 
     std::vector<std::pair<Window, unsigned int>> in_cell;
@@ -123,102 +117,49 @@ namespace moraine
 
 
 
-  namespace
-  {
-    /**
-     * Averages of the 1D hat functions of consecutive cells over
-     * [x - l, x + l], and the averages of their derivatives. A box that
-     * reaches over the last cell is cut there.
-     *
-     * @param first_node coordinate of the first node, @param n_cells number of
-     * cells of size @p h behind it.
-     */
-    void
-    average_hats(const double       x,
-                 const double       l,
-                 const double       first_node,
-                 const double       h,
-                 const unsigned int n_cells,
-                 double            *S,
-                 double            *dS)
-    {
-      const double per_h  = 1 / h;
-      const double xi     = (x - first_node) * per_h;
-      const double half   = l * per_h;
-      const double lower  = std::max(xi - half, 0.);
-      const double upper  = std::min<double>(xi + half, n_cells);
-      const double length = upper - lower;
-      std::fill(S, S + n_cells + 1, 0.);
-      std::fill(dS, dS + n_cells + 1, 0.);
-      if (length < thin_box)
-        {
-          const unsigned int c = std::clamp(std::floor(xi), 0., n_cells - 1.);
-          S[c]                 = 1 - (xi - c);
-          S[c + 1]             = xi - c;
-          dS[c]                = -per_h;
-          dS[c + 1]            = per_h;
-          return;
-        }
-      const double per_length = 1 / length;
-      for (unsigned int c = 0; c < n_cells; ++c)
-        {
-          const auto   local = local_hats(lower - c, upper - c, per_length);
-          const double slope = (local[0] + local[1]) * per_h;
-          S[c] += local[0];
-          S[c + 1] += local[1];
-          dS[c] -= slope;
-          dS[c + 1] += slope;
-        }
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   GimpBasis<dim>::evaluate(const unsigned int batch,
                            StencilBlock<dim> &block) const
   {
     const BoxGrid<dim> &grid   = this->grid();
-    const auto         &g      = this->batches[batch];
     const Window       &window = windows[batch];
-    block.reinit(g.n_points,
-                 &this->order[g.first_point],
-                 g.n_nodes,
-                 &this->batch_node_list[g.first_node]);
-
-    // l <= h, so a box overlaps at most three cells.
-    constexpr unsigned int max_nodes = 4;
-    double                 S[3][max_nodes], dS[3][max_nodes];
-    S[2][0] = 1;
-    std::array<unsigned int, 3> n{{1, 1, 1}};
+    this->reinit(batch, block);
+    std::array<double, dim> lower, per_h;
+    LineFunctions           along; // l <= h: a box overlaps three cells at most
     for (unsigned int d = 0; d < dim; ++d)
-      n[d] = window.last[d] - window.first[d] + 2;
-    for (unsigned int p = 0; p < g.n_points; ++p)
+      {
+        lower[d]   = grid.lower_corner[d] + window.first[d] * grid.cell_size[d];
+        per_h[d]   = 1 / grid.cell_size[d];
+        along.n[d] = window.last[d] - window.first[d] + 2;
+      }
+    for (unsigned int p = 0; p < block.n_points; ++p)
       {
         const Point<dim> &x = this->points.position(block.points[p]);
         const double     *l =
           this->points.values(block.points[p]) + half_length_offset;
         for (unsigned int d = 0; d < dim; ++d)
-          average_hats(x[d],
-                       l[d],
-                       grid.lower_corner[d] +
-                         window.first[d] * grid.cell_size[d],
-                       grid.cell_size[d],
-                       n[d] - 1,
-                       S[d],
-                       dS[d]);
-        unsigned int a = p * g.n_nodes;
-        for (unsigned int k = 0; k < n[2]; ++k)
-          for (unsigned int j = 0; j < n[1]; ++j)
-            for (unsigned int i = 0; i < n[0]; ++i, ++a)
+          {
+            const unsigned int n_cells = along.n[d] - 1;
+            const LineOfBox    line((x[d] - lower[d]) * per_h[d],
+                                 l[d] * per_h[d],
+                                 n_cells);
+            double            *S = along.values[d], *dS = along.slopes[d];
+            std::fill(S, S + n_cells + 1, 0.);
+            std::fill(dS, dS + n_cells + 1, 0.);
+            for (unsigned int c = 0; c < n_cells; ++c)
               {
-                block.values[a]       = S[0][i] * S[1][j] * S[2][k];
-                block.gradients[a][0] = dS[0][i] * S[1][j] * S[2][k];
-                block.gradients[a][1] = S[0][i] * dS[1][j] * S[2][k];
-                if constexpr (dim == 3)
-                  block.gradients[a][2] = S[0][i] * S[1][j] * dS[2][k];
+                const auto   local = line.hats(c);
+                const double slope = (local[0] + local[1]) * per_h[d];
+                S[c] += local[0];
+                S[c + 1] += local[1];
+                dS[c] -= slope;
+                dS[c + 1] += slope;
               }
+          }
+        multiply(along,
+                 &block.values[p * block.n_nodes],
+                 &block.gradients[p * block.n_nodes]);
       }
   }
 

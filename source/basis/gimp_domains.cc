@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -293,11 +295,9 @@ namespace moraine
         for (unsigned int p = 0; p < points.n_local(); ++p)
           {
             const Tensor<1, dim> l = tracked_half_length(p, nodal_increments);
-            double        *half_length = points.values(p) + half_length_offset;
-            Tensor<2, dim> increment   = gradients[p];
-            for (unsigned int d = 0; d < dim; ++d)
-              increment[d][d] += 1;
-            double ratio = determinant(increment);
+            double *half_length    = points.values(p) + half_length_offset;
+            double  ratio =
+              determinant(Physics::Elasticity::Kinematics::F(gradients[p]));
             for (unsigned int d = 0; d < dim; ++d)
               ratio *= half_length[d] / l[d];
             for (unsigned int d = 0; d < dim; ++d)

@@ -68,6 +68,29 @@ namespace moraine
 
   template <int dim>
   void
+  multiply(const LineFunctions &f, double *values, Tensor<1, dim> *gradients)
+  {
+    const auto &[n, S, dS] = f;
+    unsigned int a         = 0;
+    for (unsigned int k = 0; k < n[2]; ++k)
+      {
+        const double along_z = dim == 3 ? S[2][k] : 1.;
+        for (unsigned int j = 0; j < n[1]; ++j)
+          for (unsigned int i = 0; i < n[0]; ++i, ++a)
+            {
+              values[a]       = S[0][i] * S[1][j] * along_z;
+              gradients[a][0] = dS[0][i] * S[1][j] * along_z;
+              gradients[a][1] = S[0][i] * dS[1][j] * along_z;
+              if constexpr (dim == 3)
+                gradients[a][2] = S[0][i] * S[1][j] * dS[2][k];
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  void
   require_box_mesh(const GridSpace<dim> &space, const std::string &method)
   {
     if (!space.mesh().box_grid() || space.degree() != 1)
@@ -115,52 +138,29 @@ namespace moraine
     const BoxGrid<dim>                    &of = grid();
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double h  = of.cell_size[d];
-        const double xi = (x[d] - of.lower_corner[d]) / h;
-        if (!half_length.exists())
-          {
-            const double right = std::clamp(xi - cell[d], 0., 1.);
-            S[d]               = {{1 - right, right}};
-            continue;
-          }
-        const double half  = points.values(point)[half_length.offset() + d] / h;
-        const double lower = std::max(xi - half, 0.);
-        const double upper = std::min<double>(xi + half, of.n_cells[d]);
-        const double length = upper - lower;
-        if (length < thin_box)
-          {
-            const double around =
-              std::clamp(std::floor(xi), 0., of.n_cells[d] - 1.);
-            const double right = xi - around;
-            S[d][0]            = cell[d] == around ? 1 - right : 0.;
-            S[d][1]            = cell[d] == around ? right : 0.;
-          }
+        const double h     = of.cell_size[d];
+        const double xi    = (x[d] - of.lower_corner[d]) / h;
+        const double right = std::clamp(xi - cell[d], 0., 1.);
+        if (half_length.exists())
+          S[d] = LineOfBox(xi,
+                           points.values(point)[half_length.offset() + d] / h,
+                           of.n_cells[d])
+                   .hats(cell[d]);
         else
-          S[d] = local_hats(lower - cell[d], upper - cell[d], 1 / length);
+          S[d] = {{1 - right, right}};
       }
     return S;
   }
 
 
 
-  template class LocalFunctions<2>;
-  template class LocalFunctions<3>;
-  template CellWindow<2>
-  cells_of_box(const BoxGrid<2> &, const Point<2> &, const double *);
-  template CellWindow<3>
-  cells_of_box(const BoxGrid<3> &, const Point<3> &, const double *);
-  template void
-  append_nodes(const CellWindow<2> &,
-               const CellNeighbours<2> &,
-               const GridSpace<2> &,
-               std::vector<unsigned int> &);
-  template void
-  append_nodes(const CellWindow<3> &,
-               const CellNeighbours<3> &,
-               const GridSpace<3> &,
-               std::vector<unsigned int> &);
-  template void
-  require_box_mesh(const GridSpace<2> &, const std::string &);
-  template void
-  require_box_mesh(const GridSpace<3> &, const std::string &);
+#define INSTANTIATE(dim)                                      \
+  template class LocalFunctions<dim>;                         \
+  template decltype(cells_of_box<dim>)     cells_of_box<dim>; \
+  template decltype(append_nodes<dim>)     append_nodes<dim>; \
+  template decltype(multiply<dim>)         multiply<dim>;     \
+  template decltype(require_box_mesh<dim>) require_box_mesh<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -194,7 +194,8 @@ namespace moraine
           material_points<dim>(of.parameters),
           of.bodies,
           of.parameters.splits_domains(),
-          of.parameters.volumetric() == VolumetricStrain::cell_mean);
+          of.parameters.volumetric() == VolumetricStrain::cell_mean,
+          of.parameters.method);
       };
       return method;
     }
@@ -220,7 +221,8 @@ namespace moraine
           material_points<dim>(of.parameters),
           of.bodies,
           of.parameters.splits_domains(),
-          of.parameters.volumetric() == VolumetricStrain::cell_mean);
+          of.parameters.volumetric() == VolumetricStrain::cell_mean,
+          of.parameters.method);
       };
       return method;
     }

@@ -229,11 +229,11 @@ namespace composite_functions_test
 
   TEST(LocalFunctions, AreTheIntegralsOverThePartInTheCell)
   {
-    // [-0.1, 0.3] of length 0.4: 3/4 of it are in the cell, centred at 0.15.
-    const auto S = local_hats(-0.1, 0.3, 1 / 0.4);
-    EXPECT_NEAR(S[1], 0.75 * 0.15, 1e-16);
-    EXPECT_NEAR(S[0], 0.75 * 0.85, 1e-16);
-    for (const double beyond : local_hats(1.1, 1.3, 1 / 0.2))
+    // [0.875, 1.375]: 3/4 of it are in the second cell, centred at 0.1875.
+    const LineOfBox line(1.125, 0.25, 3);
+    EXPECT_NEAR(line.hats(1)[1], 0.75 * 0.1875, 1e-16);
+    EXPECT_NEAR(line.hats(1)[0], 0.75 * 0.8125, 1e-16);
+    for (const double beyond : line.hats(2))
       EXPECT_EQ(beyond, 0.);
   }
 } // namespace composite_functions_test

@@ -10,6 +10,7 @@
 #include <moraine/points/point_set.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +64,11 @@ namespace moraine
      * the basis. Collective.
      */
     virtual void
-    mark_cells(std::vector<unsigned char> &active);
+    mark_cells(std::vector<unsigned char> &active)
+    {
+      for (const auto &in_cell : points.cells())
+        active[in_cell.cell->active_cell_index()] = 1;
+    }
 
     /**
      * Batch the points, after they were found and the cells mark_cells()
@@ -207,6 +212,55 @@ namespace moraine
       unsigned int first_node; ///< in batch_node_list
       unsigned int n_nodes;
     };
+
+    /** Begin @p block with the points and nodes of a batch.
+     * @return the batch */
+    const Batch &
+    reinit(const unsigned int batch, StencilBlock<dim> &block) const
+    {
+      const Batch &g = batches[batch];
+      block.reinit(g.n_points,
+                   &order[g.first_point],
+                   g.n_nodes,
+                   &batch_node_list[g.first_node]);
+      return g;
+    }
+
+    /** Add a batch whose nodes are the last of batch_node_list, from
+     * @p first_node on. */
+    void
+    append_batch(const unsigned int first_node,
+                 const unsigned int first_point = 0,
+                 const unsigned int n_points    = 0)
+    {
+      const unsigned int n_nodes = batch_node_list.size() - first_node;
+      batches.push_back({first_point, n_points, first_node, n_nodes});
+    }
+
+    void
+    clear_batches()
+    {
+      batches.clear();
+      batch_node_list.clear();
+      order.clear();
+    }
+
+    /** Make one batch of the points of each cell; append_nodes(cell) adds its
+     * nodes to batch_node_list. */
+    template <typename AppendNodes>
+    void
+    batch_points_by_cell(const AppendNodes &append_nodes)
+    {
+      clear_batches();
+      order.resize(points.n_local());
+      std::iota(order.begin(), order.end(), 0u);
+      for (const auto &in_cell : points.cells())
+        {
+          const unsigned int first_node = batch_node_list.size();
+          append_nodes(in_cell.cell);
+          append_batch(first_node, in_cell.first, in_cell.last - in_cell.first);
+        }
+    }
 
     /**
      * Batch the points of a cell by the cells they touch: a point whose cells

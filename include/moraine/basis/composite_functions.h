@@ -63,7 +63,10 @@ namespace moraine
   {
   public:
     /** Needs a mesh of equal boxes. */
-    CompositeBasis(const GridSpace<dim> &space, const PointSet<dim> &points);
+    CompositeBasis(const GridSpace<dim> &space, const PointSet<dim> &points)
+      : Basis<dim>(space, points)
+      , neighbours(space.mesh())
+    {}
 
     /** @throws InputError if the mesh was moved. Collective. */
     bool

@@ -22,19 +22,15 @@ namespace moraine
   class Cpdi1Basis : public CpdiBasis<dim>
   {
   public:
+    using CpdiBasis<dim>::CpdiBasis;
     using CpdiBasis<dim>::n_corners;
 
     /** Ask for `half_edge_1`, ..., the vectors @f$r_i@f$. */
     static void
-    request_fields(PointFields &fields);
-
-    /** See CpdiBasis. */
-    Cpdi1Basis(const GridSpace<dim>         &space,
-               const PointSet<dim>          &points,
-               const CellSeeder<dim>        &seeder,
-               const std::vector<Body<dim>> &bodies,
-               const bool                    split             = false,
-               const bool                    gradients_of_mesh = false);
+    request_fields(PointFields &fields)
+    {
+      DomainTools::request_vectors<dim, dim>(fields, "half_edge");
+    }
 
     /**
      * Of DomainTools::initial_domains(): vectors from the point to the middles
@@ -51,7 +47,11 @@ namespace moraine
       const std::vector<dealii::Tensor<2, dim>> &gradients) const override;
 
     CellVertices<dim>
-    domain_corners(const unsigned int p) const override;
+    domain_corners(const unsigned int p) const override
+    {
+      return DomainTools::parallelepiped(this->points.position(p),
+                                         half_edges(p));
+    }
 
   private:
     void
@@ -69,7 +69,9 @@ namespace moraine
     dealii::Tensor<2, dim>
     half_edges(const unsigned int p) const;
 
-    std::array<unsigned int, dim> offsets;
+    const std::array<unsigned int, dim> offsets =
+      DomainTools::offsets_of_vectors<dim, dim>(this->points.fields(),
+                                                "half_edge");
   };
 } // namespace moraine
 

@@ -25,19 +25,15 @@ namespace moraine
   class Cpdi2Basis : public CpdiBasis<dim>
   {
   public:
+    using CpdiBasis<dim>::CpdiBasis;
     using CpdiBasis<dim>::n_corners;
 
     /** Ask for `corner_1`, ..., the vectors @f$x_c@f$, lexicographic. */
     static void
-    request_fields(PointFields &fields);
-
-    /** See CpdiBasis. */
-    Cpdi2Basis(const GridSpace<dim>         &space,
-               const PointSet<dim>          &points,
-               const CellSeeder<dim>        &seeder,
-               const std::vector<Body<dim>> &bodies,
-               const bool                    split             = false,
-               const bool                    gradients_of_mesh = false);
+    request_fields(PointFields &fields)
+    {
+      DomainTools::request_vectors<dim, n_corners>(fields, "corner");
+    }
 
     /**
      * DomainTools::initial_domains(). Volumes become those of the domains
@@ -65,7 +61,10 @@ namespace moraine
     void
     weights(const unsigned int      p,
             double                 *w,
-            dealii::Tensor<1, dim> *g) const override;
+            dealii::Tensor<1, dim> *g) const override
+    {
+      DomainTools::average_weights<dim>(domain_corners(p), w, g);
+    }
 
     /** At the middles of edges: neighbours that are both halved stay together;
      * beside one that is not, corners hang on its edge and leave it by what the
@@ -85,10 +84,16 @@ namespace moraine
     void
     store_corners(PointSet<dim>           &points,
                   const unsigned int       p,
-                  const CellVertices<dim> &corners) const;
+                  const CellVertices<dim> &corners) const
+    {
+      for (unsigned int c = 0; c < n_corners; ++c)
+        std::copy_n(corners[c].begin_raw(), dim, points.values(p) + offsets[c]);
+    }
 
-    const bool                          finite_strain;
-    std::array<unsigned int, n_corners> offsets;
+    const bool finite_strain = DomainTools::finite_strain(this->points);
+    const std::array<unsigned int, n_corners> offsets =
+      DomainTools::offsets_of_vectors<dim, n_corners>(this->points.fields(),
+                                                      "corner");
   };
 } // namespace moraine
 

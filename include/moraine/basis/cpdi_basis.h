@@ -40,6 +40,24 @@ namespace moraine
   public:
     static constexpr unsigned int n_corners = 1u << dim;
 
+    /**
+     * @p seeder made the points of those @p bodies that have a shape; @p split
+     * says whether split_domains() does anything; all points are there, as they
+     * are at the start. Collective then. @p gradients_of_mesh : gradients are
+     * means of the mesh's over the domains, those of evaluate_parts(), and not
+     * interpolated between their corners; but where more than
+     * most_left_out of a domain is in cells without a corner. The name of the
+     * method, its value of the key 'Method', is for messages.
+     * @throws InputError if the functions are not of degree 1.
+     */
+    CpdiBasis(const GridSpace<dim>         &space,
+              const PointSet<dim>          &points,
+              const CellSeeder<dim>        &seeder,
+              const std::vector<Body<dim>> &bodies,
+              const bool                    split             = false,
+              const bool                    gradients_of_mesh = false,
+              const std::string            &name              = "CPDI");
+
     void
     mark_cells(std::vector<unsigned char> &active) override;
 
@@ -92,24 +110,6 @@ namespace moraine
     }
 
   protected:
-    /**
-     * @p seeder made the points of those @p bodies that have a shape; @p split
-     * says whether split_domains() does anything; all points are there, as they
-     * are at the start. Collective then. @p gradients_of_mesh : gradients are
-     * means of the mesh's over the domains, those of evaluate_parts(), and not
-     * interpolated between their corners; but where more than
-     * most_left_out of a domain is in cells without a corner. The name of the
-     * method, its value of the key 'Method', is for messages.
-     * @throws InputError if the functions are not of degree 1.
-     */
-    CpdiBasis(const GridSpace<dim>         &space,
-              const PointSet<dim>          &points,
-              const CellSeeder<dim>        &seeder,
-              const std::vector<Body<dim>> &bodies,
-              const bool                    split,
-              const bool                    gradients_of_mesh,
-              const std::string            &name);
-
     /** A domain that is no longer than a cell has no more of itself in a cell
      * that it reaches into across a vertex. */
     static constexpr double most_left_out = 0.25;

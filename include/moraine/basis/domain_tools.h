@@ -64,12 +64,30 @@ namespace moraine
                     dealii::Tensor<1, dim>  *g);
 
     template <int dim>
-    double
-    volume(const CellVertices<dim> &corners)
+    struct Region
+    {
+      double             volume;
+      dealii::Point<dim> centroid;
+    };
+
+    /** What a quadrilateral or hexahedron fills. */
+    template <int dim>
+    Region<dim>
+    region_of(const CellVertices<dim> &corners)
     {
       double                 w[1 << dim];
       dealii::Tensor<1, dim> g[1 << dim];
-      return average_weights<dim>(corners, w, g);
+      Region<dim>            region{average_weights<dim>(corners, w, g), {}};
+      for (unsigned int c = 0; c < corners.size(); ++c)
+        region.centroid += w[c] * corners[c];
+      return region;
+    }
+
+    template <int dim>
+    double
+    volume(const CellVertices<dim> &corners)
+    {
+      return region_of<dim>(corners).volume;
     }
 
     /** Ask for n vectors "name_1", ..., lengths each.

@@ -93,6 +93,23 @@ namespace moraine
                const GridSpace<dim>      &space,
                std::vector<unsigned int> &nodes);
 
+  /** Values in each direction of functions that are products of them, and
+   * derivatives; up to 4 in each. */
+  struct LineFunctions
+  {
+    std::array<unsigned int, 3> n{{1, 1, 1}};
+    double                      values[3][4];
+    double                      slopes[3][4];
+  };
+
+  /** Values and gradients of the products, the first direction running fastest.
+   */
+  template <int dim>
+  void
+  multiply(const LineFunctions    &f,
+           double                 *values,
+           dealii::Tensor<1, dim> *gradients);
+
   /**
    * @throws ObjectError naming the @p method if the mesh is not a box of equal
    * cells or the functions are not of degree 1.
@@ -102,26 +119,55 @@ namespace moraine
   require_box_mesh(const GridSpace<dim> &space, const std::string &method);
 
   /**
-   * The averages of the hat functions of the cell [0, 1] over a line from
-   * @p lower to @p upper, of which only the part [a, b] in the cell counts: the
-   * local functions of GIMP, with L the length,
-   * @f[ S^*_0 = \frac{1}{L}\left(b - a - \frac{b^2 - a^2}{2}\right), \qquad
-   *     S^*_1 = \frac{b^2 - a^2}{2 L}. @f]
-   * Their sum is the share of the line that is in the cell.
-   *
-   * @param lower its lower end
-   * @param upper its upper end
-   * @param per_length @f$1/L@f$
+   * The extent of a box in one direction, in cells: from @f$x - l@f$ to
+   * @f$x + l@f$, cut at 0 and the number of cells.
    */
-  inline std::array<double, 2>
-  local_hats(const double lower, const double upper, const double per_length)
+  class LineOfBox
   {
-    const double a     = std::clamp(lower, 0., 1.);
-    const double b     = std::clamp(upper, 0., 1.);
-    const double share = (b - a) * per_length;
-    const double right = 0.5 * (a + b) * share;
-    return {{share - right, right}};
-  }
+  public:
+    LineOfBox(const double x, const double l, const unsigned int n_cells)
+      : lower(std::max(x - l, 0.))
+      , upper(std::min<double>(x + l, n_cells))
+      , is_point(upper - lower < thin_box)
+      , per_length(is_point ? 0. : 1 / (upper - lower))
+    {
+      if (is_point)
+        {
+          lower = std::clamp(std::floor(x), 0., n_cells - 1.);
+          upper = x;
+        }
+    }
+
+    /**
+     * The averages over the line of the hat functions of a cell, of which only
+     * the part [a, b] in the cell counts: the local functions of GIMP, with L
+     * the length and a, b from the cell's lower end,
+     * @f[ S^*_0 = \frac{1}{L}\left(b - a - \frac{b^2 - a^2}{2}\right), \qquad
+     *     S^*_1 = \frac{b^2 - a^2}{2 L}. @f]
+     * Their sum is the share of the line that is in the cell.
+     */
+    std::array<double, 2>
+    hats(const unsigned int cell) const
+    {
+      if (is_point)
+        {
+          const double right = upper - lower;
+          return cell == lower ? std::array<double, 2>{{1 - right, right}} :
+                                 std::array<double, 2>{{0., 0.}};
+        }
+      const double a     = std::clamp(lower - cell, 0., 1.);
+      const double b     = std::clamp(upper - cell, 0., 1.);
+      const double share = (b - a) * per_length;
+      const double right = 0.5 * (a + b) * share;
+      return {{share - right, right}};
+    }
+
+  private:
+    double lower; ///< of a point the cell it is in
+    double upper; ///< of a point its place
+    bool   is_point;
+    double per_length;
+  };
 
   /**
    * The local functions @f$S^*_{ip}@f$ of the cells that points touch,
