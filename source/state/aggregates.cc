@@ -117,12 +117,9 @@ namespace moraine
       });
       return near_bulk ? fill : share_in_thin_part * fill * largest;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** Active cells that only domains of points reach have the least fill of
      * the cells that touch them. */
     template <int dim>
@@ -166,15 +163,6 @@ namespace moraine
         sums[v] > 0 && sums[v] >= fill_of_bulk * cells_at_vertex[v].size();
     return in_bulk;
   }
-
-
-
-  template <int dim>
-  Aggregates<dim>::Aggregates(const std::vector<double> &fill_of_bodies,
-                              const bool                 group_cells)
-    : fill_of_bodies(fill_of_bodies)
-    , with_groups(group_cells)
-  {}
 
 
 
@@ -525,10 +513,8 @@ namespace moraine
 
 
 
-  template std::vector<bool>
-  vertices_in_bulk(const GridSpace<2> &, const std::vector<double> &);
-  template std::vector<bool>
-  vertices_in_bulk(const GridSpace<3> &, const std::vector<double> &);
+  template decltype(vertices_in_bulk<2>) vertices_in_bulk<2>;
+  template decltype(vertices_in_bulk<3>) vertices_in_bulk<3>;
   template class Aggregates<2>;
   template class Aggregates<3>;
 } // namespace moraine

@@ -46,26 +46,6 @@ namespace moraine
 
 
   template <int dim>
-  LA::Vector
-  LastIncrement<dim>::values() const
-  {
-    const std::vector<Tensor<1, dim>> increments = of_nodes();
-    return increments.empty() ? space.vector() : space.vector_of(increments);
-  }
-
-
-
-  template <int dim>
-  void
-  LastIncrement<dim>::write(Archive &archive) const
-  {
-    for (const auto &[name, set] : stored.data_sets())
-      archive.add(name, set);
-  }
-
-
-
-  template <int dim>
   void
   LastIncrement<dim>::read(const Archive &archive)
   {

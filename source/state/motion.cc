@@ -401,6 +401,76 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Data sets of energies [force length]. */
+    const std::pair<std::string, double Works::*> energies[] = {
+      {"motion/work_of_prescribed", &Works::of_prescribed},
+      {"motion/lost_in_transfer", &Works::lost_in_transfer},
+      {"motion/lost_stored", &Works::lost_stored},
+      {"motion/kinetic_at_start", &Works::kinetic_at_start},
+      {"motion/kinetic", &Works::kinetic},
+      {"motion/stored_at_start", &Works::stored_at_start},
+      {"motion/stored", &Works::stored},
+      {"motion/dissipated", &Works::dissipated}};
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::write(Archive &archive) const
+  {
+    archive.write("motion/works",
+                  std::vector<double>(std::begin(done.of_forces),
+                                      std::end(done.of_forces)),
+                  1,
+                  "force length");
+    for (const auto &[name, energy] : energies)
+      archive.write(name, done.*energy, "force length");
+    archive.write("motion/begun", done.begun ? 1u : 0u);
+    if (points_carry())
+      return;
+    state.grid().write_node_values(v,
+                                   "motion/velocity",
+                                   "length/time",
+                                   archive);
+    state.grid().write_node_values(a,
+                                   "motion/acceleration",
+                                   "length/time^2",
+                                   archive);
+    if (before_field.exists())
+      state.grid().write_node_values(a_before,
+                                     "motion/acceleration_before",
+                                     "length/time^2",
+                                     archive);
+  }
+
+
+
+  template <int dim>
+  void
+  Motion<dim>::read(const Archive &archive)
+  {
+    const auto &works = archive.numbers("motion/works");
+    massless_found    = false;
+    AssertThrow(works.size() == Works::n_kinds, ExcInternalError());
+    std::copy(works.begin(), works.end(), done.of_forces);
+    for (const auto &[name, energy] : energies)
+      done.*energy = archive.number(name);
+    done.begun = archive.integer("motion/begun") != 0;
+    if (points_carry())
+      return;
+    state.grid().read_node_values(archive, "motion/velocity", v);
+    state.grid().read_node_values(archive, "motion/acceleration", a);
+    if (before_field.exists())
+      state.grid().read_node_values(archive,
+                                    "motion/acceleration_before",
+                                    a_before);
+  }
+
+
+
   template class Motion<2>;
   template class Motion<3>;
 } // namespace moraine

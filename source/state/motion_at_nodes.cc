@@ -17,13 +17,14 @@ namespace moraine
   template <int dim>
   Tensor<1, dim>
   Motion<dim>::unknown_part(const PointField<dim, Tensor<1, dim>> &field,
-                            const NodeValues                      *known,
-                            const StencilBlock<dim>               &block,
-                            const unsigned int                     p) const
+                            const Nodal                           *known,
+                            NodeValues Nodal::*const member,
+                            const StencilBlock<dim> &block,
+                            const unsigned int       p) const
   {
     Tensor<1, dim> value = field(points.values(block.points[p]));
     for (unsigned int k = 0; known && k < block.n_nodes; ++k)
-      value -= block.N(p)[k] * (*known)[block.nodes[k]];
+      value -= block.N(p)[k] * (known->*member)[block.nodes[k]];
     return value;
   }
 
@@ -85,15 +86,12 @@ namespace moraine
             const unsigned int   point = block.points[p];
             const double         m     = state.mass(point);
             const Tensor<1, dim> V =
-              unknown_part(v_field, known ? &known->v : nullptr, block, p);
+              unknown_part(v_field, known, &Nodal::v, block, p);
             const Tensor<1, dim> A =
-              unknown_part(a_field, known ? &known->a : nullptr, block, p);
+              unknown_part(a_field, known, &Nodal::a, block, p);
             Tensor<1, dim> B;
             if (before_field.exists())
-              B = unknown_part(before_field,
-                               known ? &known->a_before : nullptr,
-                               block,
-                               p);
+              B = unknown_part(before_field, known, &Nodal::a_before, block, p);
             // The mean place of what nodes see of the point: with it the
             // gradient gives no momentum.
             Tensor<1, dim> centre;
@@ -128,8 +126,7 @@ namespace moraine
     const auto velocity = [&](const StencilBlock<dim> &block,
                               const unsigned int       p,
                               const unsigned int       k) {
-      Tensor<1, dim> V =
-        unknown_part(v_field, known ? &known->v : nullptr, block, p);
+      Tensor<1, dim> V = unknown_part(v_field, known, &Nodal::v, block, p);
       if (!gradient_field.exists())
         return V;
       Tensor<1, dim> way = state.grid().node_position(block.nodes[k]);
@@ -138,19 +135,18 @@ namespace moraine
       V += gradient_field(points.values(block.points[p])) * way;
       return V;
     };
-    const auto acceleration = [this](const auto       &field,
-                                     const NodeValues *of_known) {
-      return [&field, of_known, this](const StencilBlock<dim> &block,
-                                      const unsigned int       p,
-                                      const unsigned int) {
-        return unknown_part(field, of_known, block, p);
-      };
+    const auto extend_accelerations = [&](const auto &field,
+                                          NodeValues Nodal::*const member) {
+      extend(
+        [&](const auto &block, const unsigned int p, const unsigned int) {
+          return unknown_part(field, known, member, block, p);
+        },
+        values.*member);
     };
     extend(velocity, values.v);
-    extend(acceleration(a_field, known ? &known->a : nullptr), values.a);
+    extend_accelerations(a_field, &Nodal::a);
     if (before_field.exists())
-      extend(acceleration(before_field, known ? &known->a_before : nullptr),
-             values.a_before);
+      extend_accelerations(before_field, &Nodal::a_before);
   }
 
 

@@ -27,15 +27,6 @@ namespace moraine
 
 
   double
-  Works::out_of_balance() const
-  {
-    return stored_at_start - stored - lost_stored - dissipated -
-           of_forces[unsigned(WorkKind::internal)];
-  }
-
-
-
-  double
   Works::largest() const
   {
     double part = std::max({kinetic_at_start,

@@ -5,6 +5,8 @@
 
 #include <moraine/material/elastic_state.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -282,24 +284,6 @@ namespace moraine
 
   template <int dim>
   void
-  State<dim>::set_trial(const LA::Vector &increment)
-  {
-    space.node_values(increment, trial);
-  }
-
-
-
-  template <int dim>
-  void
-  State<dim>::reject()
-  {
-    trial.assign(space.n_nodes(), Tensor<1, dim>());
-  }
-
-
-
-  template <int dim>
-  void
   State<dim>::commit(const TrialPoints<dim> &trial_points,
                      const unsigned int      i,
                      const unsigned int      p)
@@ -308,9 +292,8 @@ namespace moraine
     SymmetricTensor<2, 3> stress = trial_points.stress(i);
     if (measure == StrainMeasure::finite)
       {
-        Tensor<2, dim> dF = trial_points.increment_gradient(i);
-        for (unsigned int d = 0; d < dim; ++d)
-          dF[d][d] += 1;
+        const Tensor<2, dim> dF = Physics::Elasticity::Kinematics::F(
+          trial_points.increment_gradient(i));
         const Tensor<2, dim> F = dF * state_fields.F(values);
         state_fields.F.store(F, values);
         state_fields.b.store(trial_points.elastic_left_cauchy_green(i), values);

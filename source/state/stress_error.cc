@@ -278,10 +278,6 @@ namespace moraine
 
 
 
-  template std::optional<double>
-  estimated_stress_error(const PointSet<2> &,
-                         const std::vector<LameConstants> &);
-  template std::optional<double>
-  estimated_stress_error(const PointSet<3> &,
-                         const std::vector<LameConstants> &);
+  template decltype(estimated_stress_error<2>) estimated_stress_error<2>;
+  template decltype(estimated_stress_error<3>) estimated_stress_error<3>;
 } // namespace moraine

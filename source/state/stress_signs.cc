@@ -187,8 +187,6 @@ namespace moraine
 
 
 
-  template StressSigns
-  stress_signs(const GridSpace<2> &, const PointSet<2> &);
-  template StressSigns
-  stress_signs(const GridSpace<3> &, const PointSet<3> &);
+  template decltype(stress_signs<2>) stress_signs<2>;
+  template decltype(stress_signs<3>) stress_signs<3>;
 } // namespace moraine

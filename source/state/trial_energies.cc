@@ -4,6 +4,8 @@
 #include <moraine/state/state.h>
 #include <moraine/state/trial_points.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 #include <cmath>
 
 namespace moraine
@@ -12,21 +14,6 @@ namespace moraine
 
   namespace
   {
-    /** In three dimensions, with @p last on the diagonal in plane strain. */
-    template <int dim>
-    Tensor<2, 3>
-    in_space(const Tensor<2, dim> &a, const double last)
-    {
-      Tensor<2, 3> result;
-      result[2][2] = last;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          result[i][j] = a[i][j];
-      return result;
-    }
-
-
-
     /** @f$\partial\varepsilon^e_A/\partial\varepsilon^{tr}_B = C^{-1} D@f$ */
     Tensor<2, 3>
     elastic_part(const LameConstants &C, const Tensor<2, 3> &D)
@@ -188,11 +175,10 @@ namespace moraine
         at.energies.dissipated = 0;
         if (!dissipates)
           continue;
-        Tensor<2, dim> dF = points[i].gradient;
-        for (unsigned int d = 0; d < dim; ++d)
-          dF[d][d] += 1;
+        const Tensor<2, dim> dF =
+          Physics::Elasticity::Kinematics::F(points[i].gradient);
         at.carried =
-          in_space(dF, 1.) * Tensor<2, 3>(at.stress) * in_space(invert(dF), 1.);
+          in_space(dF) * Tensor<2, 3>(at.stress) * in_space(invert(dF));
         at.energies.dissipated =
           0.5 * ((symmetrize(at.carried) + points[i].stress) *
                  points[i].principal.tensor(points[i].trial_strain -

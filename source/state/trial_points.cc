@@ -5,12 +5,15 @@
 
 #include <moraine/state/state.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 #include <cmath>
 #include <limits>
 
 namespace moraine
 {
   using namespace dealii;
+  namespace Kinematics = Physics::Elasticity::Kinematics;
 
   namespace
   {
@@ -25,21 +28,6 @@ namespace moraine
         for (unsigned int j = i; j < dim; ++j)
           strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
       return strain;
-    }
-
-
-
-    /** Of plane strain, in three dimensions. */
-    template <int dim>
-    Tensor<2, 3>
-    with_third_direction(const Tensor<2, dim> &F)
-    {
-      Tensor<2, 3> result;
-      result[2][2] = 1;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          result[i][j] = F[i][j];
-      return result;
     }
 
 
@@ -182,7 +170,7 @@ namespace moraine
         means.changes[c] = trace(A);
         if (measure == StrainMeasure::small)
           continue;
-        A += Tensor<2, dim>(unit_symmetric_tensor<dim>());
+        A                = Kinematics::F(A);
         means.changes[c] = determinant(A);
         // Else the points in it have no stress.
         if (!(means.changes[c] > 0))
@@ -303,9 +291,7 @@ namespace moraine
     const unsigned int p  = block.points[begin + i];
     TrialPoint        &at = points[i];
 
-    Tensor<2, dim> dF = at.gradient;
-    for (unsigned int d = 0; d < dim; ++d)
-      dF[d][d] += 1;
+    const Tensor<2, dim> dF         = Kinematics::F(at.gradient);
     at.J_increment                  = determinant(dF);
     const Tensor<2, dim>  inverse   = invert(dF);
     const Tensor<1, dim> *gradients = block.grad_N(begin + i);
@@ -408,8 +394,8 @@ namespace moraine
           {
             const Tensor<2, dim> dF  = deform(state, block, begin, i);
             const Tensor<2, dim> F_n = state.fields().F(set.values(p));
-            to.F_n                   = with_third_direction(F_n);
-            to.F                     = with_third_direction(dF * F_n);
+            to.F_n                   = in_space(F_n);
+            to.F                     = in_space(dF * F_n);
           }
         else
           {

@@ -74,7 +74,10 @@ namespace moraine
      * cell has to be filled for its nodes to be free: the least one of the
      * bodies in it; roots_of_cells() may be asked for if @p group_cells. */
     explicit Aggregates(const std::vector<double> &fill_of_bodies,
-                        const bool                 group_cells = false);
+                        const bool                 group_cells = false)
+      : fill_of_bodies(fill_of_bodies)
+      , with_groups(group_cells)
+    {}
 
     /**
      * Tie the nodes of @p space anew; @p volume(p) is what point p fills of the

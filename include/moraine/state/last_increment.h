@@ -32,11 +32,19 @@ namespace moraine
 
     /** The same for the unknowns. Collective. */
     LA::Vector
-    values() const;
+    values() const
+    {
+      const std::vector<dealii::Tensor<1, dim>> increments = of_nodes();
+      return increments.empty() ? space.vector() : space.vector_of(increments);
+    }
 
     /** Group "path/increment". */
     void
-    write(Archive &archive) const override;
+    write(Archive &archive) const override
+    {
+      for (const auto &[name, set] : stored.data_sets())
+        archive.add(name, set);
+    }
 
     void
     read(const Archive &archive) override;

@@ -81,7 +81,11 @@ namespace moraine
     /** What internal forces took is more than what was stored and dissipated:
      * the error of the work of finite steps. */
     double
-    out_of_balance() const;
+    out_of_balance() const
+    {
+      return stored_at_start - stored - lost_stored - dissipated -
+             of_forces[unsigned(WorkKind::internal)];
+    }
 
     /** The largest part of the sum. */
     double
@@ -386,12 +390,13 @@ namespace moraine
     map_to_nodes(const Nodal *known = nullptr);
 
     /** What the p-th point of a block carries in @p field, less what it gets
-     * from @p known values of nodes, if any. */
+     * from a @p member of what is @p known of nodes, if anything is. */
     dealii::Tensor<1, dim>
     unknown_part(const PointField<dim, dealii::Tensor<1, dim>> &field,
-                 const NodeValues                              *known,
-                 const StencilBlock<dim>                       &block,
-                 const unsigned int                             p) const;
+                 const Nodal                                   *known,
+                 NodeValues Nodal::*const member,
+                 const StencilBlock<dim> &block,
+                 const unsigned int       p) const;
 
     /** Add what points of this rank carry, times mass. @p masses are those of
      * nodes, and as component 1 of all points that see each. */

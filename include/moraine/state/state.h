@@ -142,7 +142,10 @@ namespace moraine
 
     /** Set the trial increment. Collective. */
     void
-    set_trial(const LA::Vector &increment);
+    set_trial(const LA::Vector &increment)
+    {
+      space.node_values(increment, trial);
+    }
 
     /** Trial increments @f$\Delta u_a@f$ of the nodes. */
     const std::vector<dealii::Tensor<1, dim>> &
@@ -169,7 +172,10 @@ namespace moraine
 
     /** Forget the trial state. */
     void
-    reject();
+    reject()
+    {
+      trial.assign(space.n_nodes(), dealii::Tensor<1, dim>());
+    }
 
     /**
      * The displacement increment of every local point in the trial state, in

@@ -44,6 +44,19 @@ namespace moraine
     std::vector<std::vector<PointField<dim, double>>> internal;
   };
 
+  /** A deformation gradient, in plane strain with the third direction. */
+  template <int dim>
+  dealii::Tensor<2, 3>
+  in_space(const dealii::Tensor<2, dim> &F)
+  {
+    dealii::Tensor<2, 3> result;
+    result[2][2] = 1;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        result[i][j] = F[i][j];
+    return result;
+  }
+
   /** Stored energies at both ends of a step, and what was dissipated in it. Of
    * a point per initial volume, or of points. */
   struct StepEnergies
