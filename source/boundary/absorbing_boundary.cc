@@ -3,6 +3,7 @@
 
 #include <moraine/boundary/absorbing_boundary.h>
 
+#include <moraine/core/archive_components.h>
 #include <moraine/core/exceptions.h>
 
 #include <cmath>
@@ -33,21 +34,6 @@ namespace moraine
       result.springs = spring_stiffness;
     return result;
   }
-
-
-
-  template <int dim>
-  AbsorbingBoundary<dim>::AbsorbingBoundary(const std::string  &name,
-                                            const Finder       &find_places,
-                                            const AbsorbingLaw &law,
-                                            const Velocity     &incident,
-                                            const bool          on_side)
-    : boundary_name(name)
-    , find_places(find_places)
-    , absorbing_law(law)
-    , incident(incident)
-    , on_side(on_side)
-  {}
 
 
 
@@ -122,26 +108,6 @@ namespace moraine
 
   template <int dim>
   void
-  AbsorbingBoundary<dim>::keep() noexcept
-  {
-    std::swap(extensions, next_extensions);
-    carried.move();
-  }
-
-
-
-  template <int dim>
-  void
-  AbsorbingBoundary<dim>::hold(std::vector<Tensor<1, dim>> tractions)
-  {
-    AssertDimension(tractions.size(), places().size());
-    held = std::move(tractions);
-  }
-
-
-
-  template <int dim>
-  void
   AbsorbingBoundary<dim>::remove_places(
     const std::vector<unsigned int> &numbers)
   {
@@ -160,16 +126,15 @@ namespace moraine
   void
   AbsorbingBoundary<dim>::write(Archive &archive) const
   {
-    std::vector<double> of_extensions, of_held;
-    for (unsigned int k = 0; k < places().size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          of_extensions.push_back(extensions[k][d]);
-          of_held.push_back(held[k][d]);
-        }
     carried.write(archive, group());
-    archive.write(group() + "/extension", of_extensions, dim, "length");
-    archive.write(group() + "/held traction", of_held, dim, "stress");
+    archive.write(group() + "/extension",
+                  components_of(extensions),
+                  dim,
+                  "length");
+    archive.write(group() + "/held traction",
+                  components_of(held),
+                  dim,
+                  "stress");
     archive.write(group() + "/is_placed", placed ? 1u : 0u);
   }
 
@@ -180,29 +145,13 @@ namespace moraine
   AbsorbingBoundary<dim>::read(const Archive &archive)
   {
     carried.read(archive, group());
-    const auto &of_extensions = archive.numbers(group() + "/extension", dim);
-    const auto &of_held = archive.numbers(group() + "/held traction", dim);
-    placed              = archive.integer(group() + "/is_placed") != 0;
-    found               = false;
+    placed = archive.integer(group() + "/is_placed") != 0;
+    found  = false;
     extensions.resize(places().size());
     held.resize(places().size());
-    for (unsigned int k = 0; k < places().size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          extensions[k][d] = of_extensions[dim * k + d];
-          held[k][d]       = of_held[dim * k + d];
-        }
+    set_components(archive.numbers(group() + "/extension", dim), extensions);
+    set_components(archive.numbers(group() + "/held traction", dim), held);
     undo();
-  }
-
-
-
-  template <int dim>
-  void
-  AbsorbingBoundary<dim>::undo()
-  {
-    carried.undo();
-    next_extensions.clear();
   }
 
 

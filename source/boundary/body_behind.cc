@@ -10,55 +10,12 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  void
-  BodyBehind<dim>::ask(const Covers &covers)
-  {
-    this->covers = covers;
-    asked.clear();
-  }
-
-
-
-  template <int dim>
-  void
-  BodyBehind<dim>::stop_asking()
-  {
-    covers = {};
-  }
-
-
-
-  template <int dim>
   bool
   BodyBehind<dim>::is_still_so(const Covers &covers) const
   {
     return std::all_of(asked.begin(), asked.end(), [&](const Question &q) {
       return covers(q.cell, q.x, q.margin) == q.answer;
     });
-  }
-
-
-
-  template <int dim>
-  bool
-  BodyBehind<dim>::at(const unsigned int    cell,
-                      const Point<dim>     &x,
-                      const Tensor<1, dim> &normal,
-                      const double          h)
-  {
-    return !covers || is_at_body(in_cell(cell), x, normal, h);
-  }
-
-
-
-  template <int dim>
-  bool
-  BodyBehind<dim>::near(const unsigned int    cell,
-                        const Point<dim>     &x,
-                        const Tensor<1, dim> &normal,
-                        const double          h)
-  {
-    return !covers || is_near_body(in_cell(cell), x, normal, h);
   }
 
 

@@ -5,6 +5,8 @@
 
 #include <moraine/boundary/implicit_boundary.h>
 
+#include <moraine/core/archive_components.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/numerics/rtree.h>
@@ -200,7 +202,7 @@ namespace moraine
       constraint.kind == Constraint<dim>::roller ?
          transpose(pose.rotation()) :
          Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    prepared.resize(boundary_points.size());
+    prepared = places_of_points();
     for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
         const auto    &point      = boundary_points[q];
@@ -210,17 +212,10 @@ namespace moraine
           multiplier =
             std::copysign(multiplier.norm(), multiplier * point.normal) *
             point.normal;
-        const Tensor<1, dim> violation =
-          how.carries_multiplier ? point.accumulated_violation + violations[q] :
-                                   Tensor<1, dim>();
-        prepared[q] = {Tensor<1, dim>(pose.inverse(point.x)),
-                       into_frame * multiplier,
-                       into_frame * violation,
-                       {},
-                       point.JxW,
-                       transpose(pose.rotation()) * point.normal,
-                       point.h,
-                       {{point.cell, point.number}}};
+        prepared[q].multiplier = into_frame * multiplier;
+        if (how.carries_multiplier)
+          prepared[q].violation =
+            into_frame * (point.accumulated_violation + violations[q]);
       }
     for (unsigned int k = 0; k < of_slopes.size(); ++k)
       {
@@ -236,60 +231,32 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::keep() noexcept
-  {
-    std::swap(carried, prepared);
-    kept_at_points = true;
-  }
-
-
-
-  template <int dim>
-  void
-  ImplicitBoundary<dim>::forget() noexcept
-  {
-    carried.clear();
-    search.done = kept_at_points = false;
-  }
-
-
-
-  template <int dim>
-  void
   ImplicitBoundary<dim>::write(Archive &archive) const
   {
-    std::vector<double> places, multipliers, violations, slopes, areas, normals,
-      sizes;
-    std::vector<unsigned int> ids;
-    for (const CarriedPlace<dim> &of : carried)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            places.push_back(of.place[d]);
-            multipliers.push_back(of.multiplier[d]);
-            violations.push_back(of.violation[d]);
-            normals.push_back(of.normal[d]);
-            for (unsigned int e = 0; e < dim; ++e)
-              slopes.push_back(of.slope[d][e]);
-          }
-        areas.push_back(of.area);
-        sizes.push_back(of.h);
-        ids.insert(ids.end(), of.id.begin(), of.id.end());
-      }
+    using Carried           = CarriedPlace<dim>;
     const std::string group = "boundaries/" + boundary_name;
     archive.write(group + "/is_placed", placed_at ? 1u : 0u);
     archive.write(group + "/t_placed", placed_at.value_or(0.), "time");
+    std::vector<unsigned int> ids;
+    for (const Carried &of : carried)
+      ids.insert(ids.end(), of.id.begin(), of.id.end());
     archive.distribute(group + "/carried", ids, 2);
-    archive.write(group + "/carried/place", places, dim, "length");
-    archive.write(group + "/carried/multiplier", multipliers, dim, "stress");
-    archive.write(group + "/carried/violation", violations, dim, "length");
-    archive.write(group + "/carried/slope", slopes, dim * dim, "stress/length");
-    archive.write(group + "/carried/area",
-                  areas,
-                  1,
-                  dim == 2 ? "length" : "length^2");
-    archive.write(group + "/carried/normal", normals, dim);
-    archive.write(group + "/carried/cell_size", sizes, 1, "length");
+    const auto write = [&](const std::string &name,
+                           const auto         member,
+                           const unsigned int n_components,
+                           const std::string &unit) {
+      archive.write(group + "/carried/" + name,
+                    components_of(carried, member),
+                    n_components,
+                    unit);
+    };
+    write("place", &Carried::place, dim, "length");
+    write("multiplier", &Carried::multiplier, dim, "stress");
+    write("violation", &Carried::violation, dim, "length");
+    write("slope", &Carried::slope, dim * dim, "stress/length");
+    write("area", &Carried::area, 1, dim == 2 ? "length" : "length^2");
+    write("normal", &Carried::normal, dim, "");
+    write("cell_size", &Carried::h, 1, "length");
   }
 
 
@@ -302,43 +269,28 @@ namespace moraine
     placed_at.reset();
     if (archive.integer(group + "/is_placed") != 0)
       place_at(archive.number(group + "/t_placed"));
-    const auto &ids    = archive.integers(group + "/carried/id", 2);
-    const auto &places = archive.numbers(group + "/carried/place", dim);
-    const auto &multipliers =
-      archive.numbers(group + "/carried/multiplier", dim);
-    const auto &violations = archive.numbers(group + "/carried/violation", dim);
-    const auto &slopes  = archive.numbers(group + "/carried/slope", dim * dim);
-    const auto &areas   = archive.numbers(group + "/carried/area", 1);
-    const auto &normals = archive.numbers(group + "/carried/normal", dim);
-    const auto &sizes   = archive.numbers(group + "/carried/cell_size", 1);
+    using Carried   = CarriedPlace<dim>;
+    const auto &ids = archive.integers(group + "/carried/id", 2);
     carried.resize(ids.size() / 2);
     for (unsigned int k = 0; k < carried.size(); ++k)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            carried[k].place[d]      = places[dim * k + d];
-            carried[k].multiplier[d] = multipliers[dim * k + d];
-            carried[k].violation[d]  = violations[dim * k + d];
-            carried[k].normal[d]     = normals[dim * k + d];
-            for (unsigned int e = 0; e < dim; ++e)
-              carried[k].slope[d][e] = slopes[dim * (dim * k + d) + e];
-          }
-        carried[k].area = areas[k];
-        carried[k].h    = sizes[k];
-        carried[k].id   = {{ids[2 * k], ids[2 * k + 1]}};
-      }
+      carried[k].id = {{ids[2 * k], ids[2 * k + 1]}};
+    const auto read = [&](const std::string &name,
+                          const auto         member,
+                          const unsigned int n_components) {
+      set_components(archive.numbers(group + "/carried/" + name, n_components),
+                     carried,
+                     member);
+    };
+    read("place", &Carried::place, dim);
+    read("multiplier", &Carried::multiplier, dim);
+    read("violation", &Carried::violation, dim);
+    read("slope", &Carried::slope, dim * dim);
+    read("area", &Carried::area, 1);
+    read("normal", &Carried::normal, dim);
+    read("cell_size", &Carried::h, 1);
     // The points are derived from that by the next begin_step().
     search.done = kept_at_points = false;
     undo();
-  }
-
-
-
-  template <int dim>
-  void
-  ImplicitBoundary<dim>::undo()
-  {
-    prepared.clear();
   }
 
 
@@ -351,11 +303,8 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &,                                    \
     const std::vector<Tensor<1, dim>> &,                                    \
     const std::vector<Tensor<1, dim>> &);                                   \
-  template void ImplicitBoundary<dim>::keep() noexcept;                     \
-  template void ImplicitBoundary<dim>::forget() noexcept;                   \
   template void ImplicitBoundary<dim>::write(Archive &) const;              \
-  template void ImplicitBoundary<dim>::read(const Archive &);               \
-  template void ImplicitBoundary<dim>::undo();
+  template void ImplicitBoundary<dim>::read(const Archive &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -262,17 +262,9 @@ namespace moraine
 
   template struct GridCondition<2>;
   template struct GridCondition<3>;
-#define INSTANTIATE(dim)                                                 \
-  template PrescribedNodes<dim> find_prescribed_nodes(                   \
-    const std::vector<GridCondition<dim>> &,                             \
-    const GridSpace<dim> &,                                              \
-    const double);                                                       \
-  template void check_agreement(const std::vector<GridCondition<dim>> &, \
-                                const GridSpace<dim> &,                  \
-                                const double,                            \
-                                const double,                            \
-                                const unsigned int,                      \
-                                const bool);
+#define INSTANTIATE(dim)                                                    \
+  template decltype(find_prescribed_nodes<dim>) find_prescribed_nodes<dim>; \
+  template decltype(check_agreement<dim>)       check_agreement<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

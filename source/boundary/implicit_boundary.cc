@@ -28,27 +28,6 @@ namespace moraine
 
 
   template <int dim>
-  ImplicitBoundary<dim>::ImplicitBoundary(
-    const std::string                  &name,
-    std::shared_ptr<const Surface<dim>> surface,
-    const RigidMotion<dim>             &motion,
-    const Displacement                 &displacement,
-    const Constraint<dim>              &constraint,
-    const Enforcement                  &enforcement,
-    const double                        penetration_limit)
-    : boundary_name(name)
-    , at_start(surface)
-    , at_end(surface)
-    , motion(motion)
-    , displacement(displacement)
-    , constraint(constraint)
-    , how(enforcement)
-    , limit(penetration_limit)
-  {}
-
-
-
-  template <int dim>
   void
   ImplicitBoundary<dim>::begin_step(
     const GridSpace<dim>                   &space,
@@ -110,16 +89,6 @@ namespace moraine
     kept_at_points = false;
     search.done    = true;
     ++search.number;
-  }
-
-
-
-  template <int dim>
-  void
-  ImplicitBoundary<dim>::place_at(const double t)
-  {
-    placed_at = t;
-    at_start.set_pose(motion.pose(t));
   }
 
 
@@ -315,28 +284,6 @@ namespace moraine
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::hold_in_cells(
-    const std::function<bool(const unsigned int)> &holds)
-  {
-    for (auto &point : boundary_points)
-      point.holds = holds(point.cell);
-  }
-
-
-
-  template <int dim>
-  void
-  ImplicitBoundary<dim>::hold_slopes_in_cells(
-    const std::function<bool(const unsigned int)> &holds)
-  {
-    for (auto &slope : held_slopes.all)
-      slope.holds = holds(boundary_points[slope.point].cell);
-  }
-
-
-
-  template <int dim>
-  void
   ImplicitBoundary<dim>::set_multipliers(
     const std::vector<Tensor<1, dim>> &multipliers)
   {
@@ -369,17 +316,6 @@ namespace moraine
         components +=
           (components.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
     return components;
-  }
-
-
-
-  template <int dim>
-  double
-  ImplicitBoundary<dim>::penetration(const Point<dim> &x,
-                                     const double      range) const
-  {
-    const double level = at_end.level(x);
-    return (level < 0 && level > -range && at_end.in_extent(x)) ? -level : 0.;
   }
 
 

@@ -128,7 +128,13 @@ namespace moraine
                       const Finder       &find_places,
                       const AbsorbingLaw &law,
                       const Velocity     &incident,
-                      const bool          on_side);
+                      const bool          on_side)
+      : boundary_name(name)
+      , find_places(find_places)
+      , absorbing_law(law)
+      , incident(incident)
+      , on_side(on_side)
+    {}
 
     /**
      * Find the cells of the places, and the places themselves the first time.
@@ -168,11 +174,19 @@ namespace moraine
 
     /** Carry what was prepared. */
     void
-    keep() noexcept;
+    keep() noexcept
+    {
+      std::swap(extensions, next_extensions);
+      carried.move();
+    }
 
     /** Hold these tractions, one for each place, from now on. */
     void
-    hold(std::vector<dealii::Tensor<1, dim>> tractions);
+    hold(std::vector<dealii::Tensor<1, dim>> tractions)
+    {
+      AssertDimension(tractions.size(), places().size());
+      held = std::move(tractions);
+    }
 
     /** What it carries, in a group "absorbing/". */
     void
@@ -182,7 +196,11 @@ namespace moraine
     read(const Archive &archive) override;
 
     void
-    undo() override;
+    undo() override
+    {
+      carried.undo();
+      next_extensions.clear();
+    }
 
     const std::string &
     name() const

@@ -28,11 +28,18 @@ namespace moraine
 
     /** Forget what was asked. Without @p covers a body is everywhere. */
     void
-    ask(const Covers &covers);
+    ask(const Covers &covers)
+    {
+      this->covers = covers;
+      asked.clear();
+    }
 
     /** From now on a body is everywhere; what was asked is remembered. */
     void
-    stop_asking();
+    stop_asking()
+    {
+      covers = {};
+    }
 
     /** Whether @p covers gives all answers of before; always if nothing was
      * asked. */
@@ -45,14 +52,20 @@ namespace moraine
     at(const unsigned int            cell,
        const dealii::Point<dim>     &x,
        const dealii::Tensor<1, dim> &normal,
-       const double                  h);
+       const double                  h)
+    {
+      return !covers || is_at_body(in_cell(cell), x, normal, h);
+    }
 
     /** Whether one is within half a cell behind it. */
     bool
     near(const unsigned int            cell,
          const dealii::Point<dim>     &x,
          const dealii::Tensor<1, dim> &normal,
-         const double                  h);
+         const double                  h)
+    {
+      return !covers || is_near_body(in_cell(cell), x, normal, h);
+    }
 
   private:
     struct Question

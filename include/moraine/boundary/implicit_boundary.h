@@ -179,7 +179,16 @@ namespace moraine
                      const Displacement                 &displacement,
                      const Constraint<dim>              &constraint,
                      const Enforcement                  &enforcement,
-                     const double                        penetration_limit);
+                     const double                        penetration_limit)
+      : boundary_name(name)
+      , at_start(surface)
+      , at_end(surface)
+      , motion(motion)
+      , displacement(displacement)
+      , constraint(constraint)
+      , how(enforcement)
+      , limit(penetration_limit)
+    {}
 
     /**
      * Place the surface at time @p t and find its pieces. Those outside active
@@ -267,12 +276,20 @@ namespace moraine
      */
     void
     hold_in_cells(
-      const std::function<bool(const unsigned int active_cell_index)> &holds);
+      const std::function<bool(const unsigned int active_cell_index)> &holds)
+    {
+      for (auto &point : boundary_points)
+        point.holds = holds(point.cell);
+    }
 
     /** The same for slopes, which do not hold where the points do not. */
     void
     hold_slopes_in_cells(
-      const std::function<bool(const unsigned int active_cell_index)> &holds);
+      const std::function<bool(const unsigned int active_cell_index)> &holds)
+    {
+      for (auto &slope : held_slopes.all)
+        slope.holds = holds(boundary_points[slope.point].cell);
+    }
 
     /** Those that are held: of pieces with means that multipliers hold where
      * points move through cells. */
@@ -302,11 +319,19 @@ namespace moraine
 
     /** Carry what was prepared. */
     void
-    keep() noexcept;
+    keep() noexcept
+    {
+      std::swap(carried, prepared);
+      kept_at_points = true;
+    }
 
     /** Carry nothing: it begins to act, maybe anew. */
     void
-    forget() noexcept;
+    forget() noexcept
+    {
+      carried.clear();
+      search.done = kept_at_points = false;
+    }
 
     /** What it carries, in the group "boundaries/" and its name. */
     void
@@ -316,11 +341,18 @@ namespace moraine
     read(const Archive &archive) override;
 
     void
-    undo() override;
+    undo() override
+    {
+      prepared.clear();
+    }
 
     /** Distance behind the surface at the end of the step; 0 if in front. */
     double
-    penetration(const dealii::Point<dim> &x, const double range) const;
+    penetration(const dealii::Point<dim> &x, const double range) const
+    {
+      const double level = at_end.level(x);
+      return (level < 0 && level > -range && at_end.in_extent(x)) ? -level : 0.;
+    }
 
     /**
      * Whether nothing within @p radius of @p x is near the surface at the end
@@ -510,7 +542,11 @@ namespace moraine
 
     /** Be where the surface is at @p t. */
     void
-    place_at(const double t);
+    place_at(const double t)
+    {
+      placed_at = t;
+      at_start.set_pose(motion.pose(t));
+    }
 
     /** The increment it prescribes at @p x from @p t_0 to @p t_1, when it has
      * these poses. */
