@@ -20,6 +20,8 @@
 
 #include <deal.II/particles/particle_handler.h>
 
+#include <fmt/format.h>
+
 #include <map>
 #include <memory>
 #include <string>

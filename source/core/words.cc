@@ -3,12 +3,12 @@
 
 #include <moraine/core/words.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <numeric>
-#include <sstream>
 
 namespace moraine
 {
@@ -89,14 +89,19 @@ namespace moraine
 
 
   std::string
+  text_of(const double value, const unsigned int digits)
+  {
+    return fmt::format("{:.{}g}", value, digits);
+  }
+
+
+
+  std::string
   per_cent(const double share)
   {
-    std::ostringstream text;
-    if (std::abs(share) < 0.095)
-      text << std::setprecision(2) << 100 * share;
-    else
-      text << std::round(100 * share);
-    return text.str() + " %";
+    return (std::abs(share) < 0.095 ? text_of(100 * share, 2) :
+                                      text_of(std::round(100 * share))) +
+           " %";
   }
 
 

@@ -4,9 +4,10 @@
 #include <moraine/output/summary.h>
 
 #include <moraine/core/json.h>
+#include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
 
-#include <sstream>
+#include <nlohmann/json.hpp>
 
 namespace moraine
 {
@@ -28,16 +29,12 @@ namespace moraine
     {
       Json list = Json::array();
       for (const Finding &finding : findings)
-        {
-          Json one;
-          one["id"]     = finding.id;
-          one["object"] = finding.object;
-          one["value"]  = finding.value;
-          one["limit"]  = finding.limit;
-          one["t"]      = finding.t;
-          one["text"]   = finding.text;
-          list.push_back(one);
-        }
+        list.push_back({{"id", finding.id},
+                        {"object", finding.object},
+                        {"value", finding.value},
+                        {"limit", finding.limit},
+                        {"t", finding.t},
+                        {"text", finding.text}});
       return list;
     }
 
@@ -48,13 +45,12 @@ namespace moraine
       json["status"] = summary.status;
       if (!summary.message.empty())
         json["message"] = summary.message;
-      json["version"]                = summary.version;
+      json["version"] = summary.version;
       if (!summary.sizes.units.length.empty())
-        json["units"] = object_of(Summary::List<std::string>{
-          {"length", summary.sizes.units.length},
-          {"force", summary.sizes.units.force},
-          {"time", summary.sizes.units.time},
-          {"stress", summary.sizes.units.of("stress")}});
+        json["units"] = {{"length", summary.sizes.units.length},
+                         {"force", summary.sizes.units.force},
+                         {"time", summary.sizes.units.time},
+                         {"stress", summary.sizes.units.of("stress")}};
       json["dimension"]              = summary.sizes.dimension;
       json["ranks"]                  = summary.sizes.ranks;
       json["cells"]                  = summary.sizes.cells;
@@ -70,9 +66,9 @@ namespace moraine
       if (summary.linear.condition_number)
         json["condition_number"] = *summary.linear.condition_number;
       if (summary.quality.ghost_term)
-        json["ghost_term"] = object_of(Summary::List<double>{
+        json["ghost_term"] = {
           {"share_of_forces", summary.quality.ghost_term->of_forces},
-          {"share_of_work", summary.quality.ghost_term->of_work}});
+          {"share_of_work", summary.quality.ghost_term->of_work}};
       if (summary.quality.stress_error)
         json["estimated_stress_error"] = *summary.quality.stress_error;
       json["largest_displacement"] = summary.quality.largest_displacement;
@@ -88,13 +84,8 @@ namespace moraine
         json["warnings"] = list_of(summary.found.warnings);
       if (!summary.found.hints.empty())
         json["hints"] = list_of(summary.found.hints);
-      if (!summary.errors.empty())
-        {
-          Summary::List<Json> errors;
-          for (const auto &[name, value] : summary.errors)
-            errors.emplace_back(name, value ? Json(*value) : Json());
-          json["errors"] = object_of(errors);
-        }
+      for (const auto &[name, value] : summary.errors)
+        json["errors"][name] = value ? Json(*value) : Json();
       if (!summary.energy.empty())
         json["energy"] = object_of(summary.energy);
       json["probes"]    = object_of(summary.last.probes);
@@ -105,19 +96,9 @@ namespace moraine
 
 
 
-  std::string
-  Summary::json() const
-  {
-    std::ostringstream text;
-    to_json(*this).write(text);
-    return text.str();
-  }
-
-
-
   void
   Summary::write(const std::string &path, const MPI_Comm &communicator) const
   {
-    on_root(communicator, [&]() { to_json(*this).save(path); });
+    on_root(communicator, [&]() { save(to_json(*this), path); });
   }
 } // namespace moraine

@@ -7,10 +7,7 @@
 #include <moraine/core/words.h>
 #include <moraine/scene/scene.h>
 
-// Keeps boost 1.74 from printing a note about its own code.
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 #include <string>
@@ -22,16 +19,15 @@ namespace moraine
 
   namespace
   {
-    using Tree = boost::property_tree::ptree;
+    /** Of sections and entries. */
+    using Tree = nlohmann::ordered_json;
 
 
 
-    /** deal.II's entries hold their pattern; sections hold only trees. */
     bool
     is_entry(const Tree &node)
     {
-      const auto pattern = node.find("pattern_description");
-      return pattern != node.not_found() && pattern->second.empty();
+      return node.contains("pattern_description");
     }
 
 
@@ -73,16 +69,16 @@ namespace moraine
                   const std::string &path,
                   std::ostream      &out)
     {
-      static const Tree nothing;
-      const auto        other = [](const Tree &tree, const std::string &name)
-        -> const Tree & {
+      static const Tree nothing = Tree::object();
+      const auto        other   = [](const Tree        &tree,
+                            const std::string &name) -> const Tree          &{
         const auto found = tree.find(name);
-        return found == tree.not_found() ? nothing : found->second;
+        return found == tree.end() ? nothing : *found;
       };
       // In the order of 3D, and what 2D has alone.
       std::vector<std::string> names;
       for (const Tree *tree : {&in_3d, &in_2d})
-        for (const auto &[name, child] : *tree)
+        for (const auto &[name, child] : tree->items())
           if (!contains(names, name))
             names.push_back(name);
       bool has_entries = false;
@@ -99,15 +95,17 @@ namespace moraine
           const Tree &one = is_entry(a) ? a : b;
           const auto  get = [](const Tree &tree, const Tree &otherwise) {
             return (is_entry(tree) ? tree : otherwise)
-              .get<std::string>("default_value");
+              .at("default_value")
+              .get<std::string>();
           };
           out << "| " << name
               << (!is_entry(a) ? " (3D only)" :
                   !is_entry(b) ? " (2D only)" :
                                  "")
               << " | " << both(get(a, b), get(b, a)) << " | "
-              << in_cell(describe(one.get<std::string>("pattern_description")))
-              << " | " << in_cell(one.get<std::string>("documentation"))
+              << in_cell(
+                   describe(one.at("pattern_description").get<std::string>()))
+              << " | " << in_cell(one.at("documentation").get<std::string>())
               << " |\n";
         }
       for (const std::string &name : names)
@@ -128,9 +126,7 @@ namespace moraine
       std::stringstream json;
       scene.parameters().print_parameters(
         json, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
-      Tree tree;
-      boost::property_tree::read_json(json, tree);
-      return tree;
+      return Tree::parse(json);
     }
   } // namespace
 

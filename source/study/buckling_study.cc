@@ -4,15 +4,15 @@
 #include <moraine/study/buckling_study.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/exit.h>
 #include <moraine/core/json.h>
 #include <moraine/core/version.h>
-#include <moraine/output/on_root.h>
-#include <moraine/study/study.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/parpack_solver.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <complex>
@@ -162,91 +162,61 @@ namespace moraine
       return dimension_of(input) == 2 ? of(Scene<2>(input)) :
                                         of(Scene<3>(input));
     }
+
+
+
+    std::string
+    line_of(const StudyResult &row, const std::vector<double> &factors)
+    {
+      const std::string &label = row.study_case.label;
+      const std::string  begin =
+        "  " + label + (label.empty() ? "buckling: " : ": buckling: ");
+      if (row.summary.status != "ok")
+        return begin + row.summary.status + ": " + row.summary.message + "\n";
+      if (factors.empty())
+        return begin + "at no multiple of the load\n";
+      return fmt::format("{}at {:.4g} times the load\n",
+                         begin,
+                         fmt::join(factors, ", "));
+    }
   } // namespace
 
 
 
-  BucklingStudy::BucklingStudy(const InputFile   &input,
-                               const std::string &folder,
-                               const bool         overwrite,
-                               const MPI_Comm    &communicator,
-                               Console           &console)
-    : folder(folder)
-    , communicator(communicator)
-    , console(console)
-    , cases(study_cases(input))
+  int
+  find_buckling_loads(const StudySetting &setting)
   {
+    std::vector<StudyCase> cases = study_cases(setting.input);
     for (StudyCase &study_case : cases)
       if (may_stay(study_case.input))
         study_case.input.apply_override("Method/Mesh after step = keep");
-    refuse_results_of_run(folder, communicator);
-    make_study_folder(folder, input, overwrite, communicator);
-  }
+    make_study_folder(setting, true);
 
-
-
-  int
-  BucklingStudy::run()
-  {
-    console << "Moraine " << version << ", linear buckling\n";
-    int code = done;
+    setting.console << "Moraine " << version << ", linear buckling\n";
+    std::vector<StudyResult> rows;
+    std::vector<std::string> statuses;
+    std::vector<Json>        json;
     for (const StudyCase &study_case : cases)
       {
-        add(study_case);
-        write();
-        const std::string &status = rows.back().summary.status;
-        if (status == "wrong input" || (status != "ok" && code == done))
-          code = status == "wrong input" ? wrong_input : not_converged;
-        if (status == "interrupted")
+        std::vector<double> factors;
+        const auto find = [&](auto &model) { factors = load_factors(model); };
+        const Summary summary =
+          summary_of_case(study_case.input, setting.communicator, find, find);
+        rows.push_back({study_case, summary, {}, {}});
+        setting.console << line_of(rows.back(), factors);
+        json.push_back({{"case", study_case.label},
+                        {"status", summary.status},
+                        {"message", summary.message},
+                        {"load_factors", factors},
+                        {"unknowns", summary.sizes.unknowns}});
+        write_csv(setting, rows);
+        write_study_summary(setting, json);
+        statuses.push_back(summary.status);
+        if (summary.status == "interrupted")
           break;
       }
-    console << "  results in " << folder << "/summary.json" << std::endl;
-    return code;
-  }
-
-
-
-  void
-  BucklingStudy::add(const StudyCase &study_case)
-  {
-    std::vector<double> &found = factors.emplace_back();
-    const auto find = [&](auto &model) { found = load_factors(model); };
-    const Summary summary =
-      summary_of_case(study_case.input, communicator, find, find);
-    rows.push_back({study_case, summary, std::nullopt, std::nullopt});
-    const std::string &label = study_case.label;
-    console << "  " << label << (label.empty() ? "buckling: " : ": buckling: ");
-    if (summary.status != "ok")
-      console << summary.status << ": " << summary.message;
-    else if (found.empty())
-      console << "at no multiple of the load";
-    for (std::size_t i = 0; i < found.size(); ++i)
-      console << (i > 0 ? ", " : "at ") << text_of(found[i], 4);
-    console << (found.empty() ? "\n" : " times the load\n");
-  }
-
-
-
-  void
-  BucklingStudy::write() const
-  {
-    Json json;
-    json["version"] = version;
-    json["ranks"]   = Utilities::MPI::n_mpi_processes(communicator);
-    json["cases"]   = Json::array();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        Json row;
-        row["case"]         = rows[i].study_case.label;
-        row["status"]       = rows[i].summary.status;
-        row["message"]      = rows[i].summary.message;
-        row["load_factors"] = factors[i];
-        row["unknowns"]     = rows[i].summary.sizes.unknowns;
-        json["cases"].push_back(row);
-      }
-    on_root(communicator, [&]() {
-      json.save(folder + "/summary.json");
-      StudyReport{folder, "", "", "", "", "", cases, rows}.write_csv();
-    });
+    setting.console << "  results in " << setting.file("summary.json")
+                    << std::endl;
+    return exit_code_of(statuses);
   }
 } // namespace moraine

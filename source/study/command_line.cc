@@ -18,7 +18,6 @@
 #include <moraine/study/safety_study.h>
 #include <moraine/scene/scene.h>
 #include <moraine/run/simulation.h>
-#include <moraine/study/study.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -154,7 +153,7 @@ namespace moraine
       std::vector<std::string> settings;
       std::string              from;
       RunOptions               options;
-      bool                     help      = false;
+      bool                     help = false;
     };
 
 
@@ -327,26 +326,22 @@ namespace moraine
 
 
     int
-    run_study(const Arguments &arguments, const InputFile &input)
+    study(const Arguments &arguments, const InputFile &input)
     {
-      Console           console(MPI_COMM_WORLD);
-      const std::string folder =
-        output_directory(arguments, input.get("Output", "Directory", ""));
-      const bool overwrite = arguments.options.overwrite;
-      const auto run       = [](auto study) {
-        const InterruptHandler handler(
-          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-        return study.run();
-      };
-      StudyParameters parameters;
-      parameters.kind = input.get("Study", "Kind", parameters.kind);
-      if (parameters.finds_factor_of_safety())
-        return run(
-          SafetyStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
-      if (parameters.kind == "buckling")
-        return run(
-          BucklingStudy(input, folder, overwrite, MPI_COMM_WORLD, console));
-      return run(Study(input, folder, overwrite, MPI_COMM_WORLD, console));
+      Console            console(MPI_COMM_WORLD);
+      const StudySetting setting{
+        input,
+        output_directory(arguments, input.get("Output", "Directory", "")),
+        arguments.options.overwrite,
+        MPI_COMM_WORLD,
+        console};
+      const InterruptHandler handler(
+        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+      const std::string kind =
+        input.get("Study", "Kind", StudyParameters().kind);
+      return kind == "factor of safety" ? find_factor_of_safety(setting) :
+             kind == "buckling"         ? find_buckling_loads(setting) :
+                                          run_study(setting);
     }
 
 
@@ -416,7 +411,7 @@ namespace moraine
         return resume(arguments);
       if (arguments.command == "study")
         return with_input(arguments, [&](const InputFile &input) {
-          return run_study(arguments, input);
+          return study(arguments, input);
         });
       if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         print_parameter_reference(std::cout);

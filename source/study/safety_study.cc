@@ -4,19 +4,18 @@
 #include <moraine/study/safety_study.h>
 
 #include <moraine/core/exceptions.h>
-#include <moraine/core/exit.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
-#include <moraine/output/on_root.h>
 #include <moraine/scene/scene.h>
 #include <moraine/scene/strength_reduction.h>
-#include <moraine/study/study.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/table_handler.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
-#include <iomanip>
 #include <sstream>
 
 namespace moraine
@@ -69,319 +68,371 @@ namespace moraine
     std::string
     exactly(const double factor)
     {
-      std::ostringstream text;
-      text << std::setprecision(17) << factor;
-      return text.str();
+      return fmt::format("{:.17g}", factor);
     }
 
 
 
     std::string
-    fixed(const double value, const unsigned int digits)
+    rounded(const double factor)
     {
+      return fmt::format("{:.4f}", factor);
+    }
+
+
+
+    /** One run. */
+    struct Trial
+    {
+      double  factor;
+      Summary summary;
+      bool    reached_end_time; ///< a path may end elsewhere
+
+      /** There is equilibrium to the end. */
+      bool
+      stood() const
+      {
+        return summary.status == "ok" && reached_end_time;
+      }
+
+      /** There was until its steps were used up. */
+      bool
+      undecided() const
+      {
+        return summary.status == "ok" && !reached_end_time;
+      }
+
+      /** There is none, from some step on. Else, if it did not stand, there is
+       * no answer: a mistake in the scene, an interruption, or a failure of
+       * another kind (linear solver, memory). */
+      bool
+      failed() const
+      {
+        return summary.no_equilibrium;
+      }
+    };
+
+
+
+    /** What was found for one case. */
+    struct Result
+    {
+      std::string        status = "ok";
+      std::string        message;
+      std::vector<Trial> trials;
+
+      /** The largest factor that it stood, the smallest at which it failed. */
+      std::optional<double> stood, failed;
+
+      /** In the middle between both. */
+      double
+      factor_of_safety() const
+      {
+        return (*stood + *failed) / 2;
+      }
+    };
+
+
+
+    Json
+    to_json(const Trial &trial)
+    {
+      const Summary &summary = trial.summary;
+      Json           json{{"factor", trial.factor}, {"status", summary.status}};
+      if (!summary.message.empty())
+        json["message"] = summary.message;
+      json["time"]              = summary.time;
+      json["steps"]             = summary.steps;
+      json["rejected_steps"]    = summary.rejected_steps;
+      json["newton_iterations"] = summary.newton_iterations;
+      json["wall_seconds"]      = summary.wall_seconds;
+      json["unknowns"]          = summary.sizes.unknowns;
+      json["probes"]            = Json::object();
+      for (const auto &[name, value] : summary.last.probes)
+        json["probes"][name] = value;
+      return json;
+    }
+
+
+
+    Json
+    to_json(const Result &result, const std::string &label)
+    {
+      Json json;
+      if (!label.empty())
+        json["case"] = label;
+      json["status"] = result.status;
+      if (!result.message.empty())
+        json["message"] = result.message;
+      if (result.status == "ok")
+        json["factor_of_safety"] = result.factor_of_safety();
+      if (result.stood)
+        json["stood_at"] = *result.stood;
+      if (result.failed)
+        json["failed_at"] = *result.failed;
+      json["trials"] = Json::array();
+      for (const Trial &trial : result.trials)
+        json["trials"].push_back(to_json(trial));
+      return json;
+    }
+
+
+
+    /** Run a case with its strength over @p factor, add a row to study.csv and
+     * print a line. */
+    Trial
+    attempt(const StudySetting       &setting,
+            const StudyCase          &study_case,
+            const double              factor,
+            std::vector<StudyResult> &rows)
+    {
+      setting.console.progress("  F = " + rounded(factor));
+      StudyCase with_factor = study_case;
+      with_factor.choices.emplace_back(factor_path, exactly(factor));
+      with_factor.input.apply_override(factor_path + " = " + exactly(factor));
+      const Summary summary =
+        summary_of_case(with_factor.input, setting.communicator);
+      rows.push_back({with_factor, summary, {}, {}});
+      write_csv(setting, rows);
+
+      const SceneOfSafety scene   = read_scene(with_factor.input);
+      const double      round_off = 1e-10 * (scene.end_time - scene.start_time);
+      const Trial       trial{factor,
+                        summary,
+                        summary.time >= scene.end_time - round_off};
+      const std::string result =
+        trial.stood()     ? "stood" :
+        trial.failed()    ? fmt::format("failed at t = {:.5g}", summary.time) :
+        trial.undecided() ? "undecided" :
+                            summary.status;
+      setting.console << fmt::format("{:8.4f}  {:20}{:7}{:10}{:8}{:9.3g}\n",
+                                     factor,
+                                     result,
+                                     summary.steps,
+                                     summary.rejected_steps,
+                                     summary.newton_iterations,
+                                     summary.wall_seconds)
+                      << std::flush;
+      return trial;
+    }
+
+
+
+    /** Halve the interval of one case. */
+    Result
+    search(const StudySetting       &setting,
+           const StudyCase          &study_case,
+           std::vector<StudyResult> &rows)
+    {
+      const SceneOfSafety                scene = read_scene(study_case.input);
+      const StrengthReductionParameters &parameters = scene.parameters;
+      Result                             result;
+      const auto                         end_as = [&](const std::string &status,
+                              const std::string &message) {
+        result.status  = status;
+        result.message = message;
+        return result;
+      };
+      for (double factor = parameters.lower_factor;;)
+        {
+          result.trials.push_back(attempt(setting, study_case, factor, rows));
+          const Trial   &trial   = result.trials.back();
+          const Summary &summary = trial.summary;
+          if (trial.stood())
+            result.stood = factor;
+          else if (trial.failed())
+            result.failed = factor;
+          else if (trial.undecided())
+            return end_as(
+              "undecided",
+              fmt::format("with F = {:.6g} the path ended at t = {:.6g}, 'End "
+                          "time' is {:.6g}; more 'Steps' tell whether the "
+                          "scene stands, or no 'Arc length', without which "
+                          "there is no equilibrium where it fails",
+                          factor,
+                          summary.time,
+                          scene.end_time));
+          else
+            return end_as(summary.status, summary.message);
+
+          if (!result.stood)
+            return end_as("fails at lower factor",
+                          fmt::format("'Lower factor' = {:.6g} is too large, "
+                                      "the scene fails at it: {}",
+                                      factor,
+                                      summary.message));
+          if (!result.failed && factor == parameters.upper_factor)
+            return end_as("stands at upper factor",
+                          fmt::format("'Upper factor' = {:.6g} is too small, "
+                                      "the scene stands at it",
+                                      factor));
+          if (result.failed &&
+              *result.failed - *result.stood <= parameters.tolerance)
+            return result;
+          factor =
+            result.failed ? result.factor_of_safety() : parameters.upper_factor;
+          if (factor == result.stood || factor == result.failed)
+            return result; // no number between them
+        }
+    }
+
+
+
+    std::string
+    head_of(const StudyCase &study_case)
+    {
+      const SceneOfSafety                scene = read_scene(study_case.input);
+      const StrengthReductionParameters &parameters = scene.parameters;
+      return (scene.title.empty() ? "" : scene.title + "\n") +
+             (study_case.label.empty() ? "" : "  " + study_case.label + "\n") +
+             fmt::format("  shear strength of {} over F; F from {:.6g} to "
+                         "{:.6g}, to within {:.6g}\n",
+                         parameters.materials.empty() ?
+                           "all materials" :
+                           list_of(parameters.materials),
+                         parameters.lower_factor,
+                         parameters.upper_factor,
+                         parameters.tolerance) +
+             (scene.points_move ?
+                "  note: points move with the soil, and soil that failed may "
+                "come to rest in another\n        shape and count as "
+                "standing; 'Mesh after step = keep' finds where it begins\n" :
+                "  points stay where they are ('Mesh after step = keep')\n") +
+             "\n       F  result                steps  rejected  Newton  "
+             "seconds\n";
+    }
+
+
+
+    /** The command that shows how a case failed. */
+    std::string
+    command_of(const StudySetting &setting,
+               const StudyCase    &study_case,
+               const double        failed)
+    {
+      std::string command = "moraine run " + one_word(setting.input.name());
+      const auto  add     = [&command](const std::string &text) {
+        command += " --set " + one_word(text);
+      };
+      // What a series sets is among the overrides.
+      for (const std::string &text : study_case.input.overrides())
+        add(text);
+      for (const auto &[path, value] : study_case.choices)
+        if (path != "Series")
+          add(path + " = " + value);
+      add(factor_path + " = " + exactly(failed));
+      return command + " --output " + one_word(setting.folder + "/failed");
+    }
+
+
+
+    /** The factor of safety, or why there is none. */
+    std::string
+    conclusion(const StudySetting &setting,
+               const StudyCase    &study_case,
+               const Result       &result)
+    {
+      if (result.status != "ok")
+        return "\n  no factor of safety: " + result.message + "\n\n";
+      const bool compares_meshes =
+        any_of(study_case.choices, [](const auto &choice) {
+          return choice.first.rfind("Mesh/", 0) == 0;
+        });
+      const auto failure = std::find_if(result.trials.begin(),
+                                        result.trials.end(),
+                                        [&](const Trial &trial) {
+                                          return trial.factor == *result.failed;
+                                        });
+      return fmt::format("\n  factor of safety {:.4f}: it stood at {:.4f} and "
+                         "failed at {:.4f}\n  how it failed: {}\n"
+                         "  to see it: {}\n{}\n",
+                         result.factor_of_safety(),
+                         *result.stood,
+                         *result.failed,
+                         failure->summary.message,
+                         command_of(setting, study_case, *result.failed),
+                         compares_meshes ?
+                           "" :
+                           "  note: cells bear more than the ground, the "
+                           "coarser the more; repeat with\n        half the "
+                           "cell size to see how much\n");
+    }
+
+
+
+    /** All cases, if there are several. */
+    std::string
+    table_of(const std::vector<StudyCase> &cases,
+             const std::vector<Result>    &results)
+    {
+      const auto   paths = choice_paths(cases);
+      const auto   names = short_names(paths);
+      TableHandler table;
+      for (std::size_t i = 0; i < results.size(); ++i)
+        {
+          const Result &result  = results[i];
+          const auto    or_dash = [](const std::optional<double> &factor) {
+            return factor ? rounded(*factor) : "-";
+          };
+          double seconds = 0;
+          for (const Trial &trial : result.trials)
+            seconds += trial.summary.wall_seconds;
+          for (std::size_t p = 0; p < paths.size(); ++p)
+            table.add_value(names[p], value_of(cases[i], paths[p]));
+          table.add_value("factor of safety",
+                          result.status == "ok" ?
+                            rounded(result.factor_of_safety()) :
+                            "-");
+          table.add_value("stood at", or_dash(result.stood));
+          table.add_value("failed at", or_dash(result.failed));
+          table.add_value("trials", std::to_string(result.trials.size()));
+          table.add_value("unknowns",
+                          std::to_string(
+                            result.trials.back().summary.sizes.unknowns));
+          table.add_value("seconds", text_of(seconds, 3));
+          table.add_value("status", result.status);
+        }
       std::ostringstream text;
-      text << std::fixed << std::setprecision(digits) << value;
-      return text.str();
+      table.write_text(text, TableHandler::org_mode_table);
+      return text.str() + "\n";
     }
   } // namespace
 
 
 
-  Json
-  SafetyStudy::Result::to_json() const
+  int
+  find_factor_of_safety(const StudySetting &setting)
   {
-    Json json;
-    if (!label.empty())
-      json["case"] = label;
-    json["status"] = status;
-    if (!message.empty())
-      json["message"] = message;
-    if (status == "ok")
-      json["factor_of_safety"] = factor_of_safety();
-    if (stood)
-      json["stood_at"] = *stood;
-    if (failed)
-      json["failed_at"] = *failed;
-    json["trials"] = Json::array();
-    for (const Trial &trial : trials)
-      {
-        const Summary &summary = trial.summary;
-        Json           row;
-        row["factor"] = trial.factor;
-        row["status"] = summary.status;
-        if (!summary.message.empty())
-          row["message"] = summary.message;
-        row["time"]              = summary.time;
-        row["steps"]             = summary.steps;
-        row["rejected_steps"]    = summary.rejected_steps;
-        row["newton_iterations"] = summary.newton_iterations;
-        row["wall_seconds"]      = summary.wall_seconds;
-        row["unknowns"]          = summary.sizes.unknowns;
-        row["probes"]            = Json::object();
-        for (const auto &[name, value] : summary.last.probes)
-          row["probes"][name] = value;
-        json["trials"].push_back(row);
-      }
-    return json;
-  }
-
-
-
-  SafetyStudy::SafetyStudy(const InputFile   &input,
-                           const std::string &folder,
-                           const bool         overwrite,
-                           const MPI_Comm    &communicator,
-                           Console           &console)
-    : input(input)
-    , folder(folder)
-    , communicator(communicator)
-    , console(console)
-    , cases(study_cases(input))
-  {
+    std::vector<StudyCase> cases = study_cases(setting.input);
     // Soil that has slid into another shape would stand in it.
     for (StudyCase &study_case : cases)
       if (read_scene(study_case.input).may_stay)
         study_case.input.apply_override(stay);
-    refuse_results_of_run(folder, communicator);
-    make_study_folder(folder, input, overwrite, communicator);
-  }
+    make_study_folder(setting, true);
 
-
-
-  int
-  SafetyStudy::run()
-  {
+    Console &console = setting.console;
     console << "Moraine " << version
             << ", factor of safety by strength reduction\n";
-    bool found = true, input_is_right = true;
+    std::vector<StudyResult> rows;
+    std::vector<Result>      results;
+    std::vector<Json>        json;
     for (const StudyCase &study_case : cases)
       {
-        print_head(study_case);
-        results.push_back(search(study_case));
+        console << head_of(study_case) << std::flush;
+        results.push_back(search(setting, study_case, rows));
         const Result &result = results.back();
-        print(result, study_case);
-        write_summary();
-        found          = found && result.status == "ok";
-        input_is_right = input_is_right && result.status != "wrong input";
+        console << conclusion(setting, study_case, result) << std::flush;
+        json.push_back(to_json(result, study_case.label));
+        write_study_summary(setting, json);
         if (result.status == "interrupted")
           break;
       }
     if (results.size() > 1)
-      print_table();
-    console << "  results in " << folder << "/summary.json" << std::endl;
-    return !input_is_right ? wrong_input : found ? done : not_converged;
-  }
-
-
-
-  SafetyStudy::Result
-  SafetyStudy::search(const StudyCase &study_case)
-  {
-    const SceneOfSafety                scene = read_scene(study_case.input);
-    const StrengthReductionParameters &parameters = scene.parameters;
-    Result                             result;
-    result.label       = study_case.label;
-    result.points_move = scene.points_move;
-    const auto end_as  = [&](const std::string &status,
-                            const std::string &message) {
-      result.status  = status;
-      result.message = message;
-      return result;
-    };
-    for (double factor = parameters.lower_factor;;)
-      {
-        result.trials.push_back(attempt(study_case, factor));
-        const Trial &trial = result.trials.back();
-        if (trial.stood())
-          result.stood = factor;
-        else if (trial.failed())
-          result.failed = factor;
-        else if (trial.undecided())
-          return end_as("undecided",
-                        "with F = " + text_of(factor, 6) +
-                          " the path ended at t = " +
-                          text_of(trial.summary.time, 6) + ", 'End time' is " +
-                          text_of(scene.end_time, 6) +
-                          "; more 'Steps' tell whether the scene stands, or "
-                          "no 'Arc length', without which there is no "
-                          "equilibrium where it fails");
-        else
-          return end_as(trial.summary.status, trial.summary.message);
-
-        if (!result.stood)
-          return end_as("fails at lower factor",
-                        "'Lower factor' = " + text_of(factor, 6) +
-                          " is too large, the scene fails at it: " +
-                          trial.summary.message);
-        if (!result.failed && factor == parameters.upper_factor)
-          return end_as("stands at upper factor",
-                        "'Upper factor' = " + text_of(factor, 6) +
-                          " is too small, the scene stands at it");
-        if (result.failed &&
-            *result.failed - *result.stood <= parameters.tolerance)
-          return result;
-        factor =
-          result.failed ? result.factor_of_safety() : parameters.upper_factor;
-        if (factor == result.stood || factor == result.failed)
-          return result; // no number between them
-      }
-  }
-
-
-
-  SafetyStudy::Trial
-  SafetyStudy::attempt(const StudyCase &study_case, const double factor)
-  {
-    console.progress("  F = " + fixed(factor, 4));
-    StudyCase with_factor = study_case;
-    with_factor.choices.emplace_back(factor_path, exactly(factor));
-    with_factor.input.apply_override(factor_path + " = " + exactly(factor));
-    const Summary summary = summary_of_case(with_factor.input, communicator);
-    rows.push_back({with_factor, summary, {}, {}});
-    on_root(communicator, [&]() {
-      StudyReport{folder, "", "", "", "", "", cases, rows}.write_csv();
-    });
-
-    const SceneOfSafety scene = read_scene(with_factor.input);
-    const Trial         trial{factor,
-                      summary,
-                      summary.time >=
-                        scene.end_time -
-                          1e-10 * (scene.end_time - scene.start_time)};
-    console << std::setw(8) << fixed(factor, 4) << "  " << std::left
-            << std::setw(20)
-            << (trial.stood()  ? "stood" :
-                trial.failed() ? "failed at t = " + text_of(summary.time, 5) :
-                trial.undecided() ? "undecided" :
-                                    summary.status)
-            << std::right << std::setw(7) << summary.steps << std::setw(10)
-            << summary.rejected_steps << std::setw(8)
-            << summary.newton_iterations << std::setw(9)
-            << text_of(summary.wall_seconds, 3) << '\n';
-    console.stream() << std::flush;
-    return trial;
-  }
-
-
-
-  void
-  SafetyStudy::print_head(const StudyCase &study_case)
-  {
-    const SceneOfSafety                scene = read_scene(study_case.input);
-    const StrengthReductionParameters &parameters = scene.parameters;
-    console << (scene.title.empty() ? "" : scene.title + "\n")
-            << (study_case.label.empty() ? "" : "  " + study_case.label + "\n")
-            << "  shear strength of "
-            << (parameters.materials.empty() ? "all materials" :
-                                               list_of(parameters.materials))
-            << " over F; F from " << parameters.lower_factor << " to "
-            << parameters.upper_factor << ", to within " << parameters.tolerance
-            << '\n'
-            << (scene.points_move ?
-                  "  note: points move with the soil, and soil that failed may "
-                  "come to rest in another\n        shape and count as "
-                  "standing; 'Mesh after step = keep' finds where it begins\n" :
-                  "  points stay where they are ('Mesh after step = keep')\n")
-            << '\n'
-            << "       F  result                steps  rejected  Newton  "
-               "seconds\n";
-    console.stream() << std::flush;
-  }
-
-
-
-  void
-  SafetyStudy::print(const Result &result, const StudyCase &study_case)
-  {
-    const bool compares_meshes =
-      std::any_of(study_case.choices.begin(),
-                  study_case.choices.end(),
-                  [](const auto &choice) {
-                    return choice.first.rfind("Mesh/", 0) == 0;
-                  });
-    if (result.status != "ok")
-      console << "\n  no factor of safety: " << result.message << "\n\n";
-    else
-      {
-        const auto failure =
-          std::find_if(result.trials.begin(),
-                       result.trials.end(),
-                       [&](const Trial &trial) {
-                         return trial.factor == *result.failed;
-                       });
-        console << "\n  factor of safety "
-                << fixed(result.factor_of_safety(), 4) << ": it stood at "
-                << fixed(*result.stood, 4) << " and failed at "
-                << fixed(*result.failed, 4)
-                << "\n  how it failed: " << failure->summary.message
-                << "\n  to see it: moraine run " << one_word(input.name());
-        // What a series sets is among the overrides.
-        for (const std::string &setting : study_case.input.overrides())
-          console << " --set " << one_word(setting);
-        for (const auto &[path, value] : study_case.choices)
-          if (path != "Series")
-            console << " --set " << one_word(path + " = " + value);
-        console << " --set "
-                << one_word(factor_path + " = " + exactly(*result.failed))
-                << " --output " << one_word(folder + "/failed") << '\n'
-                << (compares_meshes ?
-                      "" :
-                      "  note: cells bear more than the ground, the coarser "
-                      "the more; repeat with\n        half the cell size to "
-                      "see how much\n")
-                << '\n';
-      }
-    console.stream() << std::flush;
-  }
-
-
-
-  void
-  SafetyStudy::print_table() const
-  {
-    const auto   paths = choice_paths(cases);
-    const auto   names = short_names(paths);
-    TableHandler table;
-    for (std::size_t i = 0; i < results.size(); ++i)
-      {
-        const Result &result    = results[i];
-        const auto    or_dash   = [](const std::optional<double> &factor) {
-          return factor ? fixed(*factor, 4) : std::string("-");
-        };
-        double seconds = 0;
-        for (const Trial &trial : result.trials)
-          seconds += trial.summary.wall_seconds;
-        for (std::size_t p = 0; p < paths.size(); ++p)
-          table.add_value(names[p], value_of(cases[i], paths[p]));
-        table.add_value("factor of safety",
-                        result.status == "ok" ?
-                          fixed(result.factor_of_safety(), 4) :
-                          "-");
-        table.add_value("stood at", or_dash(result.stood));
-        table.add_value("failed at", or_dash(result.failed));
-        table.add_value("trials", std::to_string(result.trials.size()));
-        table.add_value("unknowns",
-                        std::to_string(
-                          result.trials.back().summary.sizes.unknowns));
-        table.add_value("seconds", text_of(seconds, 3));
-        table.add_value("status", result.status);
-      }
-    std::ostringstream text;
-    table.write_text(text, TableHandler::org_mode_table);
-    console << text.str() << '\n';
-  }
-
-
-
-  void
-  SafetyStudy::write_summary() const
-  {
-    Json json;
-    json["version"] = version;
-    json["ranks"]   = Utilities::MPI::n_mpi_processes(communicator);
-    json["cases"]   = Json::array();
+      console << table_of(cases, results);
+    console << "  results in " << setting.file("summary.json") << std::endl;
+    std::vector<std::string> statuses;
     for (const Result &result : results)
-      json["cases"].push_back(result.to_json());
-    on_root(communicator, [&]() { json.save(folder + "/summary.json"); });
+      statuses.push_back(result.status);
+    return exit_code_of(statuses);
   }
 } // namespace moraine

@@ -9,6 +9,7 @@
 #include <moraine/core/exit.h>
 #include <moraine/core/memory.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/version.h>
 #include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
@@ -18,10 +19,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <sstream>
 
 namespace moraine
@@ -118,21 +121,17 @@ namespace moraine
       const auto keys  = Utilities::split_string_list(group_by, ',');
       auto       paths = choice_paths(cases);
       for (const std::string &key : keys)
-        if (std::none_of(paths.begin(), paths.end(), [&](const auto &path) {
-              return names_choice(key, path);
-            }))
+        if (none_of(paths,
+                    [&](const auto &path) { return names_choice(key, path); }))
           throw InputError(place("Study", "Group by") + ": found '" + key +
                            "', allowed: keys with choices" +
                            suggest(key, paths));
       paths.erase(std::remove_if(paths.begin(),
                                  paths.end(),
                                  [&](const auto &path) {
-                                   return std::any_of(keys.begin(),
-                                                      keys.end(),
-                                                      [&](const auto &key) {
-                                                        return names_choice(
-                                                          key, path);
-                                                      });
+                                   return any_of(keys, [&](const auto &key) {
+                                     return names_choice(key, path);
+                                   });
                                  }),
                   paths.end());
       if (paths.size() > 1)
@@ -141,11 +140,6 @@ namespace moraine
                          " to vary along a curve, allowed: all keys with "
                          "choices but one");
     }
-
-
-
-    /** In seconds: where the clock and the system disturb a measured time. */
-    constexpr double short_time = 0.1;
   } // namespace
 
 
@@ -242,24 +236,16 @@ namespace moraine
 
 
   void
-  refuse_results_of_run(const std::string &folder, const MPI_Comm &communicator)
+  make_study_folder(const StudySetting &setting, const bool has_summary)
   {
-    if (OutputDirectory::holds_results(folder, communicator))
+    const std::string &folder = setting.folder;
+    if (has_summary &&
+        OutputDirectory::holds_results(folder, setting.communicator))
       throw InputError("the output directory '" + folder +
                        "' holds results of a run; choose another one with "
                        "--output");
-  }
-
-
-
-  void
-  make_study_folder(const std::string &folder,
-                    const InputFile   &input,
-                    const bool         overwrite,
-                    const MPI_Comm    &communicator)
-  {
-    on_root(communicator, [&]() {
-      if (OutputDirectory::holds_study(folder) && !overwrite)
+    on_root(setting.communicator, [&]() {
+      if (OutputDirectory::holds_study(folder) && !setting.overwrite)
         throw InputError("the output directory '" + folder +
                          "' holds results of an earlier study (study.csv); "
                          "choose another one with --output, or replace them "
@@ -272,172 +258,216 @@ namespace moraine
                          "; choose another one with --output");
       if (OutputDirectory::holds_study(folder))
         OutputDirectory::remove_study(folder);
-      AtomicFile original((fs::path(folder) / "study.prm").string());
-      original.stream() << input.text();
+      AtomicFile original(setting.file("study.prm"));
+      original.stream() << setting.input.text();
       original.commit();
     });
   }
 
 
 
-  Study::Study(const InputFile   &input,
-               const std::string &folder,
-               const bool         overwrite,
-               const MPI_Comm    &communicator,
-               Console           &console)
-    : folder(folder)
-    , communicator(communicator)
-    , console(console)
-    , cases(study_cases(input))
+  void
+  write_study_summary(const StudySetting      &setting,
+                      const std::vector<Json> &cases)
   {
+    const Json json{{"version", version},
+                    {"ranks",
+                     Utilities::MPI::n_mpi_processes(setting.communicator)},
+                    {"cases", cases}};
+    on_root(setting.communicator,
+            [&]() { save(json, setting.file("summary.json")); });
+  }
+
+
+
+  int
+  exit_code_of(const std::vector<std::string> &statuses)
+  {
+    return contains(statuses, "wrong input") ? wrong_input :
+           std::count(statuses.begin(), statuses.end(), "ok") ==
+               static_cast<std::ptrdiff_t>(statuses.size()) ?
+                                               done :
+                                               not_converged;
+  }
+
+
+
+  namespace
+  {
+    /** In seconds: where the clock and the system disturb a measured time. */
+    constexpr double short_time = 0.1;
+
+
+
+    /** Set the error of a result, or the value that is to be compared.
+     * @throw InputError if the scene does not have what is @p asked for */
+    void
+    measure(const StudyParameters &asked, StudyResult &result)
+    {
+      const auto               reference = number_from(asked.reference_value);
+      std::vector<std::string> known;
+      for (const auto &[name, value] : result.summary.errors)
+        {
+          if (name == asked.error || asked.error.empty())
+            {
+              result.error =
+                value && reference ? *value / std::abs(*reference) : value;
+              return;
+            }
+          known.push_back(name);
+        }
+      if (asked.error.empty())
+        return;
+      const std::string column = column_of_error(asked.error);
+      for (const auto &[name, value] : result.summary.last.history)
+        {
+          if (name == column)
+            {
+              result.value = value;
+              if (reference)
+                result.error = std::abs(value / *reference - 1);
+              return;
+            }
+          known.push_back(name);
+        }
+      throw InputError(place("Study", "Error") + ": found '" + asked.error +
+                       "', which this scene does not have" +
+                       suggest(column, known));
+    }
+
+
+
+    StudyResult
+    run_case(const StudyCase       &study_case,
+             const StudyParameters &parameters,
+             const MPI_Comm        &communicator)
+    {
+      reset_peak_memory();
+      StudyResult result{study_case,
+                         summary_of_case(study_case.input, communicator),
+                         {},
+                         {}};
+      if (result.summary.status == "ok")
+        measure(parameters, result);
+      return result;
+    }
+
+
+
+    /** Wall time of the slowest rank. Collective. */
+    double
+    longest_time(const StudyResult &result, const MPI_Comm &communicator)
+    {
+      return Utilities::MPI::max(result.summary.wall_seconds, communicator);
+    }
+
+
+
+    /** The run with the median time of as many as its time asks for. */
+    StudyResult
+    measured_case(const StudyCase       &study_case,
+                  const StudyParameters &parameters,
+                  const MPI_Comm        &communicator)
+    {
+      constexpr unsigned int   n_runs = 5;
+      std::vector<StudyResult> runs;
+      do
+        runs.push_back(run_case(study_case, parameters, communicator));
+      while (runs.size() < n_runs && runs.back().summary.status == "ok" &&
+             longest_time(runs.front(), communicator) < short_time);
+      // All ranks take the same run: that with the median time of rank 0.
+      std::vector<std::pair<double, unsigned int>> times;
+      for (unsigned int r = 0; r < runs.size(); ++r)
+        times.emplace_back(
+          Utilities::MPI::broadcast(communicator, runs[r].summary.wall_seconds),
+          r);
+      std::sort(times.begin(), times.end());
+      return runs[times[times.size() / 2].second];
+    }
+
+
+
+    std::string
+    line_of(const std::size_t      i,
+            const StudyResult     &result,
+            const StudyParameters &parameters)
+    {
+      const Summary &summary = result.summary;
+      std::string    line    = fmt::format("  case {:4}  {}: {:.3g} s",
+                                     i + 1,
+                                     result.study_case.label,
+                                     summary.wall_seconds);
+      if (result.value)
+        line += fmt::format(", {} = {:.6g}",
+                            column_of_error(parameters.error),
+                            *result.value);
+      if (result.error)
+        line += fmt::format(", error {:.3g}", *result.error);
+      if (summary.status != "ok")
+        line += ", " + summary.status + ": " + summary.message;
+      return line;
+    }
+
+
+
+    /** What is said of the plot of all cases. */
+    StudyParameters
+    common_parameters(const std::vector<StudyParameters> &of_cases)
+    {
+      StudyParameters common = of_cases[0];
+      for (const StudyParameters &other : of_cases)
+        if (other.reference_value != of_cases[0].reference_value)
+          common.reference_value = "reference value";
+      return common;
+    }
+  } // namespace
+
+
+
+  int
+  run_study(const StudySetting &setting)
+  {
+    const std::vector<StudyCase> cases = study_cases(setting.input);
+    std::vector<StudyParameters> parameters;
     for (const StudyCase &study_case : cases)
       parameters.push_back(parameters_of(study_case.input));
     refuse_other_plots(cases, parameters);
     check_groups(cases, parameters[0].group_by);
     for (const StudyParameters &of_case : parameters)
       check_reference(of_case);
+    make_study_folder(setting, false);
 
-    make_study_folder(folder, input, overwrite, communicator);
-  }
-
-
-
-  int
-  Study::run()
-  {
+    const MPI_Comm communicator = setting.communicator;
+    Console       &console      = setting.console;
     console << "Moraine " << version << ", study of " << cases.size()
             << " cases\n"
             << (parameters[0].title.empty() ? "" : parameters[0].title + "\n")
             << std::flush;
-    bool converged = true, input_is_right = true;
+    std::vector<StudyResult> results;
+    std::vector<std::string> statuses;
     for (std::size_t i = 0; i < cases.size(); ++i)
       {
-        console.progress("  case " + std::to_string(i + 1) + " of " +
-                         std::to_string(cases.size()) + ": " + cases[i].label);
-        results.push_back(measured_case(i));
+        console.progress(fmt::format(
+          "  case {} of {}: {}", i + 1, cases.size(), cases[i].label));
+        const auto run_it = [&]() {
+          return measured_case(cases[i], parameters[i], communicator);
+        };
+        results.push_back(run_it());
         // The first run of a process also loads libraries.
-        if (i == 0 && longest_time(results[0]) < 10)
-          results[0] = measured_case(i);
-        const Summary &summary = results.back().summary;
-        console << "  case " << std::setw(4) << i + 1 << "  " << cases[i].label
-                << ": " << text_of(summary.wall_seconds, 3) << " s";
-        if (results.back().value)
-          console << ", " << column_of_error(parameters[i].error) << " = "
-                  << text_of(*results.back().value, 6);
-        if (results.back().error)
-          console << ", error " << text_of(*results.back().error, 3);
-        if (summary.status != "ok")
-          console << ", " << summary.status << ": " << summary.message;
-        console.stream() << std::endl;
+        if (i == 0 && longest_time(results[0], communicator) < 10)
+          results[0] = run_it();
+        console << line_of(i, results.back(), parameters[i]) << std::endl;
         if (parameters[i].reference_value.empty())
           compare_neighbours(cases, results);
-        on_root(communicator, [this]() { report().write_csv(); });
-        converged      = converged && summary.status == "ok";
-        input_is_right = input_is_right && summary.status != "wrong input";
-        if (summary.status == "interrupted")
+        write_csv(setting, results);
+        statuses.push_back(results.back().summary.status);
+        if (statuses.back() == "interrupted")
           break;
       }
-    report().print_table(console);
-    on_root(communicator, [this]() { report().plot(console); });
-    return !input_is_right ? wrong_input : converged ? done : not_converged;
-  }
-
-
-
-  double
-  Study::longest_time(const StudyResult &result) const
-  {
-    return Utilities::MPI::max(result.summary.wall_seconds, communicator);
-  }
-
-
-
-  StudyResult
-  Study::measured_case(const std::size_t i)
-  {
-    constexpr unsigned int   n_runs = 5;
-    std::vector<StudyResult> runs{run_case(i)};
-    while (runs.size() < n_runs && runs.back().summary.status == "ok" &&
-           longest_time(runs.front()) < short_time)
-      runs.push_back(run_case(i));
-    // All ranks take the same run: that with the median time of rank 0.
-    std::vector<std::pair<double, unsigned int>> times;
-    for (unsigned int r = 0; r < runs.size(); ++r)
-      times.emplace_back(
-        Utilities::MPI::broadcast(communicator, runs[r].summary.wall_seconds),
-        r);
-    std::sort(times.begin(), times.end());
-    return runs[times[times.size() / 2].second];
-  }
-
-
-
-  StudyResult
-  Study::run_case(const std::size_t i)
-  {
-    reset_peak_memory();
-    StudyResult result{
-      cases[i], summary_of_case(cases[i].input, communicator), {}, {}};
-    if (result.summary.status == "ok")
-      measure(parameters[i], result);
-    return result;
-  }
-
-
-
-  void
-  Study::measure(const StudyParameters &asked, StudyResult &result) const
-  {
-    const auto               reference = number_from(asked.reference_value);
-    std::vector<std::string> known;
-    for (const auto &[name, value] : result.summary.errors)
-      {
-        if (name == asked.error || asked.error.empty())
-          {
-            result.error =
-              value && reference ? *value / std::abs(*reference) : value;
-            return;
-          }
-        known.push_back(name);
-      }
-    if (asked.error.empty())
-      return;
-    const std::string column = column_of_error(asked.error);
-    for (const auto &[name, value] : result.summary.last.history)
-      {
-        if (name == column)
-          {
-            result.value = value;
-            if (reference)
-              result.error = std::abs(value / *reference - 1);
-            return;
-          }
-        known.push_back(name);
-      }
-    throw InputError(place("Study", "Error") + ": found '" + asked.error +
-                     "', which this scene does not have" +
-                     suggest(column, known));
-  }
-
-
-
-  StudyReport
-  Study::report() const
-  {
-    const StudyParameters &plot = parameters[0];
-    const bool             is_common =
-      std::all_of(parameters.begin(),
-                  parameters.end(),
-                  [&](const StudyParameters &other) {
-                    return other.reference_value == plot.reference_value;
-                  });
-    return {folder,
-            plot.title,
-            plot.error,
-            is_common ? plot.reference_value : "reference value",
-            plot.group_by,
-            plot.panels,
-            cases,
-            results};
+    print_table(setting, cases, results);
+    on_root(communicator, [&]() {
+      plot(setting, common_parameters(parameters), cases, results);
+    });
+    return exit_code_of(statuses);
   }
 } // namespace moraine

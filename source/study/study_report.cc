@@ -5,8 +5,10 @@
 
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/atomic_file.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/output/history.h>
+#include <moraine/output/on_root.h>
 
 #include <deal.II/base/table_handler.h>
 #include <deal.II/base/utilities.h>
@@ -15,20 +17,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <iomanip>
 #include <sstream>
 
 namespace moraine
 {
   using namespace dealii;
-  namespace fs = std::filesystem;
 
   std::string
-  text_of(const double value, const unsigned int digits)
+  StudySetting::file(const std::string &name) const
   {
-    std::ostringstream text;
-    text << std::setprecision(digits) << value;
-    return text.str();
+    return (std::filesystem::path(folder) / name).string();
   }
 
 
@@ -46,20 +44,10 @@ namespace moraine
 
   namespace
   {
-    /** Columns in the order in which the cases bring them. */
-    void
-    add_columns(std::vector<std::string>       &columns,
-                const std::vector<std::string> &more)
-    {
-      for (const std::string &name : more)
-        if (!contains(columns, name))
-          columns.push_back(name);
-    }
-
-
+    using Cells = std::vector<std::pair<std::string, std::string>>;
 
     /** Everything a row has, by column. */
-    std::vector<std::pair<std::string, std::string>>
+    Cells
     cells_of(const StudyResult &result)
     {
       const Summary &summary = result.summary;
@@ -251,6 +239,16 @@ namespace moraine
 
 
 
+    bool
+    any_value(const std::vector<StudyResult> &results)
+    {
+      return any_of(results, [](const StudyResult &result) {
+        return result.value.has_value();
+      });
+    }
+
+
+
     /** For gnuplot, which has no way to put an apostrophe into it. */
     std::string
     single_quoted(std::string text)
@@ -312,258 +310,274 @@ namespace moraine
 
 
   void
-  StudyReport::write_csv() const
+  write_csv(const StudySetting             &setting,
+            const std::vector<StudyResult> &results)
   {
+    std::vector<Cells>       rows;
     std::vector<std::string> columns;
     for (const StudyResult &result : results)
       {
-        std::vector<std::string> names;
-        for (const auto &cell : cells_of(result))
-          names.push_back(cell.first);
-        add_columns(columns, names);
+        rows.push_back(cells_of(result));
+        for (const auto &[name, text] : rows.back())
+          if (!contains(columns, name))
+            columns.push_back(name);
       }
-    AtomicFile file((fs::path(folder) / "study.csv").string());
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      file.stream() << (c > 0 ? "," : "") << csv_cell(columns[c]);
-    for (const StudyResult &result : results)
-      {
-        const auto cells = cells_of(result);
-        file.stream() << '\n';
+    on_root(setting.communicator, [&]() {
+      AtomicFile file(setting.file("study.csv"));
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        file.stream() << (c > 0 ? "," : "") << csv_cell(columns[c]);
+      for (const Cells &cells : rows)
         for (std::size_t c = 0; c < columns.size(); ++c)
           {
-            file.stream() << (c > 0 ? "," : "");
+            file.stream() << (c > 0 ? "," : "\n");
             for (const auto &[name, text] : cells)
               if (name == columns[c])
                 file.stream() << csv_cell(text);
           }
-      }
-    file.stream() << '\n';
-    file.commit();
+      file.stream() << '\n';
+      file.commit();
+    });
   }
 
 
 
   void
-  StudyReport::print_table(Console &console) const
+  print_table(const StudySetting             &setting,
+              const std::vector<StudyCase>   &cases,
+              const std::vector<StudyResult> &results)
   {
-    const auto paths      = choice_paths(cases);
-    const auto names      = short_names(paths);
-    const bool has_values = std::any_of(
-      results.begin(), results.end(), [](const auto &result) {
-        return result.value.has_value();
-      });
-    const bool conditioned =
-      std::any_of(results.begin(), results.end(), [](const auto &result) {
-        return result.summary.linear.condition_number.has_value();
-      });
+    const auto   paths       = choice_paths(cases);
+    const auto   names       = short_names(paths);
+    const bool   has_values  = any_value(results);
+    const bool   conditioned = any_of(results, [](const auto &result) {
+      return result.summary.linear.condition_number.has_value();
+    });
     TableHandler table;
     for (std::size_t i = 0; i < results.size(); ++i)
       {
         const StudyResult &result  = results[i];
         const Summary     &summary = result.summary;
-        const bool         ok      = summary.status == "ok";
-        const auto or_dash = [](const bool has, const std::string &text) {
-          return has && !text.empty() ? text : std::string("-");
+        const auto         add     = [&table](const std::string &name,
+                                  const std::string &text) {
+          table.add_value(name, text.empty() ? "-" : text);
+        };
+        const auto number = [&add](const std::string          &name,
+                                   const std::optional<double> value,
+                                   const unsigned int          digits) {
+          add(name, value ? text_of(*value, digits) : "");
+        };
+        const auto count = [&](const std::string &name, const auto n) {
+          add(name, summary.status == "ok" ? std::to_string(n) : "");
+        };
+        const auto if_ok = [&](const double value) {
+          return summary.status == "ok" ? std::optional<double>(value) :
+                                          std::nullopt;
         };
         for (std::size_t p = 0; p < paths.size(); ++p)
-          table.add_value(names[p],
-                          or_dash(true,
-                                  value_of(result.study_case, paths[p])));
+          add(names[p], value_of(result.study_case, paths[p]));
         if (has_values)
-          table.add_value("value",
-                          or_dash(result.value.has_value(),
-                                  text_of(result.value.value_or(0.), 6)));
-        table.add_value("error",
-                        or_dash(result.error.has_value(),
-                                text_of(result.error.value_or(0.), 4)));
-        table.add_value(
-          "order",
-          or_dash(true, observed_order(results, i, refined_choice(cases))));
-        table.add_value("seconds",
-                        or_dash(ok, text_of(summary.wall_seconds, 3)));
-        table.add_value("unknowns",
-                        or_dash(ok, std::to_string(summary.sizes.unknowns)));
-        table.add_value("points",
-                        or_dash(ok, std::to_string(summary.sizes.points)));
-        table.add_value("MiB",
-                        or_dash(ok, text_of(summary.sizes.peak_memory_mib, 4)));
-        table.add_value("Newton",
-                        or_dash(ok, std::to_string(summary.newton_iterations)));
-        table.add_value("linear",
-                        or_dash(ok, std::to_string(summary.linear.iterations)));
+          number("value", result.value, 6);
+        number("error", result.error, 4);
+        add("order", observed_order(results, i, refined_choice(cases)));
+        number("seconds", if_ok(summary.wall_seconds), 3);
+        count("unknowns", summary.sizes.unknowns);
+        count("points", summary.sizes.points);
+        number("MiB", if_ok(summary.sizes.peak_memory_mib), 4);
+        count("Newton", summary.newton_iterations);
+        count("linear", summary.linear.iterations);
         if (conditioned)
-          table.add_value(
-            "condition",
-            or_dash(summary.linear.condition_number.has_value(),
-                    text_of(summary.linear.condition_number.value_or(0.), 3)));
-        table.add_value("status", summary.status);
+          number("condition", summary.linear.condition_number, 3);
+        add("status", summary.status);
       }
     std::ostringstream text;
     table.write_text(text, TableHandler::org_mode_table);
-    console << '\n'
-            << text.str() << '\n'
-            << "  rows in " << (fs::path(folder) / "study.csv").string()
-            << std::endl;
+    setting.console << '\n'
+                    << text.str() << '\n'
+                    << "  rows in " << setting.file("study.csv") << std::endl;
   }
 
 
 
-  std::vector<StudyReport::Curve>
-  StudyReport::curves() const
+  namespace
   {
-    auto keys = Utilities::split_string_list(group_by, ',');
-    if (keys.empty())
-      for (const std::string &path : choice_paths(cases))
-        if (path != refined_choice(cases))
-          keys.push_back(path);
-    std::vector<Curve> all;
-    for (const StudyResult &result : results)
-      {
-        if (!result.error || !(*result.error > 0))
-          continue;
-        std::string name;
-        for (const std::string &key : keys)
-          {
-            const std::string value = value_of(result.study_case, key);
-            if (!value.empty())
-              name += (name.empty() ? "" : ", ") +
-                      (key == "Series" ?
-                         value :
-                         key.substr(key.rfind('/') + 1) + " = " + value);
-          }
-        auto curve = std::find_if(all.begin(), all.end(), [&](const auto &c) {
-          return c.name == name;
-        });
-        if (curve == all.end())
-          curve = all.insert(all.end(), {name, {}});
-        curve->results.push_back(&result);
-      }
-    for (Curve &curve : all)
-      std::stable_sort(curve.results.begin(),
-                       curve.results.end(),
-                       is_less_fine);
-    return all;
-  }
+    /** Results that differ in one choice only, the coarsest first. */
+    struct Curve
+    {
+      std::string                      name;
+      std::vector<const StudyResult *> results;
+    };
 
 
 
-  std::vector<std::vector<unsigned int>>
-  StudyReport::panels_of(const std::vector<Curve> &all) const
-  {
-    std::vector<std::vector<unsigned int>> chosen;
-    for (const std::string &panel : Utilities::split_string_list(panels, ';'))
-      {
-        chosen.emplace_back();
-        const auto beginnings = Utilities::split_string_list(panel, '|');
-        for (unsigned int c = 0; c < all.size(); ++c)
-          if (std::any_of(beginnings.begin(),
-                          beginnings.end(),
-                          [&](const std::string &begin) {
-                            return all[c].name.rfind(begin, 0) == 0;
-                          }))
-            chosen.back().push_back(c);
-      }
-    if (std::all_of(chosen.begin(), chosen.end(), [](const auto &panel) {
-          return panel.empty();
-        }))
-      for (unsigned int c = 0; c < all.size(); ++c)
+    /** In a panel: each has a colour and a symbol of its own. */
+    constexpr unsigned int most_curves = 8;
+
+
+
+    std::vector<Curve>
+    curves_of(const std::string              &group_by,
+              const std::vector<StudyCase>   &cases,
+              const std::vector<StudyResult> &results)
+    {
+      auto keys = Utilities::split_string_list(group_by, ',');
+      if (keys.empty())
+        for (const std::string &path : choice_paths(cases))
+          if (path != refined_choice(cases))
+            keys.push_back(path);
+      std::vector<Curve> all;
+      for (const StudyResult &result : results)
         {
-          if (chosen.empty() || chosen.back().size() == most_curves)
-            chosen.emplace_back();
-          chosen.back().push_back(c);
-        }
-    // Nobody tells more curves apart.
-    std::vector<std::vector<unsigned int>> readable;
-    for (const auto &panel : chosen)
-      for (std::size_t c = 0; c < panel.size(); c += most_curves)
-        readable.emplace_back(panel.begin() + c,
-                              panel.begin() +
-                                std::min<std::size_t>(c + most_curves,
-                                                      panel.size()));
-    return readable;
-  }
-
-
-
-  std::string
-  StudyReport::error_label() const
-  {
-    std::string shown = error;
-    for (const StudyResult &result : results)
-      if (shown.empty() && result.error)
-        shown = result.summary.errors.front().first;
-    if (std::any_of(results.begin(), results.end(), [](const auto &result) {
-          return result.value.has_value();
-        }))
-      return (reference.empty() ? "relative change to the next finer case of " :
-                                  "relative error of ") +
-             column_of_error(shown) + " [-]";
-    if (!reference.empty())
-      return shown + " / " + reference + " [-]";
-    return shown + (shown == "max_u" ? " [length]" :
-                    shown == "max_sigma" || shown == "mean_sigma" ?
-                                       " [stress]" :
-                                       " [-]");
-  }
-
-
-
-  void
-  StudyReport::write_script(const std::vector<Curve> &all) const
-  {
-    AtomicFile    file((fs::path(folder) / "study.gp").string());
-    std::ostream &out = file.stream();
-    for (std::size_t c = 0; c < all.size(); ++c)
-      {
-        out << "$curve" << c << " << EOD\n";
-        for (const StudyResult *result : all[c].results)
-          out << result->summary.sizes.unknowns << ' '
-              << text_of(result->summary.wall_seconds, 6) << ' '
-              << text_of(*result->error, 10) << '\n';
-        out << "EOD\n";
-      }
-    const auto panel_list = panels_of(all);
-    out << "set terminal pngcairo size 1400," << 40 + 460 * panel_list.size()
-        << " font ',12'\n"
-        << "set output 'study.png'\n"
-        << "set multiplot layout " << panel_list.size() << ",2 title "
-        << single_quoted(title) << " noenhanced\n"
-        << "set ylabel " << single_quoted(error_label()) << " noenhanced\n"
-        << "set logscale xy\nset format xy '10^{%T}'\nset grid\n"
-        << "set colorsequence podo\n";
-    // Both panels of a row are as wide; names of curves are right of them.
-    for (const auto &panel : panel_list)
-      for (const bool over_time : {false, true})
-        {
-          out << "set xlabel " << (over_time ? "'wall time [s]'" : "'unknowns'")
-              << '\n'
-              << (over_time ? "set lmargin at screen 0.43\n"
-                              "set rmargin at screen 0.72\n"
-                              "set key outside right top noenhanced\n" :
-                              "set lmargin at screen 0.065\n"
-                              "set rmargin at screen 0.355\nunset key\n")
-              << "plot ";
-          for (std::size_t k = 0; k < panel.size(); ++k)
+          if (!result.error || !(*result.error > 0))
+            continue;
+          std::string name;
+          for (const std::string &key : keys)
             {
-              const std::string &name = all[panel[k]].name;
-              out << (k > 0 ? ", \\\n     " : "") << "$curve" << panel[k]
-                  << " using " << (over_time ? 2 : 1)
-                  << ":3 with linespoints lw 1.5 lt " << k + 1 << " pt "
-                  << k + 4 << " title "
-                  << single_quoted(name.empty() ? "all" : name);
+              const std::string value = value_of(result.study_case, key);
+              if (!value.empty())
+                name += (name.empty() ? "" : ", ") +
+                        (key == "Series" ?
+                           value :
+                           key.substr(key.rfind('/') + 1) + " = " + value);
             }
-          out << '\n';
+          auto curve = std::find_if(all.begin(), all.end(), [&](const auto &c) {
+            return c.name == name;
+          });
+          if (curve == all.end())
+            curve = all.insert(all.end(), {name, {}});
+          curve->results.push_back(&result);
         }
-    out << "unset multiplot\n";
-    file.commit();
-  }
+      for (Curve &curve : all)
+        std::stable_sort(curve.results.begin(),
+                         curve.results.end(),
+                         is_less_fine);
+      return all;
+    }
+
+
+
+    /** Numbers of the curves in each panel. */
+    std::vector<std::vector<unsigned int>>
+    panels_of(const std::string &panels, const std::vector<Curve> &all)
+    {
+      std::vector<std::vector<unsigned int>> chosen;
+      for (const std::string &panel : Utilities::split_string_list(panels, ';'))
+        {
+          chosen.emplace_back();
+          const auto beginnings = Utilities::split_string_list(panel, '|');
+          for (unsigned int c = 0; c < all.size(); ++c)
+            if (any_of(beginnings, [&](const std::string &begin) {
+                  return all[c].name.rfind(begin, 0) == 0;
+                }))
+              chosen.back().push_back(c);
+        }
+      if (all_of(chosen, [](const auto &panel) { return panel.empty(); }))
+        for (unsigned int c = 0; c < all.size(); ++c)
+          {
+            if (chosen.empty() || chosen.back().size() == most_curves)
+              chosen.emplace_back();
+            chosen.back().push_back(c);
+          }
+      // Nobody tells more curves apart.
+      std::vector<std::vector<unsigned int>> readable;
+      for (const auto &panel : chosen)
+        for (std::size_t c = 0; c < panel.size(); c += most_curves)
+          readable.emplace_back(panel.begin() + c,
+                                panel.begin() +
+                                  std::min<std::size_t>(c + most_curves,
+                                                        panel.size()));
+      return readable;
+    }
+
+
+
+    std::string
+    error_label(const StudyParameters          &parameters,
+                const std::vector<StudyResult> &results)
+    {
+      const std::string &reference = parameters.reference_value;
+      std::string        shown     = parameters.error;
+      for (const StudyResult &result : results)
+        if (shown.empty() && result.error)
+          shown = result.summary.errors.front().first;
+      if (any_value(results))
+        return (reference.empty() ?
+                  "relative change to the next finer case of " :
+                  "relative error of ") +
+               column_of_error(shown) + " [-]";
+      if (!reference.empty())
+        return shown + " / " + reference + " [-]";
+      return shown + (shown == "max_u" ? " [length]" :
+                      shown == "max_sigma" || shown == "mean_sigma" ?
+                                         " [stress]" :
+                                         " [-]");
+    }
+
+
+
+    void
+    write_script(const std::string        &path,
+                 const StudyParameters    &parameters,
+                 const std::string        &label,
+                 const std::vector<Curve> &all)
+    {
+      AtomicFile    file(path);
+      std::ostream &out = file.stream();
+      for (std::size_t c = 0; c < all.size(); ++c)
+        {
+          out << "$curve" << c << " << EOD\n";
+          for (const StudyResult *result : all[c].results)
+            out << result->summary.sizes.unknowns << ' '
+                << text_of(result->summary.wall_seconds, 6) << ' '
+                << text_of(*result->error, 10) << '\n';
+          out << "EOD\n";
+        }
+      const auto panel_list = panels_of(parameters.panels, all);
+      out << "set terminal pngcairo size 1400," << 40 + 460 * panel_list.size()
+          << " font ',12'\n"
+          << "set output 'study.png'\n"
+          << "set multiplot layout " << panel_list.size() << ",2 title "
+          << single_quoted(parameters.title) << " noenhanced\n"
+          << "set ylabel " << single_quoted(label) << " noenhanced\n"
+          << "set logscale xy\nset format xy '10^{%T}'\nset grid\n"
+          << "set colorsequence podo\n";
+      // Both panels of a row are as wide; names of curves are right of them.
+      for (const auto &panel : panel_list)
+        for (const bool over_time : {false, true})
+          {
+            out << "set xlabel "
+                << (over_time ? "'wall time [s]'" : "'unknowns'") << '\n'
+                << (over_time ? "set lmargin at screen 0.43\n"
+                                "set rmargin at screen 0.72\n"
+                                "set key outside right top noenhanced\n" :
+                                "set lmargin at screen 0.065\n"
+                                "set rmargin at screen 0.355\nunset key\n")
+                << "plot ";
+            for (std::size_t k = 0; k < panel.size(); ++k)
+              {
+                const std::string &name = all[panel[k]].name;
+                out << (k > 0 ? ", \\\n     " : "") << "$curve" << panel[k]
+                    << " using " << (over_time ? 2 : 1)
+                    << ":3 with linespoints lw 1.5 lt " << k + 1 << " pt "
+                    << k + 4 << " title "
+                    << single_quoted(name.empty() ? "all" : name);
+              }
+            out << '\n';
+          }
+      out << "unset multiplot\n";
+      file.commit();
+    }
+  } // namespace
 
 
 
   void
-  StudyReport::plot(Console &console) const
+  plot(const StudySetting             &setting,
+       const StudyParameters          &parameters,
+       const std::vector<StudyCase>   &cases,
+       const std::vector<StudyResult> &results)
   {
-    const auto all = curves();
+    Console   &console = setting.console;
+    const auto all     = curves_of(parameters.group_by, cases, results);
     if (all.empty())
       {
         console << "  no plot: no case has an error above zero (from an exact "
@@ -571,16 +585,18 @@ namespace moraine
                 << std::endl;
         return;
       }
-    write_script(all);
+    write_script(setting.file("study.gp"),
+                 parameters,
+                 error_label(parameters, results),
+                 all);
     const std::string command =
-      "cd " + one_word(folder) + " && gnuplot study.gp";
+      "cd " + one_word(setting.folder) + " && gnuplot study.gp";
     if (std::system(("command -v gnuplot >/dev/null 2>&1")) != 0)
       console << "  no picture: gnuplot is not installed; later: " << command
               << std::endl;
     else if (std::system(command.c_str()) != 0)
       console << "  no picture: gnuplot failed; try: " << command << std::endl;
     else
-      console << "  plot in " << (fs::path(folder) / "study.png").string()
-              << std::endl;
+      console << "  plot in " << setting.file("study.png") << std::endl;
   }
 } // namespace moraine

@@ -257,8 +257,8 @@ namespace moraine
     summary.effects         = {"internal force"};
     summary.linear.solvers  = {"direct"};
     summary.errors          = {{"r_u", 1e-10}, {"r_sigma_xy", std::nullopt}};
-    summary.last.probes          = {{"u_x at A", 0.125}};
-    summary.last.reactions       = {{"left", {1., -2.}}};
+    summary.last.probes     = {{"u_x at A", 0.125}};
+    summary.last.reactions  = {{"left", {1., -2.}}};
     const std::string path  = folder.file("summary.json");
     summary.write(path, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), R"({
@@ -270,22 +270,26 @@ namespace moraine
   "active_cells": 0,
   "unknowns": 0,
   "points": 5000000000,
-  "time": 0,
+  "time": 0.0,
   "steps": 0,
   "rejected_steps": 0,
   "pseudo_transient_steps": 0,
   "newton_iterations": 0,
   "linear_iterations": 0,
-  "largest_displacement": 0,
+  "largest_displacement": 0.0,
   "bytes_per_point": 0,
-  "peak_memory_mib": 0,
-  "wall_seconds": 0,
+  "peak_memory_mib": 0.0,
+  "wall_seconds": 0.0,
   "timings": {
     "solve": 0.5,
     "assembly": 0.25
   },
-  "effects": ["internal force"],
-  "linear_solvers": ["direct"],
+  "effects": [
+    "internal force"
+  ],
+  "linear_solvers": [
+    "direct"
+  ],
   "errors": {
     "r_u": 1e-10,
     "r_sigma_xy": null
@@ -294,7 +298,10 @@ namespace moraine
     "u_x at A": 0.125
   },
   "reactions": {
-    "left": [1, -2]
+    "left": [
+      1.0,
+      -2.0
+    ]
   }
 }
 )");

@@ -4,6 +4,8 @@
 #ifndef moraine_core_input_file_h
 #define moraine_core_input_file_h
 
+#include <moraine/core/exceptions.h>
+
 #include <string>
 #include <vector>
 
@@ -164,6 +166,13 @@ namespace moraine
     /** While scanning: the open sections, and the line that opened each. */
     std::vector<Line> open_sections;
   };
+
+  /** @throw InputError about the value of an entry. */
+  [[noreturn]] inline void
+  reject(const InputFile::Entry &entry, const std::string &allowed)
+  {
+    reject(entry.section, entry.key, entry.value, allowed);
+  }
 } // namespace moraine
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef moraine_core_words_h
 #define moraine_core_words_h
 
+#include <deal.II/base/tensor.h>
+
 #include <string>
 #include <vector>
 
@@ -27,6 +29,23 @@ namespace moraine
    */
   std::string
   suggest(const std::string &word, const std::vector<std::string> &known);
+
+  /** A number with at most so many significant digits. */
+  std::string
+  text_of(const double value, const unsigned int digits = 6);
+
+  /** The components of a place or vector. */
+  template <int dim>
+  std::string
+  coordinates(const dealii::Tensor<1, dim> &x,
+              const unsigned int            digits    = 6,
+              const std::string            &separator = " ")
+  {
+    std::string text = text_of(x[0], digits);
+    for (unsigned int d = 1; d < dim; ++d)
+      text += separator + text_of(x[d], digits);
+    return text;
+  }
 
   /** A @p share as "0.12 %", "7.5 %" or "130 %". */
   std::string

@@ -78,7 +78,7 @@ namespace moraine
       List<double> probes; ///< by column name
       /** Force of each boundary, by component. */
       List<std::vector<double>> reactions;
-      List<double> history; ///< all columns; not in summary.json
+      List<double>              history; ///< all columns; not in summary.json
     };
 
     /** "ok", "not converged", "interrupted" or "failed". */
@@ -111,12 +111,9 @@ namespace moraine
     List<double> energy;
     LastValues   last;
 
-    /** The text of summary.json. A number that is not finite becomes null. */
-    std::string
-    json() const;
-
     /**
-     * Write json() from rank 0, replacing the file as a whole. Collective.
+     * Write summary.json from rank 0, as a whole. A number that is not finite
+     * becomes null. Collective.
      *
      * @throws InputError naming @p path if it cannot be written.
      */

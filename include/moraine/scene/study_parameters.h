@@ -29,7 +29,7 @@ namespace moraine
     void
     add_parameters(dealii::ParameterHandler &prm);
 
-    /** Whether it is one by SafetyStudy. */
+    /** Whether it is one by find_factor_of_safety(). */
     bool
     finds_factor_of_safety() const
     {

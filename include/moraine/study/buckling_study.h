@@ -4,15 +4,7 @@
 #ifndef moraine_study_buckling_study_h
 #define moraine_study_buckling_study_h
 
-#include <moraine/core/console.h>
-#include <moraine/core/input_file.h>
-#include <moraine/output/summary.h>
-#include <moraine/study/study_report.h>
-
-#include <mpi.h>
-
-#include <string>
-#include <vector>
+#include <moraine/study/study.h>
 
 namespace moraine
 {
@@ -33,41 +25,13 @@ namespace moraine
    *
    * Keeps, in the output folder, study.csv with a row for each case and
    * summary.json, both rewritten after each.
+   *
+   * @return an exit code: done if no case failed.
+   * @throw InputError for a mistake in the text of any case, for finite strain
+   * or inertia, or if the folder holds results that may not be replaced.
    */
-  class BucklingStudy
-  {
-  public:
-    /**
-     * Read all cases and make the folder.
-     * @throw InputError for a mistake in the text of any of them, for finite
-     * strain or inertia, or if the folder holds results and @p overwrite is not
-     * set.
-     */
-    BucklingStudy(const InputFile   &input,
-                  const std::string &folder,
-                  const bool         overwrite,
-                  const MPI_Comm    &communicator,
-                  Console           &console);
-
-    /** @return an exit code: done if no case failed. */
-    int
-    run();
-
-  private:
-    /** Run one case, keep its row and print its factors. */
-    void
-    add(const StudyCase &study_case);
-
-    void
-    write() const;
-
-    const std::string                folder;
-    const MPI_Comm                   communicator;
-    Console                         &console;
-    std::vector<StudyCase>           cases;
-    std::vector<StudyResult>         rows;
-    std::vector<std::vector<double>> factors; ///< of each row
-  };
+  int
+  find_buckling_loads(const StudySetting &setting);
 } // namespace moraine
 
 #endif

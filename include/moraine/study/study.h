@@ -4,18 +4,11 @@
 #ifndef moraine_study_study_h
 #define moraine_study_study_h
 
-#include <moraine/core/console.h>
-#include <moraine/core/input_file.h>
-#include <moraine/output/summary.h>
+#include <moraine/core/json.h>
 #include <moraine/run/simulation.h>
-#include <moraine/scene/study_parameters.h>
 #include <moraine/study/study_report.h>
 
-#include <mpi.h>
-
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace moraine
@@ -50,22 +43,23 @@ namespace moraine
                  const std::string &kind,
                  const std::string &why);
 
-  /** @throw InputError if @p folder has results of a run. Collective. */
-  void
-  refuse_results_of_run(const std::string &folder,
-                        const MPI_Comm    &communicator);
-
   /**
    * Make the folder of a study, or take the one that is there, and keep the
    * input in it as study.prm. Collective.
-   * @throw InputError if it holds a study and @p overwrite is not set, or if
-   * it cannot be made.
+   * @throw InputError if it holds a study that may not be replaced, or a run
+   * although the study @p has_summary of its own, or if it cannot be made.
    */
   void
-  make_study_folder(const std::string &folder,
-                    const InputFile   &input,
-                    const bool         overwrite,
-                    const MPI_Comm    &communicator);
+  make_study_folder(const StudySetting &setting, const bool has_summary);
+
+  /** Write summary.json with what there is to say of each case. Collective. */
+  void
+  write_study_summary(const StudySetting      &setting,
+                      const std::vector<Json> &cases);
+
+  /** The code of the case that went worst; @p statuses are those of all. */
+  int
+  exit_code_of(const std::vector<std::string> &statuses);
 
   /**
    * Runs the cases of a study one after the other in this process and keeps,
@@ -77,54 +71,14 @@ namespace moraine
    * below 0.1 s is run five times, and the run with the median time counts. A
    * first case below 10 s is run once more before, because the first run of a
    * process takes longer.
+   *
+   * @return an exit code: that of the case that went worst.
+   * @throw InputError for a mistake in the text of any case, if what is to be
+   * plotted differs between them, or if the folder holds a study that may not
+   * be replaced.
    */
-  class Study
-  {
-  public:
-    /**
-     * Read all cases.
-     * @throw InputError for a mistake in the text of any of them, if what is to
-     * be plotted differs between them, or if the folder holds a study and @p
-     * overwrite is not set.
-     */
-    Study(const InputFile   &input,
-          const std::string &folder,
-          const bool         overwrite,
-          const MPI_Comm    &communicator,
-          Console           &console);
-
-    /** @return an exit code: that of the case that went worst. */
-    int
-    run();
-
-  private:
-    StudyResult
-    run_case(const std::size_t i);
-
-    /** The run with the median time of as many as its time asks for. */
-    StudyResult
-    measured_case(const std::size_t i);
-
-    /** Wall time of the slowest rank. Collective. */
-    double
-    longest_time(const StudyResult &result) const;
-
-    /** Set the error of a result, or the value that is to be compared.
-     * @throw InputError if the scene does not have what is @p asked for */
-    void
-    measure(const StudyParameters &asked, StudyResult &result) const;
-
-    StudyReport
-    report() const;
-
-    std::string            folder;
-    MPI_Comm               communicator;
-    Console               &console;
-    std::vector<StudyCase> cases;
-    /** Of each case; only reference values may differ. */
-    std::vector<StudyParameters> parameters;
-    std::vector<StudyResult>     results;
-  };
+  int
+  run_study(const StudySetting &setting);
 } // namespace moraine
 
 #endif

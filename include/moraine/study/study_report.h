@@ -6,15 +6,31 @@
 
 #include <moraine/core/console.h>
 #include <moraine/output/summary.h>
+#include <moraine/scene/study_parameters.h>
 #include <moraine/study/study_expansion.h>
+
+#include <mpi.h>
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace moraine
 {
+  /** What a study is of and where its results go. */
+  struct StudySetting
+  {
+    const InputFile &input;
+    std::string      folder;
+    bool             overwrite; ///< the results of an earlier study
+    MPI_Comm         communicator;
+    Console         &console;
+
+    /** Path of a file in the folder. */
+    std::string
+    file(const std::string &name) const;
+  };
+
   /** One row of a study. */
   struct StudyResult
   {
@@ -42,66 +58,30 @@ namespace moraine
   std::vector<std::string>
   short_names(const std::vector<std::string> &paths);
 
-  /** A number with so many digits. */
-  std::string
-  text_of(const double value, const unsigned int digits);
-
   /** A text in quotes such that the shell takes it as it is. */
   std::string
   one_word(const std::string &text);
 
+  /** Write study.csv with a row for each result so far. Collective. */
+  void
+  write_csv(const StudySetting             &setting,
+            const std::vector<StudyResult> &results);
+
+  /** Print a table with a line for each result. */
+  void
+  print_table(const StudySetting             &setting,
+              const std::vector<StudyCase>   &cases,
+              const std::vector<StudyResult> &results);
+
   /**
-   * What a study leaves for its reader: study.csv, a table on the console,
-   * study.gp and study.png.
+   * Write study.gp and, if gnuplot is there, study.png: error over unknowns and
+   * over wall time, side by side. On one rank only.
    */
-  struct StudyReport
-  {
-    std::string                     folder;
-    std::string                     title;
-    std::string                     error;     ///< its name; empty: the first
-    std::string                     reference; ///< to name; empty: none
-    std::string                     group_by;
-    std::string                     panels;
-    const std::vector<StudyCase>   &cases;
-    const std::vector<StudyResult> &results;
-
-    /** A row for each result so far. On one rank only. */
-    void
-    write_csv() const;
-
-    void
-    print_table(Console &console) const;
-
-    /**
-     * Error over unknowns and over wall time, side by side. On one rank only.
-     */
-    void
-    plot(Console &console) const;
-
-    /** Results that differ in one choice only, the coarsest first. */
-    struct Curve
-    {
-      std::string                      name;
-      std::vector<const StudyResult *> results;
-    };
-
-    std::vector<Curve>
-    curves() const;
-
-    /** Most curves in a panel: each has a colour and a symbol of its own. */
-    static constexpr unsigned int most_curves = 8;
-
-    /** Numbers of the curves in each panel. */
-    std::vector<std::vector<unsigned int>>
-    panels_of(const std::vector<Curve> &all) const;
-
-  private:
-    std::string
-    error_label() const;
-
-    void
-    write_script(const std::vector<Curve> &all) const;
-  };
+  void
+  plot(const StudySetting             &setting,
+       const StudyParameters          &parameters,
+       const std::vector<StudyCase>   &cases,
+       const std::vector<StudyResult> &results);
 } // namespace moraine
 
 #endif
