@@ -4,7 +4,6 @@
 #include <moraine/output/mesh_vtu.h>
 
 #include <moraine/output/stress_rows.h>
-#include <moraine/output/vtu_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -130,12 +129,9 @@ namespace moraine
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
                  const SmoothedStress<dim>         &stress,
-                 const std::string                 &path,
-                 const double                       time,
-                 const unsigned int                 step,
-                 const Units                       &units)
+                 const VtuTarget                   &target)
   {
-    VtuFile<dim, dim> file(units);
+    VtuFile<dim, dim> file(target);
     for (const auto &field : fields)
       {
         AssertDimension(field.values.size(), space.n_nodes());
@@ -149,15 +145,9 @@ namespace moraine
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
         cells.push_back(cell);
-    file.write(path,
-               time,
-               step,
-               space.communicator(),
-               cells.size(),
-               [&](const unsigned int i) {
-                 return make_patch(
-                   space, cells[i], fields, stress, file.n_rows());
-               });
+    file.write(space.communicator(), cells.size(), [&](const unsigned int i) {
+      return make_patch(space, cells[i], fields, stress, file.n_rows());
+    });
   }
 
 
@@ -166,16 +156,10 @@ namespace moraine
   write_mesh_vtu(const GridSpace<2> &,
                  const std::vector<NodeField<2>> &,
                  const SmoothedStress<2> &,
-                 const std::string &,
-                 const double,
-                 const unsigned int,
-                 const Units &);
+                 const VtuTarget &);
   template void
   write_mesh_vtu(const GridSpace<3> &,
                  const std::vector<NodeField<3>> &,
                  const SmoothedStress<3> &,
-                 const std::string &,
-                 const double,
-                 const unsigned int,
-                 const Units &);
+                 const VtuTarget &);
 } // namespace moraine

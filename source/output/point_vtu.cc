@@ -5,7 +5,6 @@
 
 #include <moraine/output/smoothed_stress.h>
 #include <moraine/output/stress_rows.h>
-#include <moraine/output/vtu_file.h>
 
 #include <deal.II/grid/reference_cell.h>
 
@@ -107,15 +106,12 @@ namespace moraine
     template <int patch_dim, int dim, typename SetCorners>
     void
     write_patches(const PointSet<dim> &points,
-                  const std::string   &path,
-                  const double         time,
-                  const unsigned int   step,
-                  const Units         &units,
+                  const VtuTarget     &target,
                   const SetCorners    &set_corners)
     {
       constexpr unsigned int  n_corners = 1 << patch_dim;
       const auto              order     = points_by_id(points);
-      VtuFile<patch_dim, dim> file(units);
+      VtuFile<patch_dim, dim> file(target);
       declare_point_rows(points.fields(), file);
       const auto smoothed   = smoothed_mean_stress(points);
       const auto make_patch = [&](const unsigned int i) {
@@ -128,10 +124,7 @@ namespace moraine
             patch.data(row, c) = rows[row];
         return patch;
       };
-      file.write(path,
-                 time,
-                 step,
-                 points.mesh().triangulation().get_communicator(),
+      file.write(points.mesh().triangulation().get_communicator(),
                  order.size(),
                  make_patch);
     }
@@ -141,16 +134,11 @@ namespace moraine
 
   template <int dim>
   void
-  write_point_vtu(const PointSet<dim> &points,
-                  const std::string   &path,
-                  const double         time,
-                  const unsigned int   step,
-                  const Units         &units)
+  write_point_vtu(const PointSet<dim> &points, const VtuTarget &target)
   {
-    write_patches<0>(
-      points, path, time, step, units, [&](const unsigned int p, auto &patch) {
-        patch.vertices[0] = points.position(p);
-      });
+    write_patches<0>(points, target, [&](const unsigned int p, auto &patch) {
+      patch.vertices[0] = points.position(p);
+    });
   }
 
 
@@ -159,35 +147,24 @@ namespace moraine
   void
   write_domain_vtu(const Basis<dim>    &basis,
                    const PointSet<dim> &points,
-                   const std::string   &path,
-                   const double         time,
-                   const unsigned int   step,
-                   const Units         &units)
+                   const VtuTarget     &target)
   {
     Assert(basis.has_domains(), ExcInternalError());
-    write_patches<dim>(
-      points, path, time, step, units, [&](const unsigned int p, auto &patch) {
-        const auto corners = basis.domain_corners(p);
-        std::copy(corners.begin(), corners.end(), patch.vertices);
-        patch.reference_cell = ReferenceCells::get_hypercube<dim>();
-        patch.n_subdivisions = 1;
-      });
+    write_patches<dim>(points, target, [&](const unsigned int p, auto &patch) {
+      const auto corners = basis.domain_corners(p);
+      std::copy(corners.begin(), corners.end(), patch.vertices);
+      patch.reference_cell = ReferenceCells::get_hypercube<dim>();
+      patch.n_subdivisions = 1;
+    });
   }
 
 
 
-#define INSTANTIATE(dim)                                \
-  template void write_point_vtu(const PointSet<dim> &,  \
-                                const std::string &,    \
-                                const double,           \
-                                const unsigned int,     \
-                                const Units &);         \
-  template void write_domain_vtu(const Basis<dim> &,    \
-                                 const PointSet<dim> &, \
-                                 const std::string &,   \
-                                 const double,          \
-                                 const unsigned int,    \
-                                 const Units &);
+#define INSTANTIATE(dim)                                                   \
+  template void write_point_vtu(const PointSet<dim> &, const VtuTarget &); \
+  template void write_domain_vtu(const Basis<dim> &,                       \
+                                 const PointSet<dim> &,                    \
+                                 const VtuTarget &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

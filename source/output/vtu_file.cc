@@ -191,7 +191,7 @@ namespace moraine
                         interpretation);
     names.insert(names.end(), n_components, name);
     if (unit != "-")
-      units[name] = scene_units.of(unit);
+      units[name] = target.units.of(unit);
   }
 
 
@@ -203,7 +203,7 @@ namespace moraine
   {
     names.push_back(name);
     if (unit != "-")
-      units[name] = scene_units.of(unit);
+      units[name] = target.units.of(unit);
   }
 
 
@@ -248,19 +248,20 @@ namespace moraine
   template <int patch_dim, int dim>
   void
   VtuFile<patch_dim, dim>::write(
-    const std::string                              &path,
-    const double                                    time,
-    const unsigned int                              step,
     const MPI_Comm                                 &communicator,
     const unsigned int                              n_patches,
     const std::function<Patch(const unsigned int)> &make_patch)
   {
     // A date would make two equal runs differ.
-    const DataOutBase::VtkFlags flags(
-      time, step, false, DataOutBase::VtkFlags::best_speed, false, units);
+    const DataOutBase::VtkFlags flags(target.time,
+                                      target.step,
+                                      false,
+                                      DataOutBase::VtkFlags::best_speed,
+                                      false,
+                                      units);
     std::unique_ptr<AtomicFile> file;
     on_root(communicator, [&]() {
-      file = std::make_unique<AtomicFile>(path);
+      file = std::make_unique<AtomicFile>(target.path);
       DataOutBase::write_vtu_header(file->stream(), flags);
     });
     // A rank without patches has no piece: deal.II would declare tensors of 3

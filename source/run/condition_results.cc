@@ -6,7 +6,6 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
-#include <moraine/output/vtu_file.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -76,11 +75,13 @@ namespace moraine
       if (parameters.constraint == "absorbing" ||
           (motion.translation.empty() && parameters.displacement.empty()))
         return;
-      const std::string path = section + "/" + name;
+      const std::string                path = section + "/" + name;
       std::shared_ptr<Expression<dim>> expression;
       if (!parameters.displacement.empty())
-        expression = std::make_shared<Expression<dim>>(
-          parameters.displacement, place(path, "Displacement"), dim);
+        expression =
+          std::make_shared<Expression<dim>>(parameters.displacement,
+                                            place(path, "Displacement"),
+                                            dim);
       const auto displacement = [expression](const Point<dim> &x,
                                              const double      t) {
         return expression ? expression->vector_value(x, t) : Tensor<1, dim>();
@@ -95,8 +96,7 @@ namespace moraine
       for (unsigned int d = 0; d < motion.rotation_centre.size(); ++d)
         centre[d] = motion.rotation_centre[d];
       const auto at = [=, rigid = motion.make_motion(path)](const double t) {
-        return (rigid.pose(t).map(centre) - centre) +
-               displacement(centre, t);
+        return (rigid.pose(t).map(centre) - centre) + displacement(centre, t);
       };
       translations.emplace_back(name, [at, start](const double t) {
         return t > start ? at(t) - at(start) : Tensor<1, dim>();
@@ -126,12 +126,9 @@ namespace moraine
   void
   write_boundary_vtu(const Model<dim>               &model,
                      const std::vector<std::string> &acting,
-                     const std::string              &path,
-                     const double                    time,
-                     const unsigned int              step,
-                     const Units                    &units)
+                     const VtuTarget                &target)
   {
-    VtuFile<0, dim> file(units);
+    VtuFile<0, dim> file(target);
     file.add_vector("normal", "-");
     file.add_scalar("size", dim == 2 ? "length" : "length^2");
     file.add_scalar("boundary", "-");
@@ -144,8 +141,8 @@ namespace moraine
         if (!contains(acting, boundary.name()))
           continue;
         const Placement<dim> &before = boundary.pose_at_start();
-        const Placement<dim>  now    = stay ? before :
-                                              boundary.rigid_motion().pose(time);
+        const Placement<dim>  now =
+          stay ? before : boundary.rigid_motion().pose(target.time);
         for (const BoundaryPoint<dim> &point : boundary.points())
           if (point.holds)
             {
@@ -160,25 +157,19 @@ namespace moraine
               patches.back().data(dim + 1, 0) = b;
             }
       }
-    file.write(path,
-               time,
-               step,
-               model.space->communicator(),
+    file.write(model.space->communicator(),
                patches.size(),
                [&patches](const unsigned int i) { return patches[i]; });
   }
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template NamedTranslations<dim> translations_of_conditions(         \
-    const Scene<dim> &, const Model<dim> &);                          \
-  template void write_boundary_vtu(const Model<dim> &,                \
-                                   const std::vector<std::string> &,  \
-                                   const std::string &,               \
-                                   const double,                      \
-                                   const unsigned int,                \
-                                   const Units &);
+#define INSTANTIATE(dim)                                             \
+  template NamedTranslations<dim> translations_of_conditions(        \
+    const Scene<dim> &, const Model<dim> &);                         \
+  template void write_boundary_vtu(const Model<dim> &,               \
+                                   const std::vector<std::string> &, \
+                                   const VtuTarget &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -4,6 +4,7 @@
 #include <moraine/run/result_files.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
@@ -57,19 +58,16 @@ namespace moraine
 
 
   template <int dim>
-  std::string
-  ResultFiles<dim>::next_file(const std::string &series) const
-  {
-    return directory.file(OutputDirectory::vtu_name(series, n_vtu_written));
-  }
-
-
-
-  template <int dim>
   void
-  ResultFiles<dim>::list_file(const std::string &series, const double t)
+  ResultFiles<dim>::add_file(
+    const std::string                            &series,
+    const double                                  t,
+    const std::function<void(const VtuTarget &)> &write_vtu_file)
   {
-    lists.at(series).add(t, OutputDirectory::vtu_name(series, n_vtu_written));
+    const auto name = OutputDirectory::vtu_name(series, n_vtu_written);
+    write_vtu_file(
+      {directory.file(name), t, n_vtu_written, scene.output.units});
+    lists.at(series).add(t, name);
   }
 
 
@@ -160,24 +158,16 @@ namespace moraine
             add("velocity", "length/time", model.motion->velocities());
             add("acceleration", "length/time^2", model.motion->accelerations());
           }
-        write_mesh_vtu<dim>(*model.space,
-                            fields,
-                            SmoothedStress<dim>(*model.points),
-                            next_file("mesh"),
-                            t,
-                            n_vtu_written,
-                            scene.output.units);
-        list_file("mesh", t);
+        add_file("mesh", t, [&](const VtuTarget &target) {
+          write_mesh_vtu<dim>(*model.space,
+                              fields,
+                              SmoothedStress<dim>(*model.points),
+                              target);
+        });
         if (!model.boundaries.empty())
-          {
-            write_boundary_vtu(model,
-                               acting,
-                               next_file("boundaries"),
-                               t,
-                               n_vtu_written,
-                               scene.output.units);
-            list_file("boundaries", t);
-          }
+          add_file("boundaries", t, [&](const VtuTarget &target) {
+            write_boundary_vtu(model, acting, target);
+          });
       }
     ++n_vtu_written;
   }
@@ -191,21 +181,13 @@ namespace moraine
     t_written = t;
     if (!scene.output.points)
       return;
-    write_point_vtu(*model.points,
-                    next_file("points"),
-                    t,
-                    n_vtu_written,
-                    scene.output.units);
-    list_file("points", t);
-    if (lists.count("domains") == 0)
-      return;
-    write_domain_vtu(*model.basis,
-                     *model.points,
-                     next_file("domains"),
-                     t,
-                     n_vtu_written,
-                     scene.output.units);
-    list_file("domains", t);
+    add_file("points", t, [&](const VtuTarget &target) {
+      write_point_vtu(*model.points, target);
+    });
+    if (lists.count("domains") > 0)
+      add_file("domains", t, [&](const VtuTarget &target) {
+        write_domain_vtu(*model.basis, *model.points, target);
+      });
   }
 
 

@@ -148,7 +148,7 @@ namespace moraine
             values[points.stress_offset() + c] = c + 1;
         }
       const std::string path = folder.file("points.vtu");
-      write_point_vtu(points, path, 2.5, 3);
+      write_point_vtu(points, {path, 2.5, 3});
 
       auto arrays = read_vtu(path);
       ASSERT_EQ(arrays["id"].values.size(), points.n_global());
@@ -215,7 +215,7 @@ namespace moraine
       points.insert(cell, cell->center(), Point<2>(0.5, 0.5), 7, 0, 1.);
     points.finish_insertion();
     const std::string path = folder.file("one.vtu");
-    write_point_vtu(points, path, 0., 0);
+    write_point_vtu(points, {path, 0., 0});
     EXPECT_EQ(read_vtu(path)["id"].values, std::vector<float>{7.f});
   }
 
@@ -230,7 +230,7 @@ namespace moraine
     const std::string path = folder.file("no-such-folder/points.vtu");
     try
       {
-        write_point_vtu(points, path, 0., 0);
+        write_point_vtu(points, {path, 0., 0});
         FAIL() << "nothing thrown";
       }
     catch (const InputError &error)
@@ -257,7 +257,7 @@ namespace moraine
       return u;
     }));
     const std::string path = folder.file("domains.vtu");
-    write_domain_vtu(*scene.basis, scene.points, path, 0., 0);
+    write_domain_vtu(*scene.basis, scene.points, {path, 0., 0});
 
     auto                   arrays    = read_vtu(path);
     constexpr unsigned int n_corners = 1 << dim;
@@ -332,9 +332,7 @@ namespace moraine
         write_mesh_vtu<2>(space,
                           {{"step_displacement", "length", u}},
                           SmoothedStress<2>(points),
-                          path,
-                          1.,
-                          1);
+                          {path, 1., 1});
 
         auto arrays = read_vtu(path);
         EXPECT_EQ(arrays["smoothed_stress"].n_components, 9u);
@@ -380,9 +378,9 @@ namespace moraine
     const auto        n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     // Without patches on the last rank, where there are three of them.
     const unsigned int n = rank == 2 ? 0 : 40000;
-    VtuFile<0, 2>      file;
+    VtuFile<0, 2>      file({path, 0., 0});
     file.add_scalar("number", "-");
-    file.write(path, 0., 0, MPI_COMM_WORLD, n, [&](const unsigned int i) {
+    file.write(MPI_COMM_WORLD, n, [&](const unsigned int i) {
       VtuFile<0, 2>::Patch patch;
       patch.vertices[0] = Point<2>(i, rank);
       patch.data.reinit(1, 1);

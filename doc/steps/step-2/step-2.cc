@@ -204,5 +204,5 @@ main(int argc, char **argv)
     }
 
   // Something to look at, with ParaView or './moraine plot'.
-  write_point_vtu(points, "block.vtu", 1., n_steps);
+  write_point_vtu(points, {"block.vtu", 1., n_steps});
 }

@@ -242,5 +242,5 @@ main(int argc, char **argv)
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     std::cout << time.n_accepted() << " steps accepted, " << time.n_rejected()
               << " rejected" << std::endl;
-  write_point_vtu(points, "step-4.vtu", time.time(), time.n_accepted());
+  write_point_vtu(points, {"step-4.vtu", time.time(), time.n_accepted()});
 }

@@ -4,9 +4,9 @@
 #ifndef moraine_output_mesh_vtu_h
 #define moraine_output_mesh_vtu_h
 
-#include <moraine/core/units.h>
 #include <moraine/mesh/grid_space.h>
 #include <moraine/output/smoothed_stress.h>
+#include <moraine/output/vtu_file.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -30,7 +30,7 @@ namespace moraine
    * number of ranks. A vertex that no point is around has the mean stress of
    * the other ones of the cell. Collective. Cells are drawn where the nodes
    * are, so a mesh that follows the material is drawn deformed. Q2 cells are
-   * drawn as 2^dim smaller ones. The file appears at @p path only when it is
+   * drawn as 2^dim smaller ones. The file appears only when it is
    * complete.
    *
    * @throws InputError naming the file if it cannot be written.
@@ -40,10 +40,7 @@ namespace moraine
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
                  const SmoothedStress<dim>         &stress,
-                 const std::string                 &path,
-                 const double                       time,
-                 const unsigned int                 step,
-                 const Units                       &units = Units());
+                 const VtuTarget                   &target);
 } // namespace moraine
 
 #endif

@@ -5,16 +5,14 @@
 #define moraine_output_point_vtu_h
 
 #include <moraine/basis/basis.h>
-#include <moraine/core/units.h>
+#include <moraine/output/vtu_file.h>
 #include <moraine/points/point_set.h>
-
-#include <string>
 
 namespace moraine
 {
   /**
    * Write the points of one step as one VTU file, whatever the number of ranks.
-   * Collective. The file appears at @p path only when it is complete.
+   * Collective. The file appears only when it is complete.
    *
    * Every field of the layout is written under its name and with its unit: one
    * number as a scalar, dim numbers as a vector, a stress-like field as a
@@ -36,16 +34,12 @@ namespace moraine
    */
   template <int dim>
   void
-  write_point_vtu(const PointSet<dim> &points,
-                  const std::string   &path,
-                  const double         time,
-                  const unsigned int   step,
-                  const Units         &units = Units());
+  write_point_vtu(const PointSet<dim> &points, const VtuTarget &target);
 
   /**
    * Write the domains of the points of one step as quadrilaterals or hexahedra
    * in one VTU file, each with the fields of its point (write_point_vtu()).
-   * The basis has to have domains. Collective. The file appears at @p path only
+   * The basis has to have domains. Collective. The file appears only
    * when it is complete.
    *
    * @throws InputError naming the file if it cannot be written.
@@ -54,10 +48,7 @@ namespace moraine
   void
   write_domain_vtu(const Basis<dim>    &basis,
                    const PointSet<dim> &points,
-                   const std::string   &path,
-                   const double         time,
-                   const unsigned int   step,
-                   const Units         &units = Units());
+                   const VtuTarget     &target);
 } // namespace moraine
 
 #endif

@@ -18,6 +18,15 @@
 
 namespace moraine
 {
+  /** Where the file of a step goes, and what it says of it. */
+  struct VtuTarget
+  {
+    std::string  path;
+    double       time;
+    unsigned int step;
+    Units        units = {}; ///< names of those of the fields
+  };
+
   /**
    * Patches with named fields on their way into a VTU file. deal.II writes;
    * this class only holds what it asks for, a piece of the file at a time: in
@@ -29,9 +38,8 @@ namespace moraine
   public:
     using Patch = dealii::DataOutBase::Patch<patch_dim, dim>;
 
-    /** @p units name those of the fields. */
-    explicit VtuFile(const Units &units = Units())
-      : scene_units(units)
+    explicit VtuFile(const VtuTarget &target)
+      : target(target)
     {}
 
     /** Declare a field of one number; its row is the next one. */
@@ -58,13 +66,10 @@ namespace moraine
      * @p make_patch gives the patches of this rank, from 0 to @p n_patches,
      * each once and in this order; they get their indices here.
      *
-     * @throws InputError naming @p path.
+     * @throws InputError naming the file.
      */
     void
-    write(const std::string                              &path,
-          const double                                    time,
-          const unsigned int                              step,
-          const MPI_Comm                                 &communicator,
+    write(const MPI_Comm                                 &communicator,
           const unsigned int                              n_patches,
           const std::function<Patch(const unsigned int)> &make_patch);
 
@@ -95,7 +100,7 @@ namespace moraine
       const dealii::DataComponentInterpretation::DataComponentInterpretation
         interpretation);
 
-    const Units                        scene_units;
+    const VtuTarget                    target;
     std::vector<Patch>                 patches;
     std::vector<std::string>           names;
     std::map<std::string, std::string> units;

@@ -4,7 +4,7 @@
 #ifndef moraine_run_condition_results_h
 #define moraine_run_condition_results_h
 
-#include <moraine/core/units.h>
+#include <moraine/output/vtu_file.h>
 #include <moraine/run/model.h>
 #include <moraine/scene/scene.h>
 
@@ -42,10 +42,7 @@ namespace moraine
   void
   write_boundary_vtu(const Model<dim>               &model,
                      const std::vector<std::string> &acting,
-                     const std::string              &path,
-                     const double                    time,
-                     const unsigned int              step,
-                     const Units                    &units);
+                     const VtuTarget                &target);
 } // namespace moraine
 
 #endif

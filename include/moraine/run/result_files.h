@@ -64,13 +64,11 @@ namespace moraine
     void
     prepare_series();
 
-    /** Path of the next file of a series. */
-    std::string
-    next_file(const std::string &series) const;
-
-    /** Put that file into the list of its series. */
+    /** Write the next file of a series and put it into its list. */
     void
-    list_file(const std::string &series, const double t);
+    add_file(const std::string                            &series,
+             const double                                  t,
+             const std::function<void(const VtuTarget &)> &write_vtu_file);
 
     using Increments = std::vector<dealii::Tensor<1, dim>>;
 
@@ -84,20 +82,20 @@ namespace moraine
     void
     write_points(const double t);
 
-    const Scene<dim>         &scene;
-    const Model<dim>         &model;
-    const OutputDirectory    &directory;
-    dealii::TimerOutput      &timer;
-    const MPI_Comm            communicator;
-    History                   history;
+    const Scene<dim>      &scene;
+    const Model<dim>      &model;
+    const OutputDirectory &directory;
+    dealii::TimerOutput   &timer;
+    const MPI_Comm         communicator;
+    History                history;
     /** By series: points, mesh, boundaries, domains. */
     std::map<std::string, PvdHistory> lists;
     /** Of conditions that move; see translations_of_conditions(). */
-    NamedTranslations<dim> translations;
-    std::vector<std::string>  acting; ///< boundaries, in the last step
-    unsigned int              n_vtu_written = 0;
-    double                    t_written     = 0; ///< of the last VTU file
-    double                    t_accepted    = 0;
+    NamedTranslations<dim>   translations;
+    std::vector<std::string> acting; ///< boundaries, in the last step
+    unsigned int             n_vtu_written = 0;
+    double                   t_written     = 0; ///< of the last VTU file
+    double                   t_accepted    = 0;
   };
 } // namespace moraine
 
