@@ -9,9 +9,9 @@
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/exceptions.h>
 
-#include <deal.II/base/config.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -21,14 +21,10 @@
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <sstream>
 
 #include <fcntl.h>
+#include <hdf5.h>
 #include <unistd.h>
-
-#ifdef DEAL_II_WITH_HDF5
-#  include <hdf5.h>
-#endif
 
 namespace moraine
 {
@@ -57,7 +53,6 @@ namespace moraine
 
 
 
-#ifdef DEAL_II_WITH_HDF5
     template <class T>
     T
     check(const T result)
@@ -132,9 +127,7 @@ namespace moraine
           sum = (sum ^ word) * prime;
           sum ^= sum >> 32;
         }
-      std::ostringstream text;
-      text << std::hex << sum;
-      return text.str();
+      return fmt::format("{:x}", sum);
     }
 
 
@@ -411,33 +404,6 @@ namespace moraine
         if (name.compare(0, start.size(), start) == 0)
           take(name, read_set(file, name));
     }
-#else
-    class FileInMemory
-    {
-    public:
-      FileInMemory(const std::size_t)
-      {
-        throw InputError("deal.II was built without HDF5");
-      }
-
-      void
-      add(const std::string &, const Archive::DataSet &)
-      {}
-
-      void
-      write(std::ostream &) const
-      {}
-    };
-
-
-
-    template <class Take>
-    void
-    read_sets(const std::string &, const std::string &, const Take &)
-    {
-      throw InputError("deal.II was built without HDF5");
-    }
-#endif
 
 
 

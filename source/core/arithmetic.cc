@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace moraine
 {
@@ -42,13 +40,11 @@ namespace moraine
     std::string
     in_17_digits(const double value)
     {
-      constexpr double   round_off = 4 * std::numeric_limits<double>::epsilon();
-      const double       whole     = std::round(value);
-      std::ostringstream text;
-      text << std::setprecision(17)
-           << (std::abs(value - whole) <= round_off * std::abs(value) ? whole :
-                                                                        value);
-      return text.str();
+      constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+      const double     whole     = std::round(value);
+      const bool       is_whole =
+        std::abs(value - whole) <= round_off * std::abs(value);
+      return text_of(is_whole ? whole : value, 17);
     }
   } // namespace
 

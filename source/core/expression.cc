@@ -5,7 +5,9 @@
 
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/silent_errors.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
@@ -157,9 +159,8 @@ namespace moraine
     for (unsigned int c = 0; c < components.size(); ++c)
       numbers.push_back(parser->value(Point<dim>(), c));
     // value() tells of what is none.
-    if (!std::all_of(numbers.begin(), numbers.end(), [](const double number) {
-          return std::isfinite(number);
-        }))
+    if (!all_of(numbers,
+                [](const double number) { return std::isfinite(number); }))
       numbers.clear();
   }
 
@@ -178,15 +179,10 @@ namespace moraine
     parser->set_time(t);
     const double result = parser->value(p, component);
     if (!std::isfinite(result))
-      {
-        std::ostringstream message;
-        message << origin << ": '" << components[component] << "' is " << result
-                << ", not a finite number, at (" << p << ')';
-        if (with_time)
-          message << " and t = " << t;
-        message << '.';
-        throw InputError(message.str());
-      }
+      throw InputError(origin + ": '" + components[component] + "' is " +
+                       text_of(result) + ", not a finite number, at (" +
+                       coordinates(p) + ")" +
+                       (with_time ? " and t = " + text_of(t) : "") + ".");
     return result;
   }
 
@@ -297,10 +293,9 @@ namespace moraine
             last_value = result;
             return result;
           }
-        std::ostringstream message;
-        message << origin << ": '" << curve_text << "' is " << result
-                << ", not a finite number, at t = " << t << ".";
-        throw InputError(message.str());
+        throw InputError(origin + ": '" + curve_text + "' is " +
+                         text_of(result) +
+                         ", not a finite number, at t = " + text_of(t) + ".");
       }
     return table.value(t);
   }

@@ -6,6 +6,7 @@
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/input_text.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 
 #include <deal.II/base/utilities.h>
@@ -119,15 +120,13 @@ namespace moraine
             const std::string name = Utilities::trim(statement.substr(10));
             if (name.empty() || name.find('/') != std::string::npos ||
                 name.find_first_not_of('.') == std::string::npos)
-              throw InputError(
-                lines[i].origin + ": " + in_section(before) + "found '" +
-                statement + "'; a subsection needs a name without '/'");
+              throw InputError(lines[i].origin + ": " + in_section(before) +
+                               "found '" + statement +
+                               "'; a subsection needs a name without '/'");
             open_sections.push_back({join_path(before, name), lines[i].origin});
-            if (std::none_of(sections.begin(),
-                             sections.end(),
-                             [&](const Line &known) {
-                               return known.text == open_sections.back().text;
-                             }))
+            if (none_of(sections, [&](const Line &known) {
+                  return known.text == open_sections.back().text;
+                }))
               sections.push_back(open_sections.back());
           }
         else if (statement == "end" || statement == "END")
@@ -265,11 +264,9 @@ namespace moraine
   bool
   InputFile::has(const std::string &section, const std::string &key) const
   {
-    return std::any_of(found_entries.begin(),
-                       found_entries.end(),
-                       [&](const Entry &entry) {
-                         return entry.section == section && entry.key == key;
-                       });
+    return any_of(found_entries, [&](const Entry &entry) {
+      return entry.section == section && entry.key == key;
+    });
   }
 
 

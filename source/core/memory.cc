@@ -4,6 +4,7 @@
 #include <moraine/core/memory.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -77,13 +78,10 @@ namespace moraine
     const double available = free_memory();
     if (bytes <= available)
       return "";
-    constexpr double   gib = 1024. * 1024. * 1024.;
-    std::ostringstream message;
-    message.precision(2);
-    message << ", which take at least " << bytes / gib
-            << " GiB, allowed: what fits into the memory that is free, "
-            << available / gib << " GiB";
-    return message.str();
+    constexpr double gib = 1024. * 1024. * 1024.;
+    return ", which take at least " + text_of(bytes / gib, 2) +
+           " GiB, allowed: what fits into the memory that is free, " +
+           text_of(available / gib, 2) + " GiB";
   }
 
 

@@ -3,8 +3,9 @@
 
 #include <moraine/core/patterns.h>
 
+#include <moraine/core/words.h>
+
 #include <regex>
-#include <sstream>
 
 namespace moraine
 {
@@ -200,9 +201,7 @@ namespace moraine
       return "a whole number";
     if (std::regex_match(text, m, number))
       {
-        std::ostringstream tiny;
-        tiny << smallest;
-        if (m[1] == tiny.str())
+        if (m[1] == text_of(smallest))
           return m[2] == "MAX_DOUBLE" ? "a number > 0" :
                                         "a number > 0 and <= " + m[2].str();
         return bounded("a number", m[1], m[2], "-MAX_DOUBLE", "MAX_DOUBLE");

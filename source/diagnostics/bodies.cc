@@ -3,6 +3,7 @@
 
 // Bodies that share cells or nodes, or are thin for their cells.
 
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 
@@ -93,13 +94,12 @@ namespace moraine
             for (const unsigned int v : cell->vertex_indices())
               {
                 const auto &faces = GeometryInfo<dim>::vertex_to_face[v];
-                if (std::all_of(
-                      faces.begin(), faces.end(), [&](const unsigned int f) {
-                        return cell->at_boundary(f) ||
-                               part + parts[cell->neighbor(f)
-                                              ->active_cell_index()] >=
-                                 least_of_pair;
-                      }))
+                if (all_of(faces, [&](const unsigned int f) {
+                      return cell->at_boundary(f) ||
+                             part + parts[cell->neighbor(f)
+                                            ->active_cell_index()] >=
+                               least_of_pair;
+                    }))
                   thick[cell->vertex_index(v)] = true;
               }
         return thick;
@@ -118,7 +118,7 @@ namespace moraine
               const std::vector<double> &held)
       {
         const std::vector<bool> thick = thick_vertices(facts, parts);
-        std::vector<bool> at_edge(thick.size(), false), is_its = at_edge;
+        std::vector<bool>       at_edge(thick.size(), false), is_its = at_edge;
         for (const auto &cell :
              facts.of.mesh.triangulation().active_cell_iterators())
           {
@@ -286,9 +286,9 @@ namespace moraine
             for (unsigned int k = 0; k < block.n_points; ++k)
               if (const unsigned int p = block.points[k];
                   facts.of.points.body(p) == a)
-                found.emplace_back(
-                  facts.of.points.position(p),
-                  0.5 * std::pow(facts.of.points.volume(p), 1. / dim));
+                found.emplace_back(facts.of.points.position(p),
+                                   0.5 * std::pow(facts.of.points.volume(p),
+                                                  1. / dim));
           }
         std::vector<std::pair<Point<dim>, double>> all;
         for (const auto &of_rank :
@@ -347,7 +347,7 @@ namespace moraine
             if (const double gap = distance_between(facts, a, b);
                 std::isfinite(gap))
               worst.take(names[a] + " and " + names[b], gap);
-      return worst.with("they are " + short_number(worst.value) +
+      return worst.with("they are " + text_of(worst.value, 3) +
                         " apart but share nodes and stick together; take "
                         "cells smaller than half of that");
     }
@@ -441,9 +441,8 @@ namespace moraine
               grid.lower_corner[d] +
               (is_upper ? grid.n_cells[d] * grid.cell_size[d] : 0.);
             for (unsigned int b = 0; b < boxes.size(); ++b)
-              if (const double out = is_upper ?
-                                       boxes[b].upper_bound(d) - side :
-                                       side - boxes[b].lower_bound(d);
+              if (const double out = is_upper ? boxes[b].upper_bound(d) - side :
+                                                side - boxes[b].lower_bound(d);
                   facts.of.present[b] && out > limit)
                 return Finding{"bodies-meet",
                                facts.of.body_names[b],
@@ -500,7 +499,8 @@ namespace moraine
     {
       for (const Effect &effect : facts.of.system.effects())
         if (effect.kind == "note")
-          return Finding{"conflicting-constraints", effect.name, 1, 0, effect.text};
+          return Finding{
+            "conflicting-constraints", effect.name, 1, 0, effect.text};
       return {};
     }
 

@@ -145,7 +145,9 @@ namespace moraine
     double work_of_motions = 0;
     for (const auto &report : *all_facts.now.reports)
       work_of_motions += report.work_of_motion;
-    energy.count(all_facts.of.motion->works(), work_of_motions, all_facts.now.t);
+    energy.count(all_facts.of.motion->works(),
+                 work_of_motions,
+                 all_facts.now.t);
     if (all_facts.now.between_parts)
       return;
     if (const double growth = energy.growth(); growth > 0)
@@ -154,8 +156,8 @@ namespace moraine
               growth,
               EnergyBalance::allowed_growth,
               "energy grows without work, by " + per_cent(growth) +
-                " of what was given until t = " +
-                short_number(all_facts.now.t) + "; take shorter steps"});
+                " of what was given until t = " + text_of(all_facts.now.t, 3) +
+                "; take shorter steps"});
   }
 
 
@@ -165,9 +167,10 @@ namespace moraine
   Diagnostics<dim>::stage_begins(const bool bodies_change,
                                  const bool motion_starts)
   {
-    for (const char *const name :
-         {"cell-crossing/stage", "slide/of stage", "lost-hold/of stage",
-          "surface-miss/depth"})
+    for (const char *const name : {"cell-crossing/stage",
+                                   "slide/of stage",
+                                   "lost-hold/of stage",
+                                   "surface-miss/depth"})
       ledger.forget(name);
     if (motion_starts)
       energy.motion_starts();

@@ -137,10 +137,10 @@ namespace moraine
   {
     if (total <= std::max(most_allowed * given, round_off))
       return "";
-    return "at t = " + short_number(time) + " the bodies have the energy " +
-           short_number(total) + ", but the start, loads and motions gave " +
-           short_number(given) + " (without errors at most " +
-           short_number(most_without_errors) + " times that); source: " +
-           source();
+    return "at t = " + text_of(time, 3) + " the bodies have the energy " +
+           text_of(total, 3) + ", but the start, loads and motions gave " +
+           text_of(given, 3) + " (without errors at most " +
+           text_of(most_without_errors, 3) +
+           " times that); source: " + source();
   }
 } // namespace moraine

@@ -3,6 +3,7 @@
 
 #include <moraine/diagnostics/facts.h>
 
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
@@ -47,9 +48,8 @@ namespace moraine
   bool
   Facts<dim>::are_drawn() const
   {
-    return std::all_of(of.bodies.begin(),
-                       of.bodies.end(),
-                       [](const auto &body) { return body.shape != nullptr; });
+    return all_of(of.bodies,
+                  [](const auto &body) { return body.shape != nullptr; });
   }
 
 
@@ -170,12 +170,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template class Facts<dim>;                                          \
-  template std::vector<GridCondition<dim>> acting_conditions(         \
+#define INSTANTIATE(dim)                                               \
+  template class Facts<dim>;                                           \
+  template std::vector<GridCondition<dim>> acting_conditions(          \
     const std::vector<GridCondition<dim>> &, const StageParameters &); \
-  template bool absorbs_in(const StageParameters &,                   \
-                           const Scene<dim> &,                        \
+  template bool absorbs_in(const StageParameters &,                    \
+                           const Scene<dim> &,                         \
                            const AbsorbingBoundary<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -3,18 +3,16 @@
 
 #include <moraine/diagnostics/ledger.h>
 
-#include <algorithm>
-#include <iomanip>
-#include <sstream>
+#include <moraine/core/ranges.h>
+
 
 namespace moraine
 {
   bool
   Ledger::has(const std::string &id) const
   {
-    return std::any_of(all.begin(), all.end(), [&id](const Finding &finding) {
-      return finding.id == id;
-    });
+    return any_of(all,
+                  [&id](const Finding &finding) { return finding.id == id; });
   }
 
 
@@ -48,8 +46,7 @@ namespace moraine
     for (const Finding &finding : all)
       {
         texts.insert(texts.end(), {finding.id, finding.object, finding.text});
-        limits.insert(limits.end(),
-                      {finding.value, finding.limit, finding.t});
+        limits.insert(limits.end(), {finding.value, finding.limit, finding.t});
       }
     for (const auto &[name, value] : numbers)
       {
@@ -83,15 +80,5 @@ namespace moraine
                      limits[3 * k + 2]});
     for (unsigned int k = 0; k < names.size(); ++k)
       numbers[names[k]] = values[k];
-  }
-
-
-
-  std::string
-  short_number(const double value)
-  {
-    std::ostringstream text;
-    text << std::setprecision(3) << value;
-    return text.str();
   }
 } // namespace moraine

@@ -4,6 +4,7 @@
 // What loads, conditions and boundaries act on.
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 #include <moraine/scene/scene_curves.h>
@@ -108,8 +109,8 @@ namespace moraine
     std::optional<Finding>
     coarse_loads(Facts<dim> &facts, Ledger &)
     {
-      if (Utilities::MPI::sum(facts.of.points.n_local(),
-                              facts.communicator()) > most_points)
+      if (Utilities::MPI::sum(facts.of.points.n_local(), facts.communicator()) >
+          most_points)
         return {};
       const TimeParameters &time = facts.now.stage->time;
       for (const auto &force : facts.of.loads.body_forces)
@@ -247,8 +248,8 @@ namespace moraine
           for (unsigned int b = 0; b < areas.size(); ++b)
             {
               all += areas[b];
-              if (facts.of.present[b] && !contains(facts.now.stage->bodies,
-                                                   facts.of.body_names[b]))
+              if (facts.of.present[b] &&
+                  !contains(facts.now.stage->bodies, facts.of.body_names[b]))
                 gone += areas[b];
             }
           areas.assign(areas.size(), 0.);
@@ -268,11 +269,11 @@ namespace moraine
     removed_bodies(Facts<dim> &facts, Ledger &)
     {
       constexpr double allowed = 0.05;
-      const auto &stage = *facts.now.stage, &before = *facts.now.before;
+      const auto      &stage = *facts.now.stage, &before = *facts.now.before;
       if (stage.bodies == before.bodies && stage.loads == before.loads)
         return {};
-      Finding     worst{"removed-body", "", allowed, allowed, ""};
-      const auto  take = [&worst](const std::string &name, const double share) {
+      Finding    worst{"removed-body", "", allowed, allowed, ""};
+      const auto take = [&worst](const std::string &name, const double share) {
         if (share > worst.value)
           {
             worst.object = name;
@@ -388,8 +389,9 @@ namespace moraine
       double
       most_pieces(const std::string &section, const double n, Ledger &ledger)
       {
-        double &most = ledger.number("lost-hold/of stage: pieces of " + section);
-        most         = std::max(most, n);
+        double &most =
+          ledger.number("lost-hold/of stage: pieces of " + section);
+        most = std::max(most, n);
         if (n == 0 && most > 0)
           throw ComputationError("section '" + section +
                                  "': no material is left where it acts; use a "
@@ -405,12 +407,9 @@ namespace moraine
       bool
       has_displacement(const std::string &name, const Facts<dim> &facts)
       {
-        return std::any_of(facts.of.scene.boundaries.begin(),
-                           facts.of.scene.boundaries.end(),
-                           [&name](const auto &named) {
-                             return named.first == name &&
-                                    !named.second.displacement.empty();
-                           });
+        return any_of(facts.of.scene.boundaries, [&name](const auto &named) {
+          return named.first == name && !named.second.displacement.empty();
+        });
       }
     } // namespace
 
@@ -509,13 +508,12 @@ namespace moraine
               ++n;
               const Point<dim> x = facts.of.space.node_position(entry.node);
               if (!of_box || entry.component == *condition.side / 2)
-                largest =
-                  std::max(largest,
-                           std::abs(
-                             condition.increment(x,
-                                                 x,
-                                                 facts.now.stage->time.start_time,
-                                                 facts.now.t)[entry.component]));
+                largest = std::max(
+                  largest,
+                  std::abs(condition.increment(x,
+                                               x,
+                                               facts.now.stage->time.start_time,
+                                               facts.now.t)[entry.component]));
             }
           n = Utilities::MPI::sum(n, facts.communicator());
           double &push =

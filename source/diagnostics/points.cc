@@ -4,6 +4,7 @@
 // What material points fill, whether they stay together and in the mesh.
 
 #include <moraine/basis/body_parts.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace moraine
 {
@@ -103,9 +102,9 @@ namespace moraine
           };
           const auto vertices = cell->vertex_indices();
           if (cell->at_boundary() || drawn[cell->active_cell_index()] > 0 ||
-              !std::all_of(vertices.begin(), vertices.end(), [&](const auto a) {
+              !all_of(vertices, [&](const auto a) {
                 const auto &near = cells_at_vertex[cell->vertex_index(a)];
-                return std::all_of(near.begin(), near.end(), has_points);
+                return all_of(near, has_points);
               }))
             continue;
           const double off =
@@ -133,9 +132,9 @@ namespace moraine
     {
       if (!facts.now.before)
         return {};
-      const auto  &parts  = facts.filled_parts();
-      double       of_new = 0, twice = 0;
-      std::string  names;
+      const auto &parts  = facts.filled_parts();
+      double      of_new = 0, twice = 0;
+      std::string names;
       for (const std::string &body : facts.now.stage->bodies)
         if (facts.is_new(body))
           names += (names.empty() ? "" : ", ") + body;
@@ -192,18 +191,15 @@ namespace moraine
           if (share < smallest_part)
             continue;
           known = parts[b].size();
-          std::ostringstream text;
-          text << "it came apart: " << per_cent(share) << " of it, around ("
-               << std::setprecision(6);
-          for (unsigned int d = 0; d < dim; ++d)
-            text << (d > 0 ? ", " : "") << next.centre[d];
-          text << "), shares no node with the rest; use domains that are "
-                  "split, more points, or larger cells";
           return Finding{"separation",
                          facts.of.body_names[b],
                          share,
                          smallest_part,
-                         text.str()};
+                         "it came apart: " + per_cent(share) +
+                           " of it, around (" +
+                           coordinates(next.centre, 6, ", ") +
+                           "), shares no node with the rest; use domains that "
+                           "are split, more points, or larger cells"};
         }
       return {};
     }
@@ -219,8 +215,7 @@ namespace moraine
       double
       unevenness(const double lambda, const double distance, const bool boxes)
       {
-        return boxes ? lambda * distance :
-                       (lambda - 1) * distance * distance;
+        return boxes ? lambda * distance : (lambda - 1) * distance * distance;
       }
 
 
@@ -252,8 +247,9 @@ namespace moraine
       if (!facts.of.scene.method.points_drift_apart(has_boxes))
         return {};
       const PointSet<dim> &points = facts.of.points;
-      const auto F  = points.fields().find(FieldNames<dim>::deformation_gradient);
-      const auto v0 = points.fields().find(FieldNames<dim>::initial_volume);
+      const auto           F =
+        points.fields().find(FieldNames<dim>::deformation_gradient);
+      const auto   v0 = points.fields().find(FieldNames<dim>::initial_volume);
       const double limit =
         has_boxes ? allowed_stretch_of_boxes : allowed_stretch_of_points;
       const unsigned int  n_bodies = facts.of.body_names.size();
@@ -279,7 +275,7 @@ namespace moraine
                          facts.of.body_names[b],
                          share,
                          smallest_part,
-                         "neighbouring points are " + short_number(largest[b]) +
+                         "neighbouring points are " + text_of(largest[b], 3) +
                            " times as far apart as at first; use domains that "
                            "are split, more points, or larger cells"};
       return {};
@@ -291,17 +287,18 @@ namespace moraine
     std::optional<Finding>
     domains_beyond_cells(Facts<dim> &facts, Ledger &)
     {
-      const auto n =
-        Utilities::MPI::sum(facts.of.basis.n_far_domains(), facts.communicator());
+      const auto n = Utilities::MPI::sum(facts.of.basis.n_far_domains(),
+                                         facts.communicator());
       if (n == 0)
         return {};
-      return Finding{"large-domains",
-                     "",
-                     1. * n,
-                     0,
-                     std::to_string(n) +
-                       " domains reach beyond the cells around their point; "
-                       "'Split domains = true' in section 'Method' halves them"};
+      return Finding{
+        "large-domains",
+        "",
+        1. * n,
+        0,
+        std::to_string(n) +
+          " domains reach beyond the cells around their point; "
+          "'Split domains = true' in section 'Method' halves them"};
     }
 
 

@@ -3,6 +3,7 @@
 
 // Whether strain is small where 'Strain = small' takes it for that.
 
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 #include <moraine/points/linear_fit.h>
@@ -46,8 +47,8 @@ namespace moraine
                      const double            from,
                      const double            to)
       {
-        const Tensor<2, dim> R = motion.pose(to).rotation() *
-                                 transpose(motion.pose(from).rotation());
+        const Tensor<2, dim> R =
+          motion.pose(to).rotation() * transpose(motion.pose(from).rotation());
         return 0.5 * (dim - trace(R));
       }
 
@@ -65,9 +66,9 @@ namespace moraine
             const LameConstants C =
               facts.of.materials[points.body(p)]->elastic_stiffness();
             const auto sigma = points.stress_field()(points.values(p));
-            largest          = std::max(largest,
-                               sigma * C.strain_of(sigma) /
-                                 (4 * (C.lambda + C.mu)));
+            largest =
+              std::max(largest,
+                       sigma * C.strain_of(sigma) / (4 * (C.lambda + C.mu)));
           }
         return std::sqrt(Utilities::MPI::max(largest, facts.communicator()));
       }
@@ -81,9 +82,9 @@ namespace moraine
     {
       if (facts.of.state.strain_measure() != StrainMeasure::small)
         return {};
-      const bool  moves = facts.is_small_and_moves();
-      double     &last  = ledger.number("small-strain/time");
-      const bool  first = ledger.number("small-strain/begun") == 0;
+      const bool   moves  = facts.is_small_and_moves();
+      double      &last   = ledger.number("small-strain/time");
+      const bool   first  = ledger.number("small-strain/begun") == 0;
       const double before = first ? facts.of.scene.start_time() : last;
       ledger.number("small-strain/begun") = 1;
       last                                = facts.now.t;
@@ -91,11 +92,8 @@ namespace moraine
       const auto count = [&](const std::string      &name,
                              const RigidMotion<dim> &motion) {
         if (!motion.turns() ||
-            std::none_of(facts.now.reports->begin(),
-                         facts.now.reports->end(),
-                         [&](const auto &report) {
-                           return report.name == name;
-                         }))
+            none_of(*facts.now.reports,
+                    [&](const auto &report) { return report.name == name; }))
           return;
         const std::string since = "small-strain/since of " + name;
         if (!ledger.has_number(since))
@@ -103,9 +101,7 @@ namespace moraine
         double &strain = ledger.number("small-strain/turn of " + name);
         strain         = moves ?
                            strain + strain_of_turn(motion, before, facts.now.t) :
-                           strain_of_turn(motion,
-                                          ledger.number(since),
-                                          facts.now.t);
+                           strain_of_turn(motion, ledger.number(since), facts.now.t);
         if (strain > worst.value)
           {
             worst.value  = strain;
@@ -122,7 +118,7 @@ namespace moraine
       if (!(worst.value > worst.limit))
         return {};
       worst.text = "small strain takes its turn for a strain, " +
-                   short_number(worst.value) +
+                   text_of(worst.value, 3) +
                    " times the elastic one; use 'Strain = finite'";
       return worst;
     }
@@ -237,9 +233,9 @@ namespace moraine
           double        size = 0, differ = 0;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              size   = std::max(size, of[2 * d] + of[2 * d + 1]);
-              differ = std::max(differ,
-                                of[2 * (dim + d)] + of[2 * (dim + d) + 1]);
+              size = std::max(size, of[2 * d] + of[2 * d + 1]);
+              differ =
+                std::max(differ, of[2 * (dim + d)] + of[2 * (dim + d) + 1]);
             }
           // In dynamics a body that flies as a whole is right.
           const bool moved = of[4 * dim] > size && !facts.of.scene.is_dynamic();
@@ -251,8 +247,7 @@ namespace moraine
                            moved ? 1. : allowed_difference,
                            (moved ? std::string("it has moved by ") :
                                     std::string("its parts have moved by ")) +
-                             short_number((moved ? of[4 * dim] : differ) /
-                                          size) +
+                             text_of((moved ? of[4 * dim] : differ) / size, 3) +
                              " times its size; use 'Strain = finite'"};
         }
       return {};

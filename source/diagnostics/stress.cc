@@ -5,6 +5,7 @@
 
 #include <moraine/diagnostics/stress.h>
 
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 #include <moraine/state/stress_error.h>
@@ -119,8 +120,8 @@ namespace moraine
                        ratio,
                        allowed_jump,
                        "mean stress jumps from cell to cell by " +
-                         short_number(ratio) +
-                         " times the deviatoric stress; " + remedy};
+                         text_of(ratio, 3) + " times the deviatoric stress; " +
+                         remedy};
       }
 
 
@@ -129,7 +130,8 @@ namespace moraine
        * are cut there is nothing to compare with. */
       template <int dim>
       std::optional<Finding>
-      peak_in_cuts(const StressSigns &signs, const MethodParameters<dim> &method)
+      peak_in_cuts(const StressSigns           &signs,
+                   const MethodParameters<dim> &method)
       {
         if (!(signs.elsewhere > 0) ||
             !(signs.in_cuts > allowed_cut * signs.elsewhere))
@@ -141,7 +143,7 @@ namespace moraine
                        ratio,
                        allowed_cut,
                        "stress in cells filled by less than a half is " +
-                         short_number(ratio) + " times that elsewhere; " +
+                         text_of(ratio, 3) + " times that elsewhere; " +
                          (below < 0.5 ? std::string("use 'Aggregate below = ") +
                                           (below < 0.1 ? "0.1'" : "0.5'") :
                                         std::string("take smaller cells"))};
@@ -181,11 +183,9 @@ namespace moraine
         }
       const auto &materials = facts.of.scene.materials;
       if (method.chosen().has_own_internal_force &&
-          std::any_of(materials.begin(),
-                      materials.end(),
-                      [](const auto &named) {
-                        return named.second.hardly_changes_volume();
-                      }))
+          any_of(materials, [](const auto &named) {
+            return named.second.hardly_changes_volume();
+          }))
         return Finding{"stress-oscillation",
                        "",
                        1,

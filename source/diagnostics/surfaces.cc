@@ -4,6 +4,7 @@
 // Which part of a body a boundary holds, and how well.
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/diagnostics/checks.h>
 
@@ -56,17 +57,14 @@ namespace moraine
                    const Point<dim>            &x,
                    const double                 depth)
       {
-        return std::any_of(
-          facts.of.boundaries.begin(),
-          facts.of.boundaries.end(),
-          [&](const auto &other) {
-            if (other.name() == boundary.name() ||
-                !contains(facts.now.stage->boundaries, other.name()))
-              return false;
-            const NearestPoint<dim> nearest = other.nearest_at_start(x);
-            return nearest.in_extent && std::abs(nearest.level - depth) <
-                                          same_level * facts.cell_size();
-          });
+        return any_of(facts.of.boundaries, [&](const auto &other) {
+          if (other.name() == boundary.name() ||
+              !contains(facts.now.stage->boundaries, other.name()))
+            return false;
+          const NearestPoint<dim> nearest = other.nearest_at_start(x);
+          return nearest.in_extent && std::abs(nearest.level - depth) <
+                                        same_level * facts.cell_size();
+        });
       }
 
 
@@ -124,8 +122,9 @@ namespace moraine
                      const Facts<dim>            &facts)
       {
         const PointSet<dim> &points = facts.of.points;
-        const bool   embedded = layer_along(boundary, facts).share_behind() > 0.25;
-        const double step     = 0.1 * facts.cell_size();
+        const bool           embedded =
+          layer_along(boundary, facts).share_behind() > 0.25;
+        const double        step = 0.1 * facts.cell_size();
         std::vector<double> own(facts.of.mesh.triangulation().n_active_cells(),
                                 0.),
           sums(2, 0.); // past its ends, its own
@@ -138,15 +137,15 @@ namespace moraine
           {
             const double of_cell = own[in_cell.cell->active_cell_index()];
             double       volume = 0, moment = 0; // of a layer past the ends
-            for (unsigned int p = in_cell.first; of_cell > 0 && p < in_cell.last;
+            for (unsigned int p = in_cell.first;
+                 of_cell > 0 && p < in_cell.last;
                  ++p)
               {
-                const Point<dim>       &x = points.position(p);
+                const Point<dim>       &x       = points.position(p);
                 const NearestPoint<dim> nearest = boundary.nearest_at_start(x);
                 if (nearest.level <= 0 || nearest.in_extent ||
-                    facts.in_a_body(x +
-                                    (nearest.level + step) * nearest.normal) !=
-                      embedded ||
+                    facts.in_a_body(x + (nearest.level + step) *
+                                          nearest.normal) != embedded ||
                     is_continued(boundary, facts, x, nearest.level))
                   continue;
                 volume += points.volume(p);
@@ -201,19 +200,20 @@ namespace moraine
                 const Tensor<1, dim> outward =
                   face->center() - in_cell.cell->center();
                 const double h = 2 * outward.norm();
-                n[0] += facts.of.points.gap_before(
-                          in_cell.cell->active_cell_index(),
-                          face->center(),
-                          2 / h * outward,
-                          h) > allowed_gap * h;
+                n[0] +=
+                  facts.of.points.gap_before(in_cell.cell->active_cell_index(),
+                                             face->center(),
+                                             2 / h * outward,
+                                             h) > allowed_gap * h;
                 ++n[1];
               }
           Utilities::MPI::sum(n, facts.communicator(), n);
           worst.take(condition.name, n[1] > 0 ? 1. * n[0] / n[1] : 0.);
         }
-      return worst.with(per_cent(worst.value) +
-                        " of its faces are off the body but hold it; end the "
-                        "body on faces of cells, or hold its rim by a boundary");
+      return worst.with(
+        per_cent(worst.value) +
+        " of its faces are off the body but hold it; end the "
+        "body on faces of cells, or hold its rim by a boundary");
     }
 
 
@@ -290,7 +290,8 @@ namespace moraine
           if (!contains(facts.now.stage->boundaries, boundary.name()))
             continue;
           // 1: nothing was beside its ends as it began.
-          const std::string name = "surface-coverage/watched " + boundary.name();
+          const std::string name =
+            "surface-coverage/watched " + boundary.name();
           if (!ledger.has_number(name))
             ledger.number(name) = depth_past_ends(boundary, facts, true) < 0;
           if (ledger.number(name) != 0 && facts.now.reports)
@@ -317,11 +318,12 @@ namespace moraine
         double              least = facts.cell_size();
         for (const auto &point : boundary.points())
           {
-            const double gap = std::max(
-              facts.of.points.gap_before(
-                point.cell, point.x, point.normal, point.h),
-              0.);
-            least = std::min(least, gap);
+            const double gap = std::max(facts.of.points.gap_before(point.cell,
+                                                                   point.x,
+                                                                   point.normal,
+                                                                   point.h),
+                                        0.);
+            least            = std::min(least, gap);
             sums[0] += gap * point.JxW;
             sums[1] += point.JxW;
           }
@@ -345,8 +347,7 @@ namespace moraine
             const auto [mean, least] = gaps_before(boundary, facts);
             worst.take(boundary.name(), facts.now.before ? mean : least);
           }
-      return worst.with("as it begins, the body is " +
-                        short_number(worst.value) +
+      return worst.with("as it begins, the body is " + text_of(worst.value, 3) +
                         " away from it and is held across the gap; draw it on "
                         "the rim of the body");
     }
@@ -367,7 +368,7 @@ namespace moraine
             share = layer.share_behind();
       return worst.with("as it begins, " + per_cent(share) +
                         " of the material along it lies behind it, up to " +
-                        short_number(worst.value) +
+                        text_of(worst.value, 3) +
                         " deep; draw it on the rim of the body");
     }
 
@@ -398,7 +399,7 @@ namespace moraine
         if (!facts.has_inertia() &&
             report.violation > allowed_share_of_cell * facts.cell_size())
           worst.take(report.name, report.violation / facts.now.point_motion);
-      return worst.with("in the step to t = " + short_number(facts.now.t) +
+      return worst.with("in the step to t = " + text_of(facts.now.t, 3) +
                         " the body misses it by " + per_cent(worst.value) +
                         " of the largest motion; take smaller cells or steps");
     }
@@ -419,13 +420,12 @@ namespace moraine
         }
       if (worst.value > most_passing * facts.cell_size())
         throw ComputationError(
-          "material is " + short_number(worst.value) + " behind '" +
-          worst.object + "' at t = " + short_number(facts.now.t) +
+          "material is " + text_of(worst.value, 3) + " behind '" +
+          worst.object + "' at t = " + text_of(facts.now.t, 3) +
           " and no longer held; take smaller cells or steps, or set its "
           "'Penetration limit'");
-      return worst.with("material has passed it by " +
-                        short_number(worst.value) + " in the step to t = " +
-                        short_number(facts.now.t) +
+      return worst.with("material has passed it by " + text_of(worst.value, 3) +
+                        " in the step to t = " + text_of(facts.now.t, 3) +
                         ", so that its force is too small; take smaller cells");
     }
 

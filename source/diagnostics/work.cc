@@ -39,8 +39,8 @@ namespace moraine
         const PointSet<dim> &points  = facts.of.points;
         double               largest = 0;
         for (unsigned int p = 0; p < points.n_local(); ++p)
-          largest = std::max(largest,
-                             points.stress_field()(points.values(p)).norm());
+          largest =
+            std::max(largest, points.stress_field()(points.values(p)).norm());
         return Utilities::MPI::max(largest, facts.communicator()) >
                unstressed * facts.largest_modulus();
       }
@@ -53,7 +53,7 @@ namespace moraine
     cell_crossing(Facts<dim> &facts, Ledger &ledger)
     {
       // What begins to act in a stage is out of balance with a right.
-      double    &begins = ledger.number("cell-crossing/stage has begun");
+      double    &begins  = ledger.number("cell-crossing/stage has begun");
       const bool goes_on = begins != 0;
       begins             = 1;
       if (!goes_on || facts.now.stage->time.integrator.dynamic() ||
@@ -114,16 +114,16 @@ namespace moraine
           facts.now.follows_path ||
           facts.of.state.mesh_after_step() == MeshAfterStep::keep)
         return {};
-      const double motion = facts.now.node_motion;
-      const double rate   = motion / std::abs(facts.now.t - before);
-      double &fastest = number("of stage: fastest"),
-             &n_steps = number("of stage: steps"),
-             &n_fast = number("of stage: fast steps"),
-             &n_as_fast = number("of stage: as fast"),
-             &slid_by = number("of stage: slid by"),
-             &fast_rate = number("of stage: fast rate"),
-             &fast_time = number("of stage: fast time");
-      const bool rests = n_fast > 0 && rate < rests_below * fast_rate;
+      const double motion  = facts.now.node_motion;
+      const double rate    = motion / std::abs(facts.now.t - before);
+      double      &fastest = number("of stage: fastest"),
+             &n_steps      = number("of stage: steps"),
+             &n_fast       = number("of stage: fast steps"),
+             &n_as_fast    = number("of stage: as fast"),
+             &slid_by      = number("of stage: slid by"),
+             &fast_rate    = number("of stage: fast rate"),
+             &fast_time    = number("of stage: fast time");
+      const bool rests     = n_fast > 0 && rate < rests_below * fast_rate;
       if (n_steps++ >= steps_before && rate > slide_ratio * fastest &&
           fastest > next_to_none * rate && n_fast < most_fast &&
           !(rests && n_as_fast >= least_fast))
@@ -144,7 +144,7 @@ namespace moraine
                  "",
                  fast_rate / fastest,
                  slide_ratio,
-                 "material slid in the step to t = " + short_number(fast_time) +
+                 "material slid in the step to t = " + text_of(fast_time, 3) +
                    ": a limit load is passed; find it by 'Kind = factor of "
                    "safety' in section 'Study'"};
       fastest = std::max(fastest, rests ? rate : std::max(rate, fast_rate));

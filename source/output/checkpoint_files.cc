@@ -6,15 +6,17 @@
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/version.h>
+#include <moraine/core/words.h>
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <sstream>
 
 namespace moraine
@@ -34,10 +36,7 @@ namespace moraine
     std::string
     in_words(const CheckpointLabel &label)
     {
-      std::ostringstream text;
-      text << "step " << label.step << " (t = " << std::setprecision(8)
-           << label.t << ")";
-      return text.str();
+      return fmt::format("step {} (t = {:.8g})", label.step, label.t);
     }
 
 

@@ -5,12 +5,12 @@
 
 #include <moraine/core/atomic_file.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/output/on_root.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -55,9 +55,8 @@ namespace moraine
     {
       const std::string number = file.stem().string();
       return file.extension() == ".vtu" && number.size() >= 5 &&
-             std::all_of(number.begin(), number.end(), [](unsigned char c) {
-               return std::isdigit(c) != 0;
-             });
+             all_of(number,
+                    [](unsigned char c) { return std::isdigit(c) != 0; });
     }
 
     /** Results in @p folder that a run has written. */

@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/output/component_names.h>
 
@@ -12,9 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace moraine
 {
@@ -128,6 +127,52 @@ namespace moraine
                          suggest(parameters.body, body_names));
       return found - body_names.begin();
     }
+
+
+
+    /** The body of a point, known on one rank. Collective. */
+    template <int dim>
+    unsigned int
+    body_of(const unsigned int id, const PointSet<dim> &points)
+    {
+      unsigned int body = numbers::invalid_unsigned_int;
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        if (points.id(p) == id)
+          body = points.body(p);
+      return Utilities::MPI::min(
+        body, points.mesh().triangulation().get_communicator());
+    }
+
+
+
+    /** Whether @p body has points by now. Collective. */
+    template <int dim>
+    bool
+    is_there(const unsigned int body, const PointSet<dim> &points)
+    {
+      unsigned int found = 0;
+      for (unsigned int p = 0; p < points.n_local() && found == 0; ++p)
+        found = points.body(p) == body;
+      return Utilities::MPI::max(
+               found, points.mesh().triangulation().get_communicator()) > 0;
+    }
+
+
+
+    /** The displacement of a point, known on one rank. Collective. */
+    template <int dim>
+    Tensor<1, dim>
+    displacement_of(const unsigned int id, const PointSet<dim> &points)
+    {
+      Tensor<1, dim> u;
+      for (unsigned int p = 0; p < points.n_local(); ++p)
+        if (points.id(p) == id)
+          std::copy_n(points.values(p) + points.displacement_offset(),
+                      dim,
+                      u.begin_raw());
+      return Utilities::MPI::sum(
+        u, points.mesh().triangulation().get_communicator());
+    }
   } // namespace
 
 
@@ -197,76 +242,27 @@ namespace moraine
 
 
   template <int dim>
-  unsigned int
-  Probes<dim>::body_of(const unsigned int id, const PointSet<dim> &points) const
-  {
-    unsigned int body = numbers::invalid_unsigned_int;
-    for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.id(p) == id)
-        body = points.body(p);
-    return Utilities::MPI::min(
-      body, points.mesh().triangulation().get_communicator());
-  }
-
-
-
-  template <int dim>
-  bool
-  Probes<dim>::is_there(const unsigned int   body,
-                        const PointSet<dim> &points) const
-  {
-    unsigned int found = 0;
-    for (unsigned int p = 0; p < points.n_local() && found == 0; ++p)
-      found = points.body(p) == body;
-    return Utilities::MPI::max(
-             found, points.mesh().triangulation().get_communicator()) > 0;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  Probes<dim>::displacement_of(const unsigned int   id,
-                               const PointSet<dim> &points) const
-  {
-    Tensor<1, dim> u;
-    for (unsigned int p = 0; p < points.n_local(); ++p)
-      if (points.id(p) == id)
-        std::copy_n(points.values(p) + points.displacement_offset(),
-                    dim,
-                    u.begin_raw());
-    return Utilities::MPI::sum(
-      u, points.mesh().triangulation().get_communicator());
-  }
-
-
-
-  template <int dim>
   void
   Probes<dim>::check_places(const PlaceFunction<dim> &on_material,
                             const bool                bodies_are_away) const
   {
     for (const Probe &probe : probes)
       {
-        Tensor<1, dim>     unused;
-        std::ostringstream found;
-        found << place("Probes/" + probe.parameters.name, "Location")
-              << ": found (" << probe.start << "), ";
+        const std::string &body = probe.parameters.body;
+        const std::string  found =
+          place("Probes/" + probe.parameters.name, "Location") + ": found (" +
+          coordinates(probe.start) + "), ";
         if (probe.follows_point() && probe.distance > 2. * cell_size)
-          {
-            found << "which is " << std::setprecision(4) << probe.distance
-                  << " from the nearest point"
-                  << (probe.parameters.body.empty() ?
-                        "" :
-                        " of '" + probe.parameters.body + "'")
-                  << ", allowed: a place on or beside "
-                  << (probe.parameters.body.empty() ? "a body" : "it")
-                  << ", less than two cells away";
-            throw InputError(found.str());
-          }
+          throw InputError(found + "which is " + text_of(probe.distance, 4) +
+                           " from the nearest point" +
+                           (body.empty() ? "" : " of '" + body + "'") +
+                           ", allowed: a place on or beside " +
+                           (body.empty() ? "a body" : "it") +
+                           ", less than two cells away");
+        Tensor<1, dim> unused;
         if (!probe.follows_point() && !on_material(probe.start, unused) &&
             !bodies_are_away)
-          throw InputError(found.str() +
+          throw InputError(found +
                            "where there is no material, allowed with 'Kind = "
                            "interpolated': a place on a body");
       }
@@ -297,9 +293,8 @@ namespace moraine
   bool
   Probes<dim>::any_interpolated() const
   {
-    return std::any_of(probes.begin(), probes.end(), [](const Probe &probe) {
-      return !probe.follows_point();
-    });
+    return any_of(probes,
+                  [](const Probe &probe) { return !probe.follows_point(); });
   }
 
 

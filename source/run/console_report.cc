@@ -11,11 +11,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 
 namespace moraine
 {
@@ -39,35 +39,192 @@ namespace moraine
 
 
 
-    template <int dim>
-    void
-    print_step(const AcceptedStep<dim> &step,
-               const bool               residuals,
-               std::ostream            &out)
+    std::string
+    name_of(const Finding &finding)
     {
-      std::ostringstream line;
-      line << "  step " << std::setw(4) << step.time.n_accepted()
-           << "  t = " << std::setw(10) << std::left << std::setprecision(6)
-           << step.time.time() << std::right << "  iterations "
-           << step.newton.iterations;
-      if (step.newton.linear_iterations > 0)
-        line << " (linear " << step.newton.linear_iterations << ")";
-      line << "  residual " << std::scientific << std::setprecision(1)
-           << (step.newton.residuals.empty() ? 0. :
-                                               step.newton.residuals.back());
-      if (step.newton.observed_order > 0)
-        line << "  order " << std::fixed << std::setprecision(2)
-             << step.newton.observed_order;
-      if (!step.newton.message.empty())
-        line << "\n      " << step.newton.message;
+      return finding.id +
+             (finding.object.empty() ? "" : " (" + finding.object + ")");
+    }
+
+
+
+    std::string
+    line_of(const Finding &finding)
+    {
+      const bool warns =
+        diagnostic(finding.id, "").severity == Severity::warning;
+      return fmt::format("  {:12}{}: {}\n",
+                         warns ? "warning" : "hint",
+                         name_of(finding),
+                         finding.text);
+    }
+
+
+
+    template <int dim>
+    std::string
+    line_of(const AcceptedStep<dim> &step, const bool residuals)
+    {
+      const NewtonReport &newton = step.newton;
+      std::string         line =
+        fmt::format("  step {:4}  t = {:<10.6g}  iterations {}",
+                    step.time.n_accepted(),
+                    step.time.time(),
+                    newton.iterations);
+      if (newton.linear_iterations > 0)
+        line += fmt::format(" (linear {})", newton.linear_iterations);
+      line +=
+        fmt::format("  residual {:.1e}",
+                    newton.residuals.empty() ? 0. : newton.residuals.back());
+      if (newton.observed_order > 0)
+        line += fmt::format("  order {:.2f}", newton.observed_order);
+      if (!newton.message.empty())
+        line += "\n      " + newton.message;
       if (residuals)
+        line += fmt::format("\n      residuals {:.2e}",
+                            fmt::join(newton.residuals, " "));
+      return line;
+    }
+
+
+
+    void
+    print_counts(const Summary   &summary,
+                 const RunCounts &counts,
+                 Console         &console)
+    {
+      console << fmt::format(
+        "\n  {} rejected steps, {}{} Newton iterations, {}{:.4g} MiB at most\n",
+        summary.rejected_steps,
+        summary.n_pseudo_transient > 0 ?
+          std::to_string(summary.n_pseudo_transient) + " pseudo-transient, " :
+          "",
+        summary.newton_iterations,
+        counts.linear_solver.empty() ? "" : counts.linear_solver + ", ",
+        summary.sizes.peak_memory_mib);
+      if (const auto &ghost_term = summary.quality.ghost_term)
+        console << fmt::format(
+          "  ghost term: at most {:.2g} % of the forces and "
+          "{:.2g} % of the work of a step\n",
+          100 * ghost_term->of_forces,
+          100 * ghost_term->of_work);
+    }
+
+
+
+    void
+    print_results(const Summary &summary, Console &console)
+    {
+      const auto line = [&console](const std::string         &what,
+                                   const std::vector<double> &values) {
+        console << fmt::format("  {:24} {:12.5g}\n",
+                               what,
+                               fmt::join(values, " "));
+      };
+      const auto share = [&console](const std::string           &what,
+                                    const std::optional<double> &value,
+                                    const std::string           &remark) {
+        if (value)
+          console << fmt::format("  {:24} {:>12}{}\n",
+                                 what,
+                                 per_cent(*value),
+                                 remark);
+      };
+      console << fmt::format("\n  results at t = {:.6g}\n", summary.time);
+      for (const auto &[name, force] : summary.last.reactions)
+        line("force of " + name, force);
+      for (const auto &[name, value] : summary.last.probes)
+        line(name, {value});
+      line("largest displacement", {summary.quality.largest_displacement});
+      share("plastic share of bodies", summary.quality.plastic_share, "");
+      share("error of stress",
+            summary.quality.stress_error,
+            " (estimate, energy norm)");
+    }
+
+
+
+    void
+    print_timings(const Summary  &summary,
+                  const SavedRun *saved,
+                  Console        &console)
+    {
+      // The clock of a run that goes on begins anew.
+      const std::string since =
+        saved ? "since step " + std::to_string(saved->label.step) : "";
+      console << fmt::format("\n  {:24}{:>10}{:>8}\n",
+                             since.empty() ? "part" : "part, " + since,
+                             "seconds",
+                             "share");
+      double rest = summary.wall_seconds;
+      for (const auto &[name, seconds] : summary.timings)
+        rest -= seconds;
+      auto parts = summary.timings;
+      parts.emplace_back("not covered", rest);
+      for (const auto &[name, seconds] : parts)
+        console << fmt::format("  {:24}{:10.3f}{:7.1f} %\n",
+                               name,
+                               seconds,
+                               100 * seconds /
+                                 std::max(summary.wall_seconds, 1e-12));
+      console << fmt::format("  {:24}{:10.3f}\n",
+                             since.empty() ? "whole run" : "all " + since,
+                             summary.wall_seconds);
+    }
+
+
+
+    void
+    print_errors(const Summary &summary, Console &console)
+    {
+      console << "\n  error against the exact solution\n";
+      for (const auto &[name, value] : summary.errors)
+        console << (value ?
+                      fmt::format("  {:24}{:12.3e}\n", name, *value) :
+                      fmt::format("  {:24}   (exact value is zero)\n", name));
+    }
+
+
+
+    void
+    print_energy(const Summary &summary, Console &console)
+    {
+      console << "\n  energy at the end      force length\n";
+      for (const auto &[name, value] : summary.energy)
         {
-          line << std::scientific << std::setprecision(2)
-               << "\n      residuals";
-          for (const double residual : step.newton.residuals)
-            line << ' ' << residual;
+          std::string words = name;
+          std::replace(words.begin(), words.end(), '_', ' ');
+          console << (name == "balance_error" ?
+                        fmt::format("  out of balance by      {:.2g} of the "
+                                    "largest\n",
+                                    value) :
+                        fmt::format("  {:22} {:.4g}\n", words, value));
         }
-      out << line.str() << std::endl;
+    }
+
+
+
+    void
+    print_warnings(const Summary &summary, Console &console)
+    {
+      for (const Finding &finding : summary.found.warnings)
+        console << line_of(finding);
+      if (summary.status != "ok")
+        console << "  ended early: " << summary.message << '\n';
+      const auto count = [](const std::size_t n, const std::string &what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+      };
+      console << fmt::format("  {}{} in {:.3g} s",
+                             summary.status == "ok" ? "done: " : "",
+                             count(summary.steps, "step"),
+                             summary.wall_seconds);
+      std::vector<std::string> names;
+      for (const Finding &finding : summary.found.warnings)
+        names.push_back(name_of(finding));
+      if (!names.empty())
+        console << ", " << count(names.size(), "warning") << ": "
+                << list_of(names) << "; see 'moraine explain ID'";
+      console.stream() << std::endl;
     }
   } // namespace
 
@@ -122,19 +279,22 @@ namespace moraine
   {
     const auto &[name, stage]  = scene.stages[k];
     const TimeParameters &time = stage.time;
-    console << (name.empty() ? "  steps       " :
-                               "  stage       " + name + ", ")
-            << std::defaultfloat << time.n_steps
-            << (name.empty()      ? "" :
-                time.n_steps == 1 ? " step" :
-                                    " steps")
-            << " from t = " << time.start_time << " to " << time.end_time;
+    console << fmt::format("  {:12}{}{}{} from t = {:.8g} to {:.8g}",
+                           name.empty() ? "steps" : "stage",
+                           name.empty() ? "" : name + ", ",
+                           time.n_steps,
+                           name.empty()      ? "" :
+                           time.n_steps == 1 ? " step" :
+                                               " steps",
+                           time.start_time,
+                           time.end_time);
     if (time.follows_path())
-      console << ", along the path by " << time.arc_length << " each";
+      console << fmt::format(", along the path by {:.8g} each",
+                             time.arc_length);
     if (time.integrator.dynamic())
-      console << ", " << time.integrator.integrator << ", Courant number "
-              << std::setprecision(3) << courant_number(time)
-              << std::setprecision(8);
+      console << fmt::format(", {}, Courant number {:.3g}",
+                             time.integrator.integrator,
+                             courant_number(time));
     if (k > 0)
       console << change_of_bodies(stage, scene.stages[k - 1].second);
     if (!stage.absorbing.empty())
@@ -215,8 +375,9 @@ namespace moraine
       }
     console << '\n';
     for (unsigned int b = 0; b < model.body_names.size(); ++b)
-      console << "  body        " << model.body_names[b] << ", volume "
-              << std::setprecision(8) << model.body_volumes[b] << '\n';
+      console << fmt::format("  body        {}, volume {:.8g}\n",
+                             model.body_names[b],
+                             model.body_volumes[b]);
   }
 
 
@@ -227,8 +388,7 @@ namespace moraine
   {
     for (const Effect &effect : model.system->effects())
       if (!effect.kind.empty())
-        console << "  " << std::setw(12) << std::left << effect.kind
-                << std::right << effect.text << '\n';
+        console << fmt::format("  {:12}{}\n", effect.kind, effect.text);
   }
 
 
@@ -250,12 +410,11 @@ namespace moraine
   ConsoleReport<dim>::run_resumes(const TimeControl &time)
   {
     begun = time.coordinate();
-    std::ostringstream text;
-    text << "goes on after step " << time.n_accepted()
-         << ", t = " << std::setprecision(6) << time.time() << ", on "
-         << Utilities::MPI::n_mpi_processes(model.space->communicator())
-         << " process(es)";
-    note(text.str());
+    note(fmt::format("goes on after step {}, t = {:.6g}, on {} process(es)",
+                     time.n_accepted(),
+                     time.time(),
+                     Utilities::MPI::n_mpi_processes(
+                       model.space->communicator())));
     since_start.restart();
   }
 
@@ -291,14 +450,13 @@ namespace moraine
   ConsoleReport<dim>::step_accepted(const AcceptedStep<dim> &step)
   {
     if (step.pseudo_transient)
-      {
-        std::ostringstream text;
-        text << std::setprecision(8) << "no way on from t = " << step.t_start
-             << "; came to rest at an equilibrium " << *step.pseudo_transient
-             << " away";
-        in_detail([&]() { note(text.str()); });
-      }
-    print_step(step, scene.output.residuals, console.stream());
+      in_detail([&]() {
+        note(fmt::format("no way on from t = {:.8g}; came to rest at an "
+                         "equilibrium {:.8g} away",
+                         step.t_start,
+                         *step.pseudo_transient));
+      });
+    console << line_of(step, scene.output.residuals) << std::endl;
     in_detail([this]() {
       for (const std::string &text : model.probes->news())
         note(text);
@@ -312,24 +470,25 @@ namespace moraine
   ConsoleReport<dim>::newton_iteration(const NewtonIteration &iteration,
                                        const TimeControl     &time)
   {
-    std::ostringstream line;
-    line << std::scientific << std::setprecision(1);
-    if (options.verbosity == Verbosity::verbose)
+    if (options.verbosity != Verbosity::verbose)
       {
-        line << "      iteration " << iteration.number << "  residual "
-             << iteration.residual;
-        if (iteration.linear_iterations > 0)
-          line << "  linear " << iteration.linear_iterations;
-        if (iteration.length < 1)
-          line << "  length " << std::defaultfloat << iteration.length;
-        console << line.str() << std::endl;
+        console.progress(
+          fmt::format("  step {}  t = {:.6g}  iteration {}  residual {:.1e}{}",
+                      time.n_accepted() + 1,
+                      time.trial_time(),
+                      iteration.number,
+                      iteration.residual,
+                      time_left(time)));
         return;
       }
-    line << "  step " << time.n_accepted() + 1 << "  t = " << std::defaultfloat
-         << std::setprecision(6) << time.trial_time() << "  iteration "
-         << iteration.number << "  residual " << std::scientific
-         << std::setprecision(1) << iteration.residual << time_left(time);
-    console.progress(line.str());
+    console << fmt::format("      iteration {}  residual {:.1e}",
+                           iteration.number,
+                           iteration.residual);
+    if (iteration.linear_iterations > 0)
+      console << "  linear " << iteration.linear_iterations;
+    if (iteration.length < 1)
+      console << fmt::format("  length {:.1g}", iteration.length);
+    console.stream() << std::endl;
   }
 
 
@@ -342,16 +501,12 @@ namespace moraine
       (time.coordinate() - begun) / (time.last_coordinate() - begun);
     if (!(done > 0))
       return "";
-    const double       seconds = since_start.wall_time() * (1 - done) / done;
-    std::ostringstream text;
-    text << "  about " << std::fixed << std::setprecision(0);
-    if (seconds < 100)
-      text << seconds << " s";
-    else if (seconds < 6000)
-      text << seconds / 60 << " min";
-    else
-      text << seconds / 3600 << " h";
-    return text.str() + " left";
+    const double seconds = since_start.wall_time() * (1 - done) / done;
+    return seconds < 100 ?
+             fmt::format("  about {:.0f} s left", seconds) :
+           seconds < 6000 ?
+             fmt::format("  about {:.0f} min left", seconds / 60) :
+             fmt::format("  about {:.0f} h left", seconds / 3600);
   }
 
 
@@ -360,7 +515,8 @@ namespace moraine
   void
   ConsoleReport<dim>::step_rejected(const double t, const std::string &reason)
   {
-    console << "  step to t = " << t << " rejected: " << reason << std::endl;
+    console << fmt::format("  step to t = {:.8g} rejected: {}", t, reason)
+            << std::endl;
   }
 
 
@@ -390,13 +546,7 @@ namespace moraine
   void
   ConsoleReport<dim>::print(const Finding &finding)
   {
-    console << "  " << std::setw(12) << std::left
-            << (diagnostic(finding.id, "").severity == Severity::warning ?
-                  "warning" :
-                  "hint")
-            << std::right << finding.id
-            << (finding.object.empty() ? "" : " (" + finding.object + ")")
-            << ": " << finding.text << '\n';
+    console << line_of(finding);
   }
 
 
@@ -415,171 +565,16 @@ namespace moraine
   ConsoleReport<dim>::run_ends(const Summary &summary, const RunCounts &counts)
   {
     in_detail([&]() {
-      print_timings(summary);
-      print_counts(summary, counts);
+      print_timings(summary, options.saved, console);
+      print_counts(summary, counts, console);
       if (!summary.energy.empty())
-        print_energy(summary);
+        print_energy(summary, console);
     });
-    print_results(summary);
+    print_results(summary, console);
     if (!summary.errors.empty())
-      print_errors(summary);
+      print_errors(summary, console);
     console.set_quiet(false);
-    print_warnings(summary);
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_counts(const Summary   &summary,
-                                   const RunCounts &counts)
-  {
-    console << "\n  " << summary.rejected_steps << " rejected steps, "
-            << (summary.n_pseudo_transient > 0 ?
-                  std::to_string(summary.n_pseudo_transient) +
-                    " pseudo-transient, " :
-                  "")
-            << summary.newton_iterations << " Newton iterations, "
-            << (counts.linear_solver.empty() ? "" : counts.linear_solver + ", ")
-            << std::setprecision(4) << summary.sizes.peak_memory_mib
-            << " MiB at most\n";
-    if (summary.quality.ghost_term)
-      console << "  ghost term: at most " << std::setprecision(2)
-              << 100 * summary.quality.ghost_term->of_forces
-              << " % of the forces and "
-              << 100 * summary.quality.ghost_term->of_work
-              << " % of the work of a step\n";
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_results(const Summary &summary)
-  {
-    const auto line = [this](const std::string &what) -> std::ostream & {
-      return console << "  " << std::setw(24) << std::left << what
-                     << std::right << std::setprecision(5);
-    };
-    console << "\n  results at t = " << std::setprecision(6) << summary.time
-            << '\n';
-    for (const auto &[name, force] : summary.last.reactions)
-      {
-        line("force of " + name);
-        for (const double component : force)
-          console << ' ' << std::setw(12) << component;
-        console << '\n';
-      }
-    for (const auto &[name, value] : summary.last.probes)
-      line(name) << ' ' << std::setw(12) << value << '\n';
-    line("largest displacement")
-      << ' ' << std::setw(12) << summary.quality.largest_displacement << '\n';
-    if (summary.quality.plastic_share)
-      line("plastic share of bodies")
-        << ' ' << std::setw(12) << per_cent(*summary.quality.plastic_share)
-        << '\n';
-    if (summary.quality.stress_error)
-      line("error of stress")
-        << ' ' << std::setw(12) << per_cent(*summary.quality.stress_error)
-        << " (estimate, energy norm)\n";
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_warnings(const Summary &summary)
-  {
-    for (const Finding &finding : summary.found.warnings)
-      print(finding);
-    if (summary.status != "ok")
-      console << "  ended early: " << summary.message << '\n';
-    console << "  " << (summary.status == "ok" ? "done: " : "")
-            << summary.steps << (summary.steps == 1 ? " step" : " steps")
-            << " in " << std::setprecision(3) << summary.wall_seconds << " s";
-    if (!summary.found.warnings.empty())
-      {
-        console << ", " << summary.found.warnings.size()
-                << (summary.found.warnings.size() == 1 ? " warning: " :
-                                                   " warnings: ");
-        std::vector<std::string> names;
-        for (const Finding &finding : summary.found.warnings)
-          names.push_back(finding.id + (finding.object.empty() ?
-                                          "" :
-                                          " (" + finding.object + ")"));
-        console << list_of(names) << "; see 'moraine explain ID'";
-      }
-    console.stream() << std::endl;
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_timings(const Summary &summary)
-  {
-    // The clock of a run that goes on begins anew.
-    const std::string since =
-      options.saved ?
-        "since step " + std::to_string(options.saved->label.step) :
-        "";
-    console << "\n  " << std::left << std::setw(24)
-            << (since.empty() ? "part" : "part, " + since) << std::right
-            << std::setw(10) << "seconds" << std::setw(8) << "share" << '\n';
-    double rest = summary.wall_seconds;
-    for (const auto &[name, seconds] : summary.timings)
-      rest -= seconds;
-    auto parts = summary.timings;
-    parts.emplace_back("not covered", rest);
-    for (const auto &[name, seconds] : parts)
-      console << "  " << std::left << std::setw(24) << name << std::right
-              << std::fixed << std::setprecision(3) << std::setw(10) << seconds
-              << std::setprecision(1) << std::setw(7)
-              << 100 * seconds / std::max(summary.wall_seconds, 1e-12)
-              << " %\n";
-    console << "  " << std::left << std::setw(24)
-            << (since.empty() ? "whole run" : "all " + since) << std::right
-            << std::setprecision(3) << std::setw(10) << summary.wall_seconds
-            << std::defaultfloat << "\n";
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_errors(const Summary &summary)
-  {
-    console << "\n  error against the exact solution\n";
-    for (const auto &[name, value] : summary.errors)
-      {
-        console << "  " << std::left << std::setw(24) << name << std::right;
-        if (value)
-          console << std::scientific << std::setprecision(3) << std::setw(12)
-                  << *value << std::defaultfloat << '\n';
-        else
-          console << "   (exact value is zero)\n";
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  ConsoleReport<dim>::print_energy(const Summary &summary)
-  {
-    console << "\n  energy at the end      force length\n"
-            << std::setprecision(4);
-    for (const auto &[name, value] : summary.energy)
-      {
-        std::string words = name;
-        std::replace(words.begin(), words.end(), '_', ' ');
-        if (name == "balance_error")
-          console << "  out of balance by      " << std::setprecision(2)
-                  << value << " of the largest\n";
-        else
-          console << "  " << std::left << std::setw(22) << words << std::right
-                  << ' ' << value << '\n';
-      }
+    print_warnings(summary, console);
   }
 
 

@@ -3,11 +3,11 @@
 
 // A stiffness of empty parts of cells, for nodes that too few points touch.
 
+#include <moraine/core/words.h>
 #include <moraine/run/step_driver.h>
 
 #include <algorithm>
 #include <iterator>
-#include <sstream>
 
 namespace moraine
 {
@@ -98,15 +98,14 @@ namespace moraine
       return;
     accepted_fraction = support->stiffness_fraction();
     if (accepted_fraction > 0)
-      diagnostics.report({"fictitious-stiffness",
-                          "",
-                          accepted_fraction,
-                          0,
-                          "too few points touch some nodes: from t = " +
-                            short_number(time_control.time()) +
-                            " empty parts of cells have " +
-                            short_number(accepted_fraction) +
-                            " of the material's stiffness"});
+      diagnostics.report(
+        {"fictitious-stiffness",
+         "",
+         accepted_fraction,
+         0,
+         "too few points touch some nodes: from t = " +
+           text_of(time_control.time(), 3) + " empty parts of cells have " +
+           text_of(accepted_fraction, 3) + " of the material's stiffness"});
     // What was no cure for this step may be one for a later one.
     sums.n_fictitious_stiffness =
       std::upper_bound(std::begin(automatic_fictitious_stiffness),

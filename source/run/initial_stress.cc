@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/geometry/overburden.h>
 #include <moraine/scene/scene_bodies.h>
@@ -14,12 +15,12 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
-#include <iomanip>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 namespace moraine
@@ -178,15 +179,12 @@ namespace moraine
             any = any || (active[b] && (weights[b] != 0 || surcharge[b]));
           }
         if (!any || !(g.norm() > 0))
-          {
-            std::ostringstream text;
-            text << place(section, "Initial stress")
-                 << ": found 'geostatic' where no body has weight at t = "
-                 << start_time
-                 << ", allowed: a load of type gravity that acts then, and a "
-                    "material with a 'Density' in a body it acts on";
-            throw InputError(text.str());
-          }
+          throw InputError(
+            place(section, "Initial stress") +
+            ": found 'geostatic' where no body has weight at t = " +
+            text_of(start_time) +
+            ", allowed: a load of type gravity that acts then, and a material "
+            "with a 'Density' in a body it acts on");
         const Tensor<1, dim> up       = -g;
         const auto           columns  = overburden->above(x, body, up, weights);
         double               vertical = 0;
@@ -321,26 +319,18 @@ namespace moraine
       text(const std::string &body) const
       {
         const auto principal = [](const SymmetricTensor<2, 3> &stress) {
-          const auto         values = eigenvalues(stress);
-          std::ostringstream text;
-          text << std::setprecision(4) << values[0] << ", " << values[1] << ", "
-               << values[2];
-          return text.str();
+          return fmt::format("{:.4g}", fmt::join(eigenvalues(stress), ", "));
         };
-        std::ostringstream text;
-        text << std::setprecision(6)
-             << place("Bodies/" + body, "Initial stress")
-             << ": found the principal stresses " << principal(wanted)
-             << " at (" << x << "), ";
-        if (numbers::is_finite(possible.norm()))
-          text << std::setprecision(3) << 100 * share
-               << " % beyond what the material can bear, allowed: stress "
-                  "within its yield surface, as "
-               << principal(possible);
-        else
-          text << "for which the material has no strain, allowed: stress that "
-                  "it can bear";
-        return text.str();
+        return place("Bodies/" + body, "Initial stress") +
+               ": found the principal stresses " + principal(wanted) + " at (" +
+               coordinates(x) + "), " +
+               (numbers::is_finite(possible.norm()) ?
+                  text_of(100 * share, 3) +
+                    " % beyond what the material can bear, allowed: stress "
+                    "within its yield surface, as " +
+                    principal(possible) :
+                  "for which the material has no strain, allowed: stress that "
+                  "it can bear");
       }
     };
 
@@ -420,12 +410,9 @@ namespace moraine
       return contains(scene.stages[k].second.bodies, name) &&
              (k == 0 || !contains(scene.stages[k - 1].second.bodies, name));
     };
-    return std::any_of(scene.bodies.begin(),
-                       scene.bodies.end(),
-                       [&](const auto &body) {
-                         return !body.second.initial_stress.stress.empty() &&
-                                is_new(body.first);
-                       });
+    return any_of(scene.bodies, [&](const auto &body) {
+      return !body.second.initial_stress.stress.empty() && is_new(body.first);
+    });
   }
 
 

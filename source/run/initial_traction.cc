@@ -3,12 +3,12 @@
 
 #include <moraine/run/initial_traction.h>
 
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/geometry/covered_pieces.h>
 #include <moraine/points/body_cover.h>
 #include <moraine/points/linear_fit.h>
 
-#include <algorithm>
 #include <vector>
 
 namespace moraine
@@ -114,8 +114,8 @@ namespace moraine
   template <int dim>
   void
   set_initial_tractions(const StageParameters          &stage,
-                       const std::vector<std::string> &before,
-                       Model<dim>                     &model)
+                        const std::vector<std::string> &before,
+                        Model<dim>                     &model)
   {
     std::vector<ImplicitBoundary<dim> *> holding;
     for (ImplicitBoundary<dim> &boundary : model.boundaries)
@@ -159,17 +159,15 @@ namespace moraine
   template <int dim>
   void
   set_tractions_of_new_bodies(const StageParameters &stage,
-                           const StageParameters &before,
-                           Model<dim>            &model)
+                              const StageParameters &before,
+                              Model<dim>            &model)
   {
     const PointSet<dim> &points = *model.points;
     std::vector<bool>    is_new;
     for (const std::string &body : model.body_names)
       is_new.push_back(contains(stage.bodies, body) &&
                        !contains(before.bodies, body));
-    if (std::none_of(is_new.begin(), is_new.end(), [](const bool b) {
-          return b;
-        }))
+    if (none_of(is_new, [](const bool b) { return b; }))
       return;
     std::vector<bool> has_old(points.mesh().triangulation().n_active_cells(),
                               false);
@@ -213,18 +211,18 @@ namespace moraine
 
   template void
   set_initial_tractions(const StageParameters &,
-                       const std::vector<std::string> &,
-                       Model<2> &);
+                        const std::vector<std::string> &,
+                        Model<2> &);
   template void
   set_initial_tractions(const StageParameters &,
-                       const std::vector<std::string> &,
-                       Model<3> &);
+                        const std::vector<std::string> &,
+                        Model<3> &);
   template void
   set_tractions_of_new_bodies(const StageParameters &,
-                           const StageParameters &,
-                           Model<2> &);
+                              const StageParameters &,
+                              Model<2> &);
   template void
   set_tractions_of_new_bodies(const StageParameters &,
-                           const StageParameters &,
-                           Model<3> &);
+                              const StageParameters &,
+                              Model<3> &);
 } // namespace moraine

@@ -9,6 +9,7 @@
 #include <moraine/assembly/meeting_term.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/geometry/covered_pieces.h>
 #include <moraine/run/initial_stress.h>
@@ -122,8 +123,7 @@ namespace moraine
         {
           const auto &shape  = body.filled();
           const auto &places = load.places_as_drawn();
-          if (!shape ||
-              std::any_of(places.begin(), places.end(), [&](const auto &place) {
+          if (!shape || any_of(places, [&](const auto &place) {
                 return covers_place(*shape, place.x, margin);
               }))
             names.push_back(body.name);
@@ -143,13 +143,10 @@ namespace moraine
                               const Model<dim>       &model)
     {
       const auto any_before = [&](const auto &holds) {
-        return std::any_of(scene.stages.begin(),
-                           scene.stages.end(),
-                           [&](const auto &other) {
-                             return other.second.time.start_time <
-                                      stage.time.start_time &&
-                                    holds(other.second);
-                           });
+        return any_of(scene.stages, [&](const auto &other) {
+          return other.second.time.start_time < stage.time.start_time &&
+                 holds(other.second);
+        });
       };
       const bool has_pushed = any_before([&](const StageParameters &other) {
         return contains(other.loads, load.name());
@@ -163,17 +160,12 @@ namespace moraine
                  return contains(other.bodies, body);
                }));
       };
-      return std::any_of(scene.stages.begin(),
-                         scene.stages.end(),
-                         [&](const auto &other) {
-                           const auto &bodies_then = other.second.bodies;
-                           return other.second.time.start_time >
-                                    stage.time.start_time &&
-                                  contains(other.second.loads, load.name()) &&
-                                  std::none_of(bodies_then.begin(),
-                                               bodies_then.end(),
-                                               may_be_its);
-                         });
+      return any_of(scene.stages, [&](const auto &other) {
+        const auto &bodies_then = other.second.bodies;
+        return other.second.time.start_time > stage.time.start_time &&
+               contains(other.second.loads, load.name()) &&
+               none_of(bodies_then, may_be_its);
+      });
     }
 
 
@@ -248,9 +240,7 @@ namespace moraine
                                          scene.method.weights(),
                                          scene.method.volumetric());
     const std::vector<double> fill = fill_of_bodies(scene, bodies);
-    if (std::any_of(fill.begin(), fill.end(), [](const double f) {
-          return f > 0;
-        }))
+    if (any_of(fill, [](const double f) { return f > 0; }))
       state->aggregate_below(fill, scene.method.has_ghost_term());
     boundaries      = make_boundaries(scene);
     grid_conditions = make_grid_conditions(scene, *mesh);
@@ -339,9 +329,7 @@ namespace moraine
       }
     const std::vector<RayleighFactors> damping = make_damping(scene, bodies);
     if (integrator.dynamic() &&
-        std::any_of(damping.begin(), damping.end(), [](const auto &factors) {
-          return factors.damps();
-        }))
+        any_of(damping, [](const auto &factors) { return factors.damps(); }))
       terms.push_back(std::make_unique<RayleighDamping<dim>>(damping));
     for (auto &boundary : boundaries)
       if (contains(stage.absorbing, boundary.name()))
@@ -445,15 +433,13 @@ namespace moraine
           stage.time.integrator.integrator == "Newmark" &&
           !motion->points_carry() &&
           state->mesh_after_step() != MeshAfterStep::keep &&
-          std::any_of(boundaries.begin(),
-                      boundaries.end(),
-                      [&stage](const auto &boundary) {
-                        // Nitsche's fluxes would alternate with it.
-                        return boundary.is_curved_roller() &&
-                               !boundary.enforcement().is_nitsche() &&
-                               contains(stage.boundaries, boundary.name()) &&
-                               !contains(stage.absorbing, boundary.name());
-                      }));
+          any_of(boundaries, [&stage](const auto &boundary) {
+            // Nitsche's fluxes would alternate with it.
+            return boundary.is_curved_roller() &&
+                   !boundary.enforcement().is_nitsche() &&
+                   contains(stage.boundaries, boundary.name()) &&
+                   !contains(stage.absorbing, boundary.name());
+          }));
         motion->set_integrator(TimeIntegrator(stage.time.integrator));
       }
     system->set_motion(dynamic ? motion.get() : nullptr);
@@ -484,11 +470,9 @@ namespace moraine
       fields.request(FieldNames<dim>::stress_of_recovery);
     if (parameters.strain_measure() == StrainMeasure::finite &&
         parameters.splits_domains() &&
-        std::any_of(scene.stages.begin(),
-                    scene.stages.end(),
-                    [](const auto &stage) {
-                      return stage.second.reset_displacements;
-                    }))
+        any_of(scene.stages, [](const auto &stage) {
+          return stage.second.reset_displacements;
+        }))
       fields.request(FieldNames<dim>::deformation_gradient_then);
     request_columns(bodies, fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);

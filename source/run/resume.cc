@@ -10,7 +10,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <map>
-#include <sstream>
 #include <utility>
 
 namespace moraine
@@ -174,13 +173,9 @@ namespace moraine
     const auto &[name, parameters_of_stage] = scene.stages.at(stage);
     const double end                        = parameters_of_stage.time.end_time;
     if (end < saved.label.t)
-      {
-        std::ostringstream text;
-        text << place(time_section(name), "End time") << ": found " << end
-             << ", allowed: not before t = " << saved.label.t
-             << " of the checkpoint";
-        throw InputError(text.str());
-      }
+      throw InputError(place(time_section(name), "End time") + ": found " +
+                       text_of(end) + ", allowed: not before t = " +
+                       text_of(saved.label.t) + " of the checkpoint");
     const std::string defaults = new_defaults(before, now, input);
     return defaults.empty() ?
              "" :

@@ -6,6 +6,7 @@
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 #include <moraine/boundary/condition_agreement.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
@@ -68,9 +69,7 @@ namespace moraine
     check_sides_of_boundaries(const StageParameters &stage,
                               const Model<dim>      &model)
     {
-      if (std::any_of(model.bodies.begin(),
-                      model.bodies.end(),
-                      [](const auto &body) { return !body.shape; }))
+      if (any_of(model.bodies, [](const auto &body) { return !body.shape; }))
         return;
       for (const auto &boundary : model.boundaries)
         {
@@ -177,11 +176,10 @@ namespace moraine
           double largest = 0;
           for (const auto &entry :
                find_prescribed_nodes<dim>({condition}, *model.space, t).entries)
-            largest = std::max(
-              largest,
-              std::abs(
-                condition.displacement(model.space->built_position(entry.node),
-                                       t)[entry.component]));
+            largest = std::max(largest,
+                               std::abs(condition.displacement(
+                                 model.space->built_position(entry.node),
+                                 t)[entry.component]));
           check_displacement(
             "Grid conditions/" + condition.name,
             parameters_of(condition.name, scene.grid_conditions).displacement,

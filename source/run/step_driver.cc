@@ -14,8 +14,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <sstream>
 
 namespace moraine
 {
@@ -69,9 +70,9 @@ namespace moraine
 
 
   template <int dim>
-  StepDriver<dim>::StepDriver(const Scene<dim>                      &scene,
-                              Model<dim>                            &model,
-                              Diagnostics<dim>                      &diagnostics,
+  StepDriver<dim>::StepDriver(const Scene<dim> &scene,
+                              Model<dim>       &model,
+                              Diagnostics<dim> &diagnostics,
                               const std::vector<RunObserver<dim> *> &observers)
     : scene(scene)
     , method(scene.method)
@@ -235,13 +236,13 @@ namespace moraine
     ++stage;
     stage_is_begun                 = false;
     const auto &[name, parameters] = scene.stages[stage];
-    const auto        &before      = scene.stages[stage - 1].second;
-    std::ostringstream text;
-    text << "stage " << name << ", " << parameters.time.integrator.integrator
-         << ", from t = " << parameters.time.start_time << " to "
-         << parameters.time.end_time;
-    text << change_of_bodies(parameters, before);
-    tell(text.str());
+    const auto &before             = scene.stages[stage - 1].second;
+    tell(fmt::format("stage {}, {}, from t = {:.6g} to {:.6g}{}",
+                     name,
+                     parameters.time.integrator.integrator,
+                     parameters.time.start_time,
+                     parameters.time.end_time,
+                     change_of_bodies(parameters, before)));
     if (parameters.reset_displacements)
       ask(When::strains_end);
     diagnostics.stage_begins(parameters.bodies != before.bodies,
@@ -275,8 +276,7 @@ namespace moraine
             newton.solve(system, *model.linear_solver, x);
         count(report);
         if (report.status != NewtonStatus::linear_solver_failed ||
-            !model.linear_solver->solves_directly() ||
-            !hold_empty_parts())
+            !model.linear_solver->solves_directly() || !hold_empty_parts())
           return report;
       }
   }
@@ -464,8 +464,8 @@ namespace moraine
     if (!was_apart && method.separation == "stop")
       for (const Finding &finding : diagnostics.ledger.findings())
         if (finding.id == "separation")
-          throw ComputationError("body '" + finding.object + "': " +
-                                 finding.text);
+          throw ComputationError("body '" + finding.object +
+                                 "': " + finding.text);
   }
 
 

@@ -4,14 +4,15 @@
 #include <moraine/run/step_failure.h>
 
 #include <moraine/assembly/fictitious_stiffness.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace moraine
 {
@@ -100,13 +101,11 @@ namespace moraine
                 body    = model.body_names[b];
               }
           }
-      if (body.empty())
-        return "";
-      std::ostringstream text;
-      text << "the volume of body '" << body
-           << "' hardly changes, Poisson ratio = " << largest
-           << ", for which multigrid takes many iterations; ";
-      return text.str();
+      return body.empty() ?
+               "" :
+               "the volume of body '" + body +
+                 "' hardly changes, Poisson ratio = " + text_of(largest) +
+                 ", for which multigrid takes many iterations; ";
     }
   } // namespace
 
@@ -147,15 +146,11 @@ namespace moraine
                      const LA::Vector     &residual)
   {
     const auto found = largest_imbalance(space, points, residual);
-    if (!found)
-      return "";
-    std::ostringstream text;
-    text << "; the largest unbalanced force is at (" << std::setprecision(6);
-    for (unsigned int d = 0; d < dim; ++d)
-      text << (d > 0 ? ", " : "") << found->place[d];
-    text << "), where points fill " << std::lround(100 * found->filled)
-         << " % of the cells";
-    return text.str();
+    return found ? fmt::format("; the largest unbalanced force is at ({}), "
+                               "where points fill {} % of the cells",
+                               coordinates(found->place, 6, ", "),
+                               std::lround(100 * found->filled)) :
+                   "";
   }
 
 
@@ -213,14 +208,16 @@ namespace moraine
                 mesh.cell_around(X))) ||
               points.place_for(X))
             continue;
-          std::ostringstream text;
-          text << "point " << points.id(p) << " of body '"
-               << model.body_names[points.body(p)] << "' leaves the mesh at ("
-               << std::setprecision(10) << x_new << ") in step "
-               << time.n_accepted() + 1 << ", t = " << time.trial_time()
-               << "; the results end with the last accepted step, t = "
-               << time.time();
-          message = text.str();
+          message =
+            fmt::format("point {} of body '{}' leaves the mesh at ({}) in step "
+                        "{}, t = {:.10g}; the results end with the last "
+                        "accepted step, t = {:.10g}",
+                        points.id(p),
+                        model.body_names[points.body(p)],
+                        coordinates(x_new, 10),
+                        time.n_accepted() + 1,
+                        time.trial_time(),
+                        time.time());
         }
     for (const std::string &text : Utilities::MPI::all_gather(
            points.mesh().triangulation().get_communicator(), message))

@@ -4,12 +4,12 @@
 // The part of StepDriver that judges a step and rejects it.
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/words.h>
 #include <moraine/run/step_driver.h>
 #include <moraine/run/step_failure.h>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace moraine
 {
@@ -64,8 +64,7 @@ namespace moraine
     const bool supported =
       model.state->mesh_after_step() == MeshAfterStep::reset &&
       (in_vain || n_rejections == rejections_before_support) &&
-      ((!yields_in_full_cell(scene, model, report) &&
-        hold_empty_parts()) ||
+      ((!yields_in_full_cell(scene, model, report) && hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)
@@ -149,10 +148,8 @@ namespace moraine
     const double error = error_of_step(x);
     if (!(error > tolerance))
       return "";
-    std::ostringstream text;
-    text << "its estimated error is " << error
-         << " of a cell, more than Error tolerance = " << tolerance;
-    return text.str();
+    return "its estimated error is " + text_of(error) +
+           " of a cell, more than Error tolerance = " + text_of(tolerance);
   }
 
 
@@ -180,15 +177,17 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                     \
-  template void StepDriver<dim>::reject(                                     \
-    const NewtonReport &, const std::string &, unsigned int &);              \
-  template bool StepDriver<dim>::shorter_is_no_cure(                         \
-    const NewtonReport &) const;                                             \
-  template std::string StepDriver<dim>::reason_to_reject(                    \
-    const NewtonReport &, const LA::Vector &);                               \
-  template std::string StepDriver<dim>::error_too_large(                     \
-    const NewtonReport &, const LA::Vector &) const;                         \
+#define INSTANTIATE(dim)                                                       \
+  template void StepDriver<dim>::reject(const NewtonReport &,                  \
+                                        const std::string &,                   \
+                                        unsigned int &);                       \
+  template bool StepDriver<dim>::shorter_is_no_cure(const NewtonReport &)      \
+    const;                                                                     \
+  template std::string StepDriver<dim>::reason_to_reject(const NewtonReport &, \
+                                                         const LA::Vector &);  \
+  template std::string StepDriver<dim>::error_too_large(const NewtonReport &,  \
+                                                        const LA::Vector &)    \
+    const;                                                                     \
   template double StepDriver<dim>::allowed_growth(const LA::Vector &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)

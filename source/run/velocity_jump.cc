@@ -8,10 +8,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace moraine
 {
@@ -186,19 +186,22 @@ namespace moraine
     compare_surfaces(given, stage, model, short_step, difference);
     set_first_target(stage.time, model);
 
-    const bool         at_rest = difference.prescribed.norm() == 0;
-    std::ostringstream text;
-    if (!at_rest)
-      text << "the velocity at (" << std::setprecision(3) << difference.place
-           << ") jumps from (" << difference.of_body << ") to ("
-           << difference.prescribed << ") at t = " << stage.time.start_time
-           << ", where what holds the body starts";
+    std::string text;
+    if (difference.prescribed.norm() != 0)
+      text = fmt::format("the velocity at ({}) jumps from ({}) to ({}) at t = "
+                         "{:.3g}, where what holds the body starts",
+                         coordinates(difference.place, 3),
+                         coordinates(difference.of_body, 3),
+                         coordinates(difference.prescribed, 3),
+                         stage.time.start_time);
     else if (first)
-      text << "section 'Bodies', key 'Initial velocity': found ("
-           << difference.of_body << ") at the node (" << std::setprecision(6)
-           << difference.place << "), where conditions want ("
-           << difference.prescribed
-           << "), allowed: velocities that agree with what holds the body";
+      text = fmt::format("section 'Bodies', key 'Initial velocity': found ({}) "
+                         "at the node ({}), where conditions want ({}), "
+                         "allowed: velocities that agree with what holds the "
+                         "body",
+                         coordinates(difference.of_body),
+                         coordinates(difference.place),
+                         coordinates(difference.prescribed));
     const MPI_Comm     communicator = model.space->communicator();
     const unsigned int rank         = rank_of_largest(difference, communicator);
     const double       allowed =
@@ -211,7 +214,7 @@ namespace moraine
     if (!(share > allowed))
       return {};
     const std::string found =
-      Utilities::MPI::all_gather(communicator, text.str())[rank];
+      Utilities::MPI::all_gather(communicator, text)[rank];
     if (found.rfind("section", 0) == 0)
       throw InputError(found);
     return Finding{"velocity-jump", "", share, allowed, found};
@@ -219,11 +222,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                      \
+#define INSTANTIATE(dim)                                                 \
   template std::optional<Finding> velocity_jump(const StageParameters &, \
-                                     const bool,              \
-                                     Model<dim> &);           \
-  template void        set_first_target(const TimeParameters &, Model<dim> &);
+                                                const bool,              \
+                                                Model<dim> &);           \
+  template void set_first_target(const TimeParameters &, Model<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -9,8 +9,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <sstream>
 
 namespace moraine
 {
@@ -22,12 +23,11 @@ namespace moraine
     NormalAndAlong
     two_of(const std::vector<double> &numbers, const std::string &place)
     {
-      std::ostringstream found;
-      for (const double number : numbers)
-        found << (found.tellp() > 0 ? ", " : "") << number;
       if (numbers.size() != 2 || !(numbers[0] >= 0) || !(numbers[1] >= 0))
-        throw InputError(place + ": found '" + found.str() +
-                         "', allowed: 2 numbers >= 0");
+        throw InputError(fmt::format("{}: found '{:.6g}', allowed: 2 numbers "
+                                     ">= 0",
+                                     place,
+                                     fmt::join(numbers, ", ")));
       return {numbers[0], numbers[1]};
     }
   } // namespace

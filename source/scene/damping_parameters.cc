@@ -8,7 +8,8 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <sstream>
+
+#include <fmt/format.h>
 
 namespace moraine
 {
@@ -19,10 +20,7 @@ namespace moraine
     std::string
     as_text(const std::vector<double> &numbers)
     {
-      std::ostringstream text;
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        text << (i > 0 ? ", " : "") << numbers[i];
-      return text.str();
+      return fmt::format("{:.6g}", fmt::join(numbers, ", "));
     }
   } // namespace
 

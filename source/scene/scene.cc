@@ -5,11 +5,11 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/scene/renamed_keys.h>
 #include <moraine/scene/scene_bodies.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace moraine
@@ -134,7 +134,7 @@ namespace moraine
     declare();
     refuse_old_names(input);
     const auto given = input.parse(prm);
-    output.units = Units(Utilities::split_string_list(prm.get("Units")));
+    output.units     = Units(Utilities::split_string_list(prm.get("Units")));
     locate_files(input);
     complete_stages(given,
                     time,
@@ -173,9 +173,8 @@ namespace moraine
   bool
   Scene<dim>::any_yields() const
   {
-    return std::any_of(materials.begin(),
-                       materials.end(),
-                       [](const auto &named) { return named.second.yields(); });
+    return any_of(materials,
+                  [](const auto &named) { return named.second.yields(); });
   }
 
 
@@ -193,7 +192,7 @@ namespace moraine
   bool
   Scene<dim>::conserves_energy() const
   {
-    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+    return any_of(stages, [](const auto &named) {
       return named.second.time.integrator.integrator == "energy-momentum";
     });
   }
@@ -204,7 +203,7 @@ namespace moraine
   bool
   Scene<dim>::divides_steps() const
   {
-    return std::any_of(stages.begin(), stages.end(), [](const auto &named) {
+    return any_of(stages, [](const auto &named) {
       return named.second.time.integrator.first_part() < 1.;
     });
   }
@@ -310,14 +309,12 @@ namespace moraine
   Scene<dim>::choose_volumetric_strain(
     const std::vector<InputFile::Entry> &given)
   {
-    const bool hardly_changes =
-      std::any_of(materials.begin(), materials.end(), [](const auto &named) {
-        return named.second.hardly_changes_volume();
-      });
-    const bool is_damped =
-      std::any_of(given.begin(), given.end(), [](const auto &entry) {
-        return contains({"Stiffness damping", "Damping ratio"}, entry.key);
-      });
+    const bool hardly_changes = any_of(materials, [](const auto &named) {
+      return named.second.hardly_changes_volume();
+    });
+    const bool is_damped      = any_of(given, [](const auto &entry) {
+      return contains({"Stiffness damping", "Damping ratio"}, entry.key);
+    });
     prm.enter_subsection("Method");
     prm.set("Volumetric strain",
             hardly_changes && method.can_average_volume() &&

@@ -5,6 +5,7 @@
 
 #include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 #include <moraine/geometry/mesh_groups.h>
 
@@ -239,7 +240,7 @@ namespace moraine
   Scene<dim>::changes_bodies() const
   {
     const unsigned int n = simulated_bodies(*this).size();
-    return std::any_of(stages.begin(), stages.end(), [n](const auto &stage) {
+    return any_of(stages, [n](const auto &stage) {
       return stage.second.bodies.size() != n;
     });
   }
@@ -267,7 +268,7 @@ namespace moraine
   bool
   Scene<dim>::are_together(const std::string &a, const std::string &b) const
   {
-    return std::any_of(stages.begin(), stages.end(), [&](const auto &stage) {
+    return any_of(stages, [&](const auto &stage) {
       const auto &names = stage.second.bodies;
       return contains(names, a) && contains(names, b);
     });

@@ -7,10 +7,10 @@
 #include <moraine/scene/scene_bodies.h>
 
 #include <moraine/core/exceptions.h>
+#include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace moraine
 {
@@ -80,18 +80,14 @@ namespace moraine
           if (entry.section != section)
             continue;
           if (!integrator_uses(chosen, entry.key))
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
+            reject(entry,
                    "nothing with 'Integrator = " + chosen.integrator + "'" +
                      (chosen.dynamic() ?
                         ", 'Velocity transfer = " + chosen.transfer + "'" :
                         ""));
           if (entry.key == "Velocity transfer" &&
               scene.method.after_step() != MeshAfterStep::reset)
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
+            reject(entry,
                    "nothing where nodes stay with the material, as with method "
                    "'finite element'; they keep their velocity");
         }
@@ -107,16 +103,11 @@ namespace moraine
       // One rule of transfer serves all stages.
       const auto as_first =
         [&](const std::string &key, const double found, const double wanted) {
-          const auto text = [](const double value) {
-            std::ostringstream out;
-            out << value;
-            return out.str();
-          };
           if (chosen.dynamic() && found != wanted)
             reject(section,
                    key,
-                   text(found),
-                   text(wanted) + ", as in the first stage with inertia");
+                   text_of(found),
+                   text_of(wanted) + ", as in the first stage with inertia");
         };
       if (chosen.transfer == "blend")
         as_first("FLIP share", chosen.flip_share, first.flip_share);
@@ -140,23 +131,16 @@ namespace moraine
       if (scene.method.volumetric() == VolumetricStrain::cell_mean)
         for (const auto &entry : given)
           if (contains({"Stiffness damping", "Damping ratio"}, entry.key))
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
-                   "nothing with 'Volumetric strain = cell mean'");
+            reject(entry, "nothing with 'Volumetric strain = cell mean'");
       for (const auto &entry : given)
         {
           if (entry.key == "Initial velocity" && !scene.is_dynamic())
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
+            reject(entry,
                    "nothing in a quasi-static scene; 'Integrator = Newmark' in "
                    "section 'Time' makes it dynamic");
           if (entry.section == "Solver" && entry.key == "Limit points" &&
               entry.value == "pseudo-transient" && scene.is_dynamic())
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
+            reject(entry,
                    "stop; a dynamic scene passes limit points by inertia");
         }
       if (scene.is_dynamic())
@@ -179,9 +163,10 @@ namespace moraine
           if (!stage.time.follows_path())
             continue;
           const auto refuse = [&, &of = name](const std::string &why) {
-            std::ostringstream found;
-            found << stage.time.arc_length;
-            reject(time_section(of), "Arc length", found.str(), "0; " + why);
+            reject(time_section(of),
+                   "Arc length",
+                   text_of(stage.time.arc_length),
+                   "0; " + why);
           };
           if (stage.time.integrator.dynamic())
             refuse("'Integrator' is '" + stage.time.integrator.integrator +
@@ -280,9 +265,7 @@ namespace moraine
         if (entry.section == section &&
             (absorbs ? is_of_motion(entry.key) :
                        !later && AbsorbingParameters::has(entry.key)))
-          reject(section,
-                 entry.key,
-                 entry.value,
+          reject(entry,
                  "nothing; key 'Constraint' is '" + constraint + "'" +
                    (absorbs ? "" :
                               ", and no stage names it in key 'Absorbing'"));
@@ -307,16 +290,11 @@ namespace moraine
   {
     for (const auto &entry : given)
       if (entry.section == "Mesh" && !mesh.uses(entry.key))
-        reject("Mesh",
-               entry.key,
-               entry.value,
+        reject(entry,
                "nothing; a mesh of type '" + mesh.type + "' has no such key");
       else if (entry.section == "Method" && entry.key == "Ghost factor" &&
                !method.has_ghost_term())
-        reject("Method",
-               entry.key,
-               entry.value,
-               "nothing with 'Cut cells = " + method.cut_cells + "'");
+        reject(entry, "nothing with 'Cut cells = " + method.cut_cells + "'");
     if (mesh.is_box())
       for (const char *key : {"Lower corner", "Upper corner"})
         input.require("Mesh", key);
@@ -356,10 +334,7 @@ namespace moraine
         for (const auto &entry : given)
           if (entry.section == "Loads/" + name &&
               !load_uses(load.type, entry.key))
-            reject(entry.section,
-                   entry.key,
-                   entry.value,
-                   "nothing; a " + load.type + " has no such key");
+            reject(entry, "nothing; a " + load.type + " has no such key");
       }
     check_conditions(given);
     strength_reduction.check(materials, study.finds_factor_of_safety());
@@ -400,11 +375,9 @@ namespace moraine
     for (const auto &[name, condition] : grid_conditions)
       {
         const std::string section = "Grid conditions/" + name;
-        if (std::any_of(boundaries.begin(),
-                        boundaries.end(),
-                        [&](const auto &boundary) {
-                          return boundary.first == name;
-                        }))
+        if (any_of(boundaries, [&](const auto &boundary) {
+              return boundary.first == name;
+            }))
           throw InputError("section '" + section +
                            "': found a name that 'Boundaries/" + name +
                            "' has too, allowed: another one, as columns of "
@@ -503,9 +476,7 @@ namespace moraine
         if (operands.count(name) > 0 && entry.section == "Bodies/" + name &&
             body.shape.texts.count(entry.key) == 0)
           reject(
-            entry.section,
-            entry.key,
-            entry.value,
+            entry,
             "nothing; '" + name +
               "' is but a region of which another body is made ('Operands' "
               "of that one), which needs the key itself");

@@ -11,7 +11,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace moraine
 {
@@ -147,14 +146,10 @@ namespace moraine
                                        place(section, "Upper corner")));
       for (unsigned int d = 0; d < dim; ++d)
         if (corners.second[d] < corners.first[d])
-          {
-            std::ostringstream found;
-            found << corners.second;
-            reject(section,
-                   "Upper corner",
-                   found.str(),
-                   "coordinates that are not below those of 'Lower corner'");
-          }
+          reject(section,
+                 "Upper corner",
+                 coordinates(corners.second),
+                 "coordinates that are not below those of 'Lower corner'");
       return BoundingBox<dim>(corners);
     }
 

@@ -8,9 +8,10 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace moraine
 {
@@ -181,15 +182,15 @@ namespace moraine
                   // when it comes.
                   if (!(apart > allowed * larger + 1e-12 * mesh.cell_size()))
                     continue;
-                  std::ostringstream message;
-                  message << "section 'Mesh motion': found a motion by which "
-                             "the side of grid condition '"
-                          << condition.name << "' at (" << face->center()
-                          << ") moves off the material it holds, by " << apart
-                          << " in the step from t = " << t
-                          << ", allowed: sides and conditions that move alike "
-                             "along the normal";
-                  throw InputError(message.str());
+                  throw InputError(fmt::format(
+                    "section 'Mesh motion': found a motion by which the side "
+                    "of grid condition '{}' at ({}) moves off the material it "
+                    "holds, by {:.6g} in the step from t = {:.6g}, allowed: "
+                    "sides and conditions that move alike along the normal",
+                    condition.name,
+                    coordinates(face->center()),
+                    apart,
+                    t));
                 }
   }
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <sstream>
 #include <utility>
 
 namespace moraine
@@ -161,15 +160,11 @@ namespace moraine
                    const TimeParameters                &before,
                    TimeParameters                      &time)
     {
-      std::ostringstream end;
-      end << before.end_time;
       for (const auto &entry : given)
         if (entry.section == section && entry.key == "Start time" &&
             time.start_time != before.end_time)
-          reject(section,
-                 entry.key,
-                 entry.value,
-                 "nothing, or " + end.str() +
+          reject(entry,
+                 "nothing, or " + text_of(before.end_time) +
                    ", the end of the stage before; stages follow each other");
       time.start_time = before.end_time;
     }
@@ -255,9 +250,7 @@ namespace moraine
     else
       for (const auto &entry : given)
         if (entry.section == "Time")
-          reject("Time",
-                 entry.key,
-                 entry.value,
+          reject(entry,
                  "nothing beside section 'Stages'; each stage has a section "
                  "'Time' of its own");
     for (unsigned int k = 0; k < stages.size(); ++k)

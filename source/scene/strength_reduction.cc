@@ -7,7 +7,6 @@
 #include <moraine/core/patterns.h>
 #include <moraine/core/words.h>
 
-#include <sstream>
 
 namespace moraine
 {
@@ -16,16 +15,6 @@ namespace moraine
   namespace
   {
     const std::string section = "Strength reduction";
-
-
-
-    std::string
-    as_text(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
   } // namespace
 
 
@@ -97,13 +86,13 @@ namespace moraine
         searches ? place("Study", "Kind") +
                      ": found 'factor of safety', allowed: only with a "
                      "material that has a shear strength" :
-                   place(section, "Factor") + ": found '" + as_text(factor) +
+                   place(section, "Factor") + ": found '" + text_of(factor) +
                      "', allowed: 1; no material has a shear strength");
     if (!(upper_factor > lower_factor))
       reject(section,
              "Upper factor",
-             as_text(upper_factor),
-             "a number above 'Lower factor', " + as_text(lower_factor));
+             text_of(upper_factor),
+             "a number above 'Lower factor', " + text_of(lower_factor));
   }
 
 

@@ -67,10 +67,6 @@ namespace moraine
     std::vector<Finding>          all;
     std::map<std::string, double> numbers;
   };
-
-  /** A number with three digits. */
-  std::string
-  short_number(const double value);
 } // namespace moraine
 
 #endif

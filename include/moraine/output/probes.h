@@ -181,18 +181,6 @@ namespace moraine
                  const unsigned int        body,
                  Probe                    &probe) const;
 
-    /** The body of a point, known on one rank. Collective. */
-    unsigned int
-    body_of(const unsigned int id, const PointSet<dim> &points) const;
-
-    /** Whether @p body has points by now. Collective. */
-    bool
-    is_there(const unsigned int body, const PointSet<dim> &points) const;
-
-    /** The displacement of a point, known on one rank. Collective. */
-    dealii::Tensor<1, dim>
-    displacement_of(const unsigned int id, const PointSet<dim> &points) const;
-
     /** Position, displacement, stress, velocity and acceleration of the points
      * that are followed, and 1; zeros alone while the body is not there. */
     std::vector<std::vector<double>>

@@ -102,27 +102,9 @@ namespace moraine
     void
     describe_stage(const unsigned int k);
 
-    void
-    print_energy(const Summary &summary);
-
-    void
-    print_counts(const Summary &summary, const RunCounts &counts);
-
-    void
-    print_results(const Summary &summary);
-
-    void
-    print_warnings(const Summary &summary);
-
     /** Run @p print with the log alone, or with verbose on the console, too. */
     void
     in_detail(const std::function<void()> &print);
-
-    void
-    print_timings(const Summary &summary);
-
-    void
-    print_errors(const Summary &summary);
 
     const Scene<dim> &scene;
     const Model<dim> &model;
