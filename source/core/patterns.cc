@@ -5,6 +5,8 @@
 
 #include <moraine/core/words.h>
 
+#include <fmt/format.h>
+
 #include <regex>
 
 namespace moraine
@@ -14,17 +16,6 @@ namespace moraine
   namespace
   {
     constexpr double smallest = std::numeric_limits<double>::min();
-
-    std::string
-    join(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : "|") + word;
-      return text;
-    }
-
-
 
     /** "a|b|c " as "a, b, c"; a word without letters as "nothing". */
     std::string
@@ -157,13 +148,14 @@ namespace moraine
     Patterns::Selection
     selection(const std::vector<std::string> &words)
     {
-      return Patterns::Selection(join(words));
+      return Patterns::Selection(fmt::format("{}", fmt::join(words, "|")));
     }
 
     Patterns::MultipleSelection
     several_of(const std::vector<std::string> &words)
     {
-      return Patterns::MultipleSelection(join(words));
+      return Patterns::MultipleSelection(
+        fmt::format("{}", fmt::join(words, "|")));
     }
   } // namespace patterns
 

@@ -109,9 +109,7 @@ namespace moraine
   std::string
   list_of(const std::vector<std::string> &words)
   {
-    std::string text;
-    for (const std::string &word : words)
-      text += (text.empty() ? "" : ", ") + word;
-    return words.empty() ? "nothing" : text;
+    return words.empty() ? "nothing" :
+                           fmt::format("{}", fmt::join(words, ", "));
   }
 } // namespace moraine

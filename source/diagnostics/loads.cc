@@ -272,19 +272,12 @@ namespace moraine
       const auto      &stage = *facts.now.stage, &before = *facts.now.before;
       if (stage.bodies == before.bodies && stage.loads == before.loads)
         return {};
-      Finding    worst{"removed-body", "", allowed, allowed, ""};
-      const auto take = [&worst](const std::string &name, const double share) {
-        if (share > worst.value)
-          {
-            worst.object = name;
-            worst.value  = share;
-          }
-      };
+      Worst worst("removed-body", allowed);
       // A surface may go on beside what is dug.
-      const auto take_most = [&take](const std::string &name,
-                                     const double       share) {
+      const auto take_most = [&worst](const std::string &name,
+                                      const double       share) {
         if (share > 0.5)
-          take(name, share);
+          worst.take(name, share);
       };
       Ground<dim> ground(facts);
       for (const auto &load : facts.of.loads.carried)
@@ -317,14 +310,11 @@ namespace moraine
             Utilities::MPI::sum(n, facts.communicator(), n);
             // Or they went while it did not act.
             if (n[1] > 0 || !contains(before.loads, force.name()))
-              take(force.name(), 1 - 1. * n[0] / force.n_points());
+              worst.take(force.name(), 1 - 1. * n[0] / force.n_points());
           }
-      if (worst.object.empty())
-        return {};
-      worst.text = per_cent(worst.value) +
-                   " of it lies on a body that goes; leave it out of the "
-                   "stage unless it shall act on what is left";
-      return worst;
+      return worst.with(per_cent(worst.value) +
+                        " of it lies on a body that goes; leave it out of the "
+                        "stage unless it shall act on what is left");
     }
 
 
@@ -485,12 +475,7 @@ namespace moraine
       if (facts.of.state.mesh_after_step() != MeshAfterStep::reset ||
           facts.of.mesh_motion.moves())
         return {};
-      Finding worst{"lost-hold",
-                    "",
-                    allowed_push,
-                    allowed_push,
-                    "it has pushed material off its nodes, which stay; use a "
-                    "boundary with 'Translation', or 'Mesh motion'"};
+      Worst worst("lost-hold", allowed_push);
       for (const auto &condition :
            acting_conditions(facts.of.grid_conditions, *facts.now.stage))
         {
@@ -522,15 +507,11 @@ namespace moraine
                           Utilities::MPI::max(largest, facts.communicator()) /
                             facts.cell_size());
           most_pieces("Grid conditions/" + condition.name, n, ledger);
-          if (push > worst.value)
-            {
-              worst.value  = push;
-              worst.object = condition.name;
-            }
+          worst.take(condition.name, push);
         }
-      if (worst.object.empty())
-        return {};
-      return worst;
+      return worst.with(
+        "it has pushed material off its nodes, which stay; use a boundary with "
+        "'Translation', or 'Mesh motion'");
     }
 
 

@@ -88,7 +88,7 @@ namespace moraine
       const double before = first ? facts.of.scene.start_time() : last;
       ledger.number("small-strain/begun") = 1;
       last                                = facts.now.t;
-      Finding    worst{id, "", least_strain, allowed_share_of_turns, ""};
+      Worst      worst(id, least_strain);
       const auto count = [&](const std::string      &name,
                              const RigidMotion<dim> &motion) {
         if (!motion.turns() ||
@@ -102,11 +102,7 @@ namespace moraine
         strain         = moves ?
                            strain + strain_of_turn(motion, before, facts.now.t) :
                            strain_of_turn(motion, ledger.number(since), facts.now.t);
-        if (strain > worst.value)
-          {
-            worst.value  = strain;
-            worst.object = name;
-          }
+        worst.take(name, strain);
       };
       for (const auto &boundary : facts.of.boundaries)
         count(boundary.name(), boundary.rigid_motion());
@@ -115,12 +111,12 @@ namespace moraine
       if (worst.object.empty())
         return {};
       worst.value /= largest_elastic_strain(facts);
+      worst.limit = allowed_share_of_turns;
       if (!(worst.value > worst.limit))
         return {};
-      worst.text = "small strain takes its turn for a strain, " +
-                   text_of(worst.value, 3) +
-                   " times the elastic one; use 'Strain = finite'";
-      return worst;
+      return worst.with("small strain takes its turn for a strain, " +
+                        text_of(worst.value, 3) +
+                        " times the elastic one; use 'Strain = finite'");
     }
 
 

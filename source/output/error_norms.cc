@@ -108,123 +108,108 @@ namespace moraine
       return std::sqrt(square);
     }
 
-    /** @f$v_0@f$ of points; at small strain that is their volume. */
+    /** The points at a time, and what is exact there. */
     template <int dim>
-    class InitialVolume
+    struct Comparison
     {
-    public:
-      explicit InitialVolume(const PointSet<dim> &points)
-        : points(points)
-        , field(points.fields().find(FieldNames<dim>::initial_volume))
-      {}
+      const PointSet<dim>      &points;
+      const ExactSolution<dim> &exact;
+      const double              time;
+      const bool                points_moved;
+      const MPI_Comm            communicator =
+        points.mesh().triangulation().get_communicator();
+      const PointField<dim, double> initial_volume =
+        points.fields().find(FieldNames<dim>::initial_volume);
 
+      /** @f$v_0@f$; at small strain that is the volume. */
       double
-      of(const unsigned int p) const
+      volume(const unsigned int p) const
       {
-        return field.exists() ? field(points.values(p)) : points.volume(p);
+        return initial_volume.exists() ? initial_volume(points.values(p)) :
+                                         points.volume(p);
       }
 
-    private:
-      const PointSet<dim>          &points;
-      const PointField<dim, double> field;
+      Tensor<1, dim>
+      displacement(const unsigned int p) const
+      {
+        return points.displacement_field()(points.values(p));
+      }
+
+      Point<dim>
+      start(const unsigned int p) const
+      {
+        return points_moved ? points.position(p) - displacement(p) :
+                              points.position(p);
+      }
     };
 
     template <int dim>
-    Point<dim>
-    start_of(const PointSet<dim> &points,
-             const unsigned int   p,
-             const bool           points_moved)
-    {
-      Point<dim> start = points.position(p);
-      if (points_moved)
-        start -= points.displacement_field()(points.values(p));
-      return start;
-    }
-
-    template <int dim>
     void
-    add_displacement_errors(const PointSet<dim>      &points,
-                            const ExactSolution<dim> &exact,
-                            const double              time,
-                            const bool                points_moved,
-                            const MPI_Comm           &communicator,
-                            ErrorNorms               &norms)
+    add_displacement_errors(const Comparison<dim> &of, ErrorNorms &norms)
     {
-      const InitialVolume<dim> v_0(points);
-      Sample                   sample;
-      for (unsigned int p = 0; p < points.n_local(); ++p)
+      Sample sample;
+      for (unsigned int p = 0; p < of.points.n_local(); ++p)
         {
-          const Tensor<1, dim> u_exact =
-            exact.displacement(start_of(points, p, points_moved), time);
-          const Tensor<1, dim> error =
-            points.displacement_field()(points.values(p)) - u_exact;
-          sample.add(v_0.of(p), u_exact.norm(), error.norm());
+          const Tensor<1, dim> exact =
+            of.exact.displacement(of.start(p), of.time);
+          sample.add(of.volume(p),
+                     exact.norm(),
+                     (of.displacement(p) - exact).norm());
         }
 
-      const double          scale = largest(sample.exact, communicator);
+      const double          scale = largest(sample.exact, of.communicator);
       std::optional<double> relative, l2;
       if (scale > 0)
         {
-          relative = mean_relative_error(sample, scale, communicator);
-          l2       = relative_l2_error(sample, communicator);
+          relative = mean_relative_error(sample, scale, of.communicator);
+          l2       = relative_l2_error(sample, of.communicator);
         }
       norms.emplace_back("r_u", relative);
       norms.emplace_back("l2_u", l2);
-      norms.emplace_back("max_u", largest(sample.error, communicator));
+      norms.emplace_back("max_u", largest(sample.error, of.communicator));
     }
 
     template <int dim>
     void
-    add_stress_errors(const PointSet<dim>      &points,
-                      const ExactSolution<dim> &exact,
-                      const double              time,
-                      const bool                points_moved,
-                      const MPI_Comm           &communicator,
-                      ErrorNorms               &norms)
+    add_stress_errors(const Comparison<dim> &of, ErrorNorms &norms)
     {
-      constexpr unsigned int   n = n_stress_components<dim>;
-      std::array<Sample, n>    components;
-      Sample                   whole;
-      const InitialVolume<dim> v_0(points);
-      for (unsigned int p = 0; p < points.n_local(); ++p)
+      constexpr unsigned int n = n_stress_components<dim>;
+      std::array<Sample, n>  components;
+      Sample                 whole;
+      for (unsigned int p = 0; p < of.points.n_local(); ++p)
         {
-          const auto stress =
-            exact.stress(start_of(points, p, points_moved), time);
-          auto error = stress;
+          const auto stress = of.exact.stress(of.start(p), of.time);
+          auto       error  = stress;
           for (unsigned int c = 0; c < n; ++c)
             {
-              error[c] -= points.values(p)[points.stress_offset() + c];
-              components[c].add(v_0.of(p),
+              error[c] -= of.points.values(p)[of.points.stress_offset() + c];
+              components[c].add(of.volume(p),
                                 std::abs(stress[c]),
                                 std::abs(error[c]));
             }
-          whole.add(v_0.of(p), norm<dim>(stress), norm<dim>(error));
+          whole.add(of.volume(p), norm<dim>(stress), norm<dim>(error));
         }
 
-      const double scale = largest(whole.exact, communicator);
+      const double scale = largest(whole.exact, of.communicator);
       for (unsigned int c = 0; c < n; ++c)
         {
           const double component_scale =
-            largest(components[c].exact, communicator);
+            largest(components[c].exact, of.communicator);
           std::optional<double> relative;
           if (component_scale > negligible_norm * scale)
-            relative =
-              mean_relative_error(components[c], component_scale, communicator);
+            relative = mean_relative_error(components[c],
+                                           component_scale,
+                                           of.communicator);
           norms.emplace_back("r_sigma_" + stress_component_name(c), relative);
         }
       std::optional<double> l2;
       if (scale > 0)
-        l2 = relative_l2_error(whole, communicator);
+        l2 = relative_l2_error(whole, of.communicator);
+      const auto size = [](const double, const double error) { return error; };
       norms.emplace_back("l2_sigma", l2);
       norms.emplace_back("mean_sigma",
-                         ratio_of_sums(
-                           whole,
-                           communicator,
-                           [](const double, const double error) {
-                             return error;
-                           },
-                           one));
-      norms.emplace_back("max_sigma", largest(whole.error, communicator));
+                         ratio_of_sums(whole, of.communicator, size, one));
+      norms.emplace_back("max_sigma", largest(whole.error, of.communicator));
     }
   } // namespace
 
@@ -294,29 +279,24 @@ namespace moraine
               const double              time,
               const bool                points_moved)
   {
-    const MPI_Comm communicator =
-      points.mesh().triangulation().get_communicator();
-    ErrorNorms norms;
+    const Comparison<dim> comparison{points, exact, time, points_moved};
+    ErrorNorms            norms;
     if (exact.displacement)
-      add_displacement_errors(
-        points, exact, time, points_moved, communicator, norms);
+      add_displacement_errors(comparison, norms);
     if (exact.stress)
-      add_stress_errors(points, exact, time, points_moved, communicator, norms);
+      add_stress_errors(comparison, norms);
     return norms;
   }
 
 
 
-  template struct ExactSolutionParameters<2>;
-  template struct ExactSolutionParameters<3>;
-  template ErrorNorms
-  error_norms(const PointSet<2> &,
-              const ExactSolution<2> &,
-              const double,
-              const bool);
-  template ErrorNorms
-  error_norms(const PointSet<3> &,
-              const ExactSolution<3> &,
-              const double,
-              const bool);
+#define INSTANTIATE(dim)                                      \
+  template struct ExactSolutionParameters<dim>;               \
+  template ErrorNorms error_norms(const PointSet<dim> &,      \
+                                  const ExactSolution<dim> &, \
+                                  const double,               \
+                                  const bool);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

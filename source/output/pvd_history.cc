@@ -9,7 +9,6 @@
 #include <deal.II/base/data_out_base.h>
 
 #include <filesystem>
-#include <sstream>
 
 namespace moraine
 {
@@ -47,17 +46,17 @@ namespace moraine
   void
   PvdHistory::write(Archive &archive) const
   {
-    std::vector<double> times;
-    std::string         names;
+    std::vector<double>      times;
+    std::vector<std::string> names;
     for (const auto &[time, name] : times_and_names)
       {
         times.push_back(time);
-        names += name + "\n";
+        names.push_back(name);
       }
     const std::string group =
       "output/" + std::filesystem::path(path).filename().string();
     archive.write(group + "/time", std::move(times));
-    archive.write_text(group + "/file", names);
+    archive.write_lines(group + "/file", names);
   }
 
 
@@ -67,13 +66,11 @@ namespace moraine
   {
     const std::string group =
       "output/" + std::filesystem::path(path).filename().string();
-    std::istringstream names(archive.text(group + "/file"));
+    const auto &times = archive.numbers(group + "/time");
+    const auto  names = archive.lines(group + "/file");
     std::vector<std::pair<double, std::string>> entries;
-    for (const double time : archive.numbers(group + "/time"))
-      {
-        entries.emplace_back(time, "");
-        std::getline(names, entries.back().second);
-      }
+    for (std::size_t k = 0; k < times.size(); ++k)
+      entries.emplace_back(times[k], names.at(k));
     if (entries == times_and_names)
       return;
     write_file(entries);

@@ -163,27 +163,22 @@ namespace moraine
         support = term.get();
         model.system->add(std::move(term));
       }
-    sums         = read_counts(archive);
-    last_reports = read_reports<dim>(archive);
+    sums                = read_counts(archive);
+    last_reports        = read_reports<dim>(archive);
     const auto &motions = archive.numbers("run/motion_of_last_step", 2);
-    motion.of_nodes         = motions[0];
-    motion.of_points        = motions[1];
+    motion.of_nodes     = motions[0];
+    motion.of_points    = motions[1];
     diagnostics.ledger.read(archive);
     model.linear_solver->read(archive);
   }
 
 
 
-  template void
-  StepDriver<2>::write_progress(Archive &) const;
-  template void
-  StepDriver<3>::write_progress(Archive &) const;
-  template void
-  StepDriver<2>::find_stencils(const Archive &);
-  template void
-  StepDriver<3>::find_stencils(const Archive &);
-  template void
-  StepDriver<2>::read(const Archive &);
-  template void
-  StepDriver<3>::read(const Archive &);
+#define INSTANTIATE(dim)                                          \
+  template void StepDriver<dim>::write_progress(Archive &) const; \
+  template void StepDriver<dim>::find_stencils(const Archive &);  \
+  template void StepDriver<dim>::read(const Archive &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

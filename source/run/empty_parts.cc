@@ -116,24 +116,13 @@ namespace moraine
 
 
 
-  template bool
-  StepDriver<2>::add_support(const double, const bool);
-  template bool
-  StepDriver<2>::may_support_more() const;
-  template bool
-  StepDriver<2>::hold_empty_parts();
-  template bool
-  StepDriver<2>::take_back_support();
-  template void
-  StepDriver<2>::keep_support();
-  template bool
-  StepDriver<3>::add_support(const double, const bool);
-  template bool
-  StepDriver<3>::may_support_more() const;
-  template bool
-  StepDriver<3>::hold_empty_parts();
-  template bool
-  StepDriver<3>::take_back_support();
-  template void
-  StepDriver<3>::keep_support();
+#define INSTANTIATE(dim)                                                \
+  template bool StepDriver<dim>::add_support(const double, const bool); \
+  template bool StepDriver<dim>::may_support_more() const;              \
+  template bool StepDriver<dim>::hold_empty_parts();                    \
+  template bool StepDriver<dim>::take_back_support();                   \
+  template void StepDriver<dim>::keep_support();
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -209,20 +209,14 @@ namespace moraine
 
 
 
-  template void
-  set_initial_tractions(const StageParameters &,
-                        const std::vector<std::string> &,
-                        Model<2> &);
-  template void
-  set_initial_tractions(const StageParameters &,
-                        const std::vector<std::string> &,
-                        Model<3> &);
-  template void
-  set_tractions_of_new_bodies(const StageParameters &,
-                              const StageParameters &,
-                              Model<2> &);
-  template void
-  set_tractions_of_new_bodies(const StageParameters &,
-                              const StageParameters &,
-                              Model<3> &);
+#define INSTANTIATE(dim)                                                \
+  template void set_initial_tractions(const StageParameters &,          \
+                                      const std::vector<std::string> &, \
+                                      Model<dim> &);                    \
+  template void set_tractions_of_new_bodies(const StageParameters &,    \
+                                            const StageParameters &,    \
+                                            Model<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

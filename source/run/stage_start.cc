@@ -9,7 +9,6 @@
 #include <moraine/output/grid_evaluation.h>
 #include <moraine/run/initial_stress.h>
 #include <moraine/run/initial_traction.h>
-#include <moraine/run/removed_bodies.h>
 #include <moraine/run/start_checks.h>
 #include <moraine/run/velocity_jump.h>
 #include <moraine/scene/scene_conditions.h>
@@ -19,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace moraine
 {
@@ -279,6 +279,83 @@ namespace moraine
           find_accelerations(model);
         }
     }
+
+
+
+    /** Whether the body that is nearest to a place in a cell of this rank goes.
+     * A cell without points is on the rim of a body as it was drawn. */
+    template <int dim>
+    bool
+    is_on_what_goes(const Point<dim>        &x,
+                    const unsigned int       cell,
+                    const std::vector<bool> &goes,
+                    const Model<dim>        &model)
+    {
+      const auto [first, last] = model.points->points_in(cell);
+      double     nearest       = std::numeric_limits<double>::max();
+      bool       of_goes       = false;
+      const auto take = [&](const double away, const unsigned int body) {
+        if (away >= nearest)
+          return;
+        nearest = away;
+        of_goes = goes[body];
+      };
+      for (unsigned int p = first; p < last; ++p)
+        take(model.points->position(p).distance(x), model.points->body(p));
+      for (unsigned int b = 0; first == last && b < goes.size(); ++b)
+        if (model.present[b] && model.bodies[b].shape)
+          take(-model.bodies[b].shape->distance(x, model.mesh->cell_size()), b);
+      return of_goes;
+    }
+
+
+
+    /** Remove the places of absorbing boundaries that lie on bodies which @p
+     * stage does not have, before they go.
+     * @return what was lost, if anything */
+    template <int dim>
+    std::optional<Finding>
+    remove_absorbing_places(const StageParameters &stage, Model<dim> &model)
+    {
+      std::vector<bool> goes;
+      for (unsigned int b = 0; b < model.bodies.size(); ++b)
+        goes.push_back(model.present[b] &&
+                       !contains(stage.bodies, model.body_names[b]));
+      std::optional<Finding> found;
+      for (auto &boundary : model.absorbing_boundaries)
+        {
+          const auto               &places = boundary.places();
+          std::vector<unsigned int> is_lost(places.size(), 0);
+          for (unsigned int k = 0; k < places.size(); ++k)
+            if (places[k].active_cell_index != GridSpace<dim>::no_cell)
+              is_lost[k] = is_on_what_goes(places[k].x,
+                                           places[k].active_cell_index,
+                                           goes,
+                                           model);
+          Utilities::MPI::max(is_lost, model.space->communicator(), is_lost);
+          double                    lost = 0, all = 0;
+          std::vector<unsigned int> numbers;
+          for (unsigned int k = 0; k < places.size(); ++k)
+            {
+              all += places[k].weight;
+              if (is_lost[k] > 0)
+                {
+                  lost += places[k].weight;
+                  numbers.push_back(k);
+                }
+            }
+          if (numbers.empty())
+            continue;
+          boundary.remove_places(numbers);
+          found = {"absorbing-boundary",
+                   boundary.name(),
+                   lost / all,
+                   0,
+                   per_cent(lost / all) +
+                     " of it lies on bodies that go, and goes with them"};
+        }
+      return found;
+    }
   } // namespace
 
 
@@ -312,16 +389,16 @@ namespace moraine
 
   template <int dim>
   void
-  begin_stage(const Scene<dim>   &scene,
-              const unsigned int  k,
-              Model<dim>         &model,
-              Diagnostics<dim>   &diagnostics)
+  begin_stage(const Scene<dim>  &scene,
+              const unsigned int k,
+              Model<dim>        &model,
+              Diagnostics<dim>  &diagnostics)
   {
     const auto            &name   = scene.stages[k].first;
     const StageParameters &stage  = scene.stages[k].second,
                           &before = scene.stages[k - 1].second;
-    const double     t      = stage.time.start_time;
-    const auto       moment = moment_of<dim>(stage, &before);
+    const double     t            = stage.time.start_time;
+    const auto       moment       = moment_of<dim>(stage, &before);
     const HeldForces held =
       forces_to_hold(scene, stage, before, model, diagnostics);
     diagnostics.ask(When::bodies_go, moment);
@@ -357,13 +434,13 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template void begin_first_step(const Scene<dim> &,                  \
-                                 Model<dim> &,                        \
-                                 Diagnostics<dim> &);                 \
-  template void begin_stage(const Scene<dim> &,                       \
-                            const unsigned int,                       \
-                            Model<dim> &,                             \
+#define INSTANTIATE(dim)                              \
+  template void begin_first_step(const Scene<dim> &,  \
+                                 Model<dim> &,        \
+                                 Diagnostics<dim> &); \
+  template void begin_stage(const Scene<dim> &,       \
+                            const unsigned int,       \
+                            Model<dim> &,             \
                             Diagnostics<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,7 +7,6 @@
 #include <moraine/core/patterns.h>
 #include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
-#include <moraine/scene/renamed_keys.h>
 #include <moraine/scene/scene_bodies.h>
 
 #include <filesystem>
@@ -111,6 +110,49 @@ namespace moraine
           prm.leave_subsection();
         }
       prm.leave_subsection();
+    }
+
+
+
+    /** What a key was called, or one of its values. */
+    struct OldName
+    {
+      const char *section; ///< the first word of its path
+      const char *key;
+      const char *value; ///< empty: the key itself has another name
+      const char *now;
+    };
+
+    constexpr OldName old_names[] = {
+      {"Boundaries",
+       "Carry reaction",
+       "",
+       "'Enforcement = augmented Lagrangian' carries it, 'weighted' and "
+       "'penalty' do not"},
+      {"Solver", "Limit points", "jump", "'pseudo-transient'"},
+      {"Method", "Put back", "", "'Return tolerance'"},
+      {"Method", "Empty stiffness", "", "'Fictitious stiffness'"}};
+
+
+
+    /** Keys and values that earlier versions knew are refused with what they
+     * are called now. */
+    void
+    refuse_old_names(const InputFile &input)
+    {
+      for (const auto &entry : input.entries())
+        for (const OldName &old : old_names)
+          {
+            const std::string value = old.value;
+            if (entry.key == old.key &&
+                entry.section.substr(0, entry.section.find('/')) ==
+                  old.section &&
+                (value.empty() || entry.value == value))
+              throw InputError(entry.origin + ": " +
+                               place(entry.section, entry.key) + ": " +
+                               (value.empty() ? "the key" : "'" + value + "'") +
+                               " has another name now: " + old.now);
+          }
     }
   } // namespace
 
