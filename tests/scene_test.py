@@ -13,7 +13,8 @@ so the comparison is exact and nothing passes by a tolerance hidden elsewhere.
     text("status", "ok")
 
 Runs are copies of a process that stands ready if ctest calls; see fork_server.py.
-The first line may say '# ranks: 1 2' (the default), '# ranks: 1', and so on.
+The first line may say '# ranks: 1', '# ranks: 2', and so on; else see CMakeLists.txt.
+RANKS may be 1-2: every third run, the first one too, is on two ranks.
 Called as  python3 scene_test.py TEST.py MORAINE RANKS [--update].
 """
 
@@ -44,6 +45,7 @@ _count = 0
 # Of scenes that must be refused every fourth runs on two ranks: starting them
 # takes longest.
 _refused = itertools.count()
+_alternate = None
 
 
 class Run:
@@ -121,6 +123,8 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     folder = _folder / str(_count)
     words = [command, str(root / scene)]
     n = on_ranks or ranks
+    if _alternate and not on_ranks and command != "check":
+        n = 2 if next(_alternate) % 3 == 0 else 1
     if expect == 2 and not on_ranks:
         n = 2 if next(_refused) % 4 == 0 else 1
     if command in ("run", "study"):
@@ -151,6 +155,32 @@ def _ended(words, n, refused):
         return code, "".join(file.read_text() for file in files)
 
 
+def prm(text):
+    """A scene of lines 'Section/Name/Key = value'; 'Section/Name/' opens a section
+    for the lines after it that are none of these."""
+    opened, lines = [], []
+    for line in text.strip("\n").split("\n"):
+        key, equals, value = line.partition(" =")
+        if line.startswith(("set ", "subsection ", "#", " ")) or not (
+                equals or line.endswith("/")):
+            lines.append(line)
+            continue
+        *path, key = key.split("/")
+        same = len(os.path.commonprefix([path, opened]))
+        lines += ["end"] * (len(opened) - same)
+        lines += [f"subsection {name}" for name in path[same:]]
+        opened = path
+        if key:
+            lines.append(f"set {key} ={value}")
+    return "\n".join(lines + ["end"] * len(opened)) + "\n"
+
+
+def scene_file(name, text):
+    path = _folder / name
+    path.write_text(prm(text))
+    return path
+
+
 def plain(output):
     """Text that a program printed, without folders that differ."""
     return output.replace(f"{_folder}/", "").replace(f"{root}/", "")
@@ -176,16 +206,18 @@ def number(name, value, digits):
 
 
 def main():
-    global program, ranks, _folder, _starter
+    global program, ranks, _alternate, _folder, _starter
     test = pathlib.Path(sys.argv[1]).resolve()
     program = pathlib.Path(sys.argv[2]).resolve()
-    ranks = int(sys.argv[3])
+    ranks = int(sys.argv[3][0])
+    if sys.argv[3] == "1-2":
+        _alternate = itertools.count()
     _starter = Starter(program)
     _folder = pathlib.Path(tempfile.mkdtemp(prefix="moraine-"))
     try:
         names = {n: globals()[n] for n in
-                 ("run", "plain", "text", "bound", "at_least", "number",
-                  "root")}
+                 ("run", "prm", "scene_file", "plain", "text", "bound", "at_least",
+                  "number", "root")}
         names["ranks"] = ranks
         names["program"] = program
         names["start"] = _starter.start

@@ -1,5 +1,4 @@
 # debug: no
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Faults that show only while a scene runs, and Ctrl-C."""
@@ -65,57 +64,30 @@ show("the same, written at the end only", run(
 
 # A point without stress, all nodes of which are prescribed: their forces say nothing
 # of it. Above it is a body that moves freely, or that is prescribed as well.
-softening = folder / "softening.prm"
-softening.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 3
-  set Cell size    = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection brittle
-    set Model                = von Mises
-    set Young modulus        = 50000
-    set Poisson ratio        = 0.3
-    set Uniaxial yield stress = 0: 100, 0.001: 55, 0.01: 50
-  end
-  subsection elastic
-    set Young modulus = 10000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection low
-    set Material     = brittle
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-  subsection up
-    set Material     = elastic
-    set Lower corner = 0, 1
-    set Upper corner = 1, 3
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-  subsection middle
-    set Lower corner = 0, 1
-    set Upper corner = 1, 1
-    set Displacement = 0.02*t; 0
-  end
-end
-subsection Strength reduction
-  set Factor = 0.3
-end
-subsection Time
-  set Steps         = 2
-  set Smallest step = 0.9
-end
+softening = scene_file("softening.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 3
+Mesh/Cell size = 1
+Method/Method = finite element
+Materials/brittle/Model = von Mises
+Materials/brittle/Young modulus = 50000
+Materials/brittle/Poisson ratio = 0.3
+Materials/brittle/Uniaxial yield stress = 0: 100, 0.001: 55, 0.01: 50
+Materials/elastic/Young modulus = 10000
+Materials/elastic/Poisson ratio = 0.3
+Bodies/low/Material = brittle
+Bodies/low/Lower corner = 0, 0
+Bodies/low/Upper corner = 1, 1
+Bodies/up/Material = elastic
+Bodies/up/Lower corner = 0, 1
+Bodies/up/Upper corner = 1, 3
+Grid conditions/base/Side = bottom
+Grid conditions/middle/Lower corner = 0, 1
+Grid conditions/middle/Upper corner = 1, 1
+Grid conditions/middle/Displacement = 0.02*t; 0
+Strength reduction/Factor = 0.3
+Time/Steps = 2
+Time/Smallest step = 0.9
 """)
 for method in ("finite element", "GIMP"):
     for up_to in (1, 3):
@@ -149,44 +121,23 @@ no_results("GIMP with one point in a cell, consistent mass", run(
             "Time/Integrator": "Newmark"}, expect=None, on_ranks=ranks))
 
 # Rough plates squeeze quadratic elements until one beside a corner has folded.
-squeezed = folder / "squeezed.prm"
-squeezed.write_text("""
-subsection Mesh
-  set Lower corner = -0.5, -0.25
-  set Upper corner = 2.5, 1.25
-  set Cell size    = 0.0625
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-  set Degree = 2
-end
-subsection Materials
-  subsection metal
-    set Model              = von Mises
-    set Young modulus      = 1000
-    set Poisson ratio      = 0.3
-    set Shear yield stress = 10
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-end
-subsection Boundaries
-  subsection low
-    set Points = -0.4 0; 2.4 0
-  end
-  subsection up
-    set Points      = 2.4 1; -0.4 1
-    set Translation = 0; -0.4*t
-  end
-end
-subsection Time
-  set Steps = 20
-end
+squeezed = scene_file("squeezed.prm", """
+Mesh/Lower corner = -0.5, -0.25
+Mesh/Upper corner = 2.5, 1.25
+Mesh/Cell size = 0.0625
+Method/Method = finite element
+Method/Strain = finite
+Method/Degree = 2
+Materials/metal/Model = von Mises
+Materials/metal/Young modulus = 1000
+Materials/metal/Poisson ratio = 0.3
+Materials/metal/Shear yield stress = 10
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 2, 1
+Boundaries/low/Points = -0.4 0; 2.4 0
+Boundaries/up/Points = 2.4 1; -0.4 1
+Boundaries/up/Translation = 0; -0.4*t
+Time/Steps = 20
 """)
 result = run(squeezed, expect=1, on_ranks=1)
 at = re.search(r"boundary '(\w+)': the cell at \((\S+) (\S+)\) has folded",
@@ -196,65 +147,28 @@ text("squeezed between plates: the place that is named is",
      message(result.output))
 
 # A load on a body that a later stage leaves out, and nothing beside it is left.
-staged = folder / "staged.prm"
-staged.write_text("""
-subsection Mesh
-  set Lower corner = -1, 0
-  set Upper corner = 4, 4
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection clay
-    set Young modulus = 1e5
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection ground
-    set Lower corner = 0, 0
-    set Upper corner = 3, 1
-  end
-  subsection fill
-    set Lower corner = 0, 1
-    set Upper corner = 3, 2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection surcharge
-    set Type  = surface traction
-    set Body  = fill
-    set Part  = top
-    set Value = 0; -10
-  end
-end
-subsection Stages
-  subsection filled
-    set Bodies = ground, fill
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection dug
-    set Bodies = ground
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 1.5, 2
-  end
-end
+staged = scene_file("staged.prm", """
+Mesh/Lower corner = -1, 0
+Mesh/Upper corner = 4, 4
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Materials/clay/Young modulus = 1e5
+Materials/clay/Poisson ratio = 0.3
+Materials/clay/Density = 1
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 3, 1
+Bodies/fill/Lower corner = 0, 1
+Bodies/fill/Upper corner = 3, 2
+Grid conditions/base/Side = bottom
+Loads/surcharge/Type = surface traction
+Loads/surcharge/Body = fill
+Loads/surcharge/Part = top
+Loads/surcharge/Value = 0; -10
+Stages/filled/Bodies = ground, fill
+Stages/filled/Time/End time = 1
+Stages/dug/Bodies = ground
+Stages/dug/Time/End time = 2
+Probes/top/Location = 1.5, 2
 """)
 for name, settings in (
         ("", {}),
@@ -271,10 +185,9 @@ for name, settings in (
 
 # Ctrl-C: every rank gets it on a terminal; here one rank does.
 out = folder / "interrupted"
-words = [str(program), "run", str(root / scene), "--output", str(out),
+words = ["mpirun", "-q", "-n", "2", str(program), "run", str(root / scene),
+         "--output", str(out),
          "--set", "Time/Steps = 100000", "--set", "Output/Every = 1000000"]
-if ranks > 1:
-    words = ["mpirun", "-q", "-n", str(ranks)] + words
 process = subprocess.Popen(words, stdout=subprocess.PIPE,
                            stderr=subprocess.STDOUT, text=True, cwd=folder)
 history = out / "history.csv"
@@ -282,11 +195,8 @@ for _ in range(600):
     if history.exists() and history.read_text().count("\n") > 3:
         break
     time.sleep(0.1)
-victim = process.pid
-if ranks > 1:
-    children = f"/proc/{victim}/task/{victim}/children"
-    victim = int(open(children).read().split()[-1])
-os.kill(victim, signal.SIGINT)
+children = f"/proc/{process.pid}/task/{process.pid}/children"
+os.kill(int(open(children).read().split()[-1]), signal.SIGINT)
 output = process.communicate(timeout=120)[0]
 text("Ctrl-C: exit code", process.returncode)
 text("  message", message(output))

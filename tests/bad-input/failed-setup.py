@@ -1,4 +1,4 @@
-# ranks: 1 2  # debug: no
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Nothing of an earlier run is left that could be taken for that of a run that
@@ -52,8 +52,6 @@ good = run(scene)
 words = [str(program), "run", str(root / scene), "--output", str(good.folder),
          "--overwrite", "--set", "Mesh/Cell size = 0.0125",
          "--set", "Output/Points = false", "--set", "Output/Mesh = false"]
-if ranks > 1:
-    words = ["mpirun", "-q", "-n", str(ranks)] + words
 process = subprocess.Popen(words, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL, cwd=folder,
                            start_new_session=True)

@@ -205,19 +205,10 @@ refused("velocity of a node that is held",
                   "Bodies/block/Initial velocity": "1; 0"})
 
 # Stages.
-staged = base[:base.index("subsection Time")] + """subsection Stages
-  subsection gravity
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection later
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-"""
+staged = base[:base.index("subsection Time")] + prm("""
+Stages/gravity/Time/End time = 1
+Stages/later/Time/End time = 2
+""")
 refused("time beside stages", staged + "subsection Time\n  set Steps = 4\nend\n")
 refused("a stage that goes back", staged, {"Stages/later/Time/End time": 0.5})
 refused("a stage that does not follow", staged,

@@ -53,59 +53,27 @@ refused("a mesh that moves off a held side", stretch, {
 
 # Sides and conditions that move alike, in stages: what holds a side in one of
 # them need not in another, and the second begins with a mesh that is longer.
-STAGES = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 2
-  set Cells        = 2, 2
-end
-subsection Method
-  set Method = material point
-  set Strain = finite
-end
-subsection Materials
-  subsection block
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 2
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection base
-    set Side       = bottom
-    set Components = y
-  end
-  subsection right
-    set Side         = right
-    set Components   = x
-    set Displacement = 0.8*t; 0
-  end
-end
-subsection Mesh motion
-  set Stretch between = left, right
-end
-subsection Stages
-  subsection first
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection second
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-"""
+STAGES = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 2, 2
+Mesh/Cells = 2, 2
+Method/Method = material point
+Method/Strain = finite
+Materials/block/Young modulus = 1000
+Materials/block/Poisson ratio = 0
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 2, 2
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/base/Side = bottom
+Grid conditions/base/Components = y
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/right/Displacement = 0.8*t; 0
+Mesh motion/Stretch between = left, right
+Stages/first/Time/End time = 1
+Stages/second/Time/End time = 2
+""")
 stages = folder / "stages.prm"
 stages.write_text(STAGES)
 lid, plate = "Grid conditions/lid/", "Grid conditions/plate/"

@@ -5,77 +5,37 @@
 with section, key, value and, where it has one, time. Boundaries meet in the scene."""
 
 scene = folder / "scene.prm"
-BASE = """
-subsection Mesh
-  set Lower corner = 0, -1
-  set Upper corner = 5, 3
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection b
-    set Lower corner = 0, 0
-    set Upper corner = 3, 1
-  end
-end
-subsection Boundaries
-  subsection end
-    set Points = 3 0; 3 1
-  end
-  subsection base
-    set Points = 0 0; 3 0
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection side
-    set Side = left
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -1
-  end
-  subsection pressure
-    set Type = surface traction
-    set Points = 3 1; 0 1
-    set Value = 0; -1
-  end
-  subsection place
-    set Type = point force
-    set Location = 1.1, 0.9
-    set Value = 0; -1
-  end
-  subsection points
-    set Type = force on points
-    set Location = 2.1, 0.9
-    set Value = 0; -1
-  end
-end
-"""
-STAGES = """
-subsection Stages
-  subsection before
-    subsection Time
-      set End time = 0.4
-    end
-  end
-  subsection now
-    subsection Time
-      set End time = 1
-      set Steps = 3
-      set Integrator = Bathe
-    end
-  end
-end
-"""
+BASE = prm("""
+Mesh/Lower corner = 0, -1
+Mesh/Upper corner = 5, 3
+Mesh/Cell size = 0.5
+Materials/m/Young modulus = 1000
+Materials/m/Poisson ratio = 0.3
+Materials/m/Density = 1
+Bodies/b/Lower corner = 0, 0
+Bodies/b/Upper corner = 3, 1
+Boundaries/end/Points = 3 0; 3 1
+Boundaries/base/Points = 0 0; 3 0
+Boundaries/base/Constraint = roller
+Grid conditions/side/Side = left
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -1
+Loads/pressure/Type = surface traction
+Loads/pressure/Points = 3 1; 0 1
+Loads/pressure/Value = 0; -1
+Loads/place/Type = point force
+Loads/place/Location = 1.1, 0.9
+Loads/place/Value = 0; -1
+Loads/points/Type = force on points
+Loads/points/Location = 2.1, 0.9
+Loads/points/Value = 0; -1
+""")
+STAGES = prm("""
+Stages/before/Time/End time = 0.4
+Stages/now/Time/End time = 1
+Stages/now/Time/Steps = 3
+Stages/now/Time/Integrator = Bathe
+""")
 NEVER = "sqrt(-1)"
 LATER = "0.001*(sqrt(0.5-t)-sqrt(0.5))"
 PLACE = "0.001*(t >= 0.1 ? sqrt(y > 0.4 ? -1 : 1) : t)"

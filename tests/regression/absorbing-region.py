@@ -3,45 +3,25 @@
 """A region with the corners of a side of the mesh is that side, also where they are
 no numbers of base two: none of its dashpots is lost to round-off."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = {first}, 0
-  set Upper corner = {last}, 1
-  set Cells = {cells}, 10
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = {first}, 0
-    set Upper corner = {last}, 1
-  end
-end
-subsection Grid conditions
-  subsection right
-    set Side = right
-    set Constraint = absorbing
-    set Incident velocity = -0.01; 0
-    {region}
-  end
-end
-subsection Time
-  set Integrator = Newmark
-  set End time = 0.02
-  set Steps = 8
-end
-subsection Output
-  set Write = end
-end
-"""
+SCENE = prm("""
+Mesh/Lower corner = {first}, 0
+Mesh/Upper corner = {last}, 1
+Mesh/Cells = {cells}, 10
+Method/Method = finite element
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0.3
+Materials/rock/Density = 1
+Bodies/block/Lower corner = {first}, 0
+Bodies/block/Upper corner = {last}, 1
+Grid conditions/right/Side = right
+Grid conditions/right/Constraint = absorbing
+Grid conditions/right/Incident velocity = -0.01; 0
+{region}
+Time/Integrator = Newmark
+Time/End time = 0.02
+Time/Steps = 8
+Output/Write = end
+""")
 for first, last, cells in ((0, 0.6, 4), (0.2, 1.7, 5), (0, 0.9, 3), (-0.3, 0.4, 7)):
     found = []
     for region in ("", f"set Lower corner = {last}, 0\n"

@@ -5,75 +5,41 @@
 corner, of another body further along, nor of a stage before one in which the
 boundary did not act."""
 
-SOLID = """
-subsection Materials
-  subsection elastic
-    set Young modulus = 20
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Output
-  set Write = end
-  set Mesh = false
-end
-"""
+SOLID = prm("""
+Materials/elastic/Young modulus = 20
+Materials/elastic/Poisson ratio = 0.3
+Materials/elastic/Density = 1
+Output/Write = end
+Output/Mesh = false
+""")
 
 # A block spreads under its weight until walls stop it: the box in one piece or
 # in three, of which the ledge is for the right one to touch something.
-SPREAD = SOLID + """
-subsection Mesh
-  set Lower corner = -0.37, -0.33
-  set Upper corner = 2.03, 2.67
-  set Cell size = 0.2
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 1, 2
-  end
-  subsection ledge
-    set Lower corner = 1.1, 2.35
-    set Upper corner = 1.33, 2.6
-  end
-end
-subsection Grid conditions
-  subsection shelf
-    set Lower corner = 0, 2.2
-    set Upper corner = 3, 3
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Bodies = block
-    set Value = 0; -12*t
-  end
-end
-subsection Time
-  set Steps = 20
-end
-subsection Probes
-  subsection foot
-    set Location = 0.95, 0.05
-  end
-end
-"""
+SPREAD = SOLID + prm("""
+Mesh/Lower corner = -0.37, -0.33
+Mesh/Upper corner = 2.03, 2.67
+Mesh/Cell size = 0.2
+Method/Method = GIMP
+Method/Strain = finite
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 1, 2
+Bodies/ledge/Lower corner = 1.1, 2.35
+Bodies/ledge/Upper corner = 1.33, 2.6
+Grid conditions/shelf/Lower corner = 0, 2.2
+Grid conditions/shelf/Upper corner = 3, 3
+Loads/weight/Type = gravity
+Loads/weight/Bodies = block
+Loads/weight/Value = 0; -12*t
+Time/Steps = 20
+Probes/foot/Location = 0.95, 0.05
+""")
 
 
 def roller(name, points):
-    return f"""
-subsection Boundaries
-  subsection {name}
-    set Points = {points}
-    set Constraint = roller
-  end
-end
-"""
+    return prm(f"""
+Boundaries/{name}/Points = {points}
+Boundaries/{name}/Constraint = roller
+""")
 
 
 def written(name, scene):
@@ -93,54 +59,30 @@ bound("  feet differ by", abs(whole.history()[-1]["u_x at foot"]
                              / parts.history()[-1]["u_x at foot"] - 1), 0.01)
 
 # The floor under a light block that falls holds nothing of the heavy one beside.
-LAND = SOLID + roller("floor", "-0.5 0; 4.5 0") + """
-subsection Mesh
-  set Lower corner = -0.5, -0.3
-  set Upper corner = 4.5, 1.7
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection heavy
-    set Young modulus = 20
-    set Poisson ratio = 0.3
-    set Density = {density}
-  end
-end
-subsection Bodies
-  subsection left
-    set Material = heavy
-    set Lower corner = 0, 0
-    set Upper corner = 1.5, 1
-  end
-  subsection right
-    set Material = elastic
-    set Lower corner = 3, 0.3
-    set Upper corner = 4, 1.3
-    set Initial velocity = 0; -0.3
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Bodies = left
-    set Value = 0; -0.1
-  end
-end
-subsection Probes
-  subsection light
-    set Location = 3.5, 1.2
-    set Quantities = velocity
-  end
-end
-subsection Time
-  set Integrator = Newmark
-  set End time = 2
-  set Steps = 60
-end
-"""
+LAND = SOLID + roller("floor", "-0.5 0; 4.5 0") + prm("""
+Mesh/Lower corner = -0.5, -0.3
+Mesh/Upper corner = 4.5, 1.7
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Materials/heavy/Young modulus = 20
+Materials/heavy/Poisson ratio = 0.3
+Materials/heavy/Density = {density}
+Bodies/left/Material = heavy
+Bodies/left/Lower corner = 0, 0
+Bodies/left/Upper corner = 1.5, 1
+Bodies/right/Material = elastic
+Bodies/right/Lower corner = 3, 0.3
+Bodies/right/Upper corner = 4, 1.3
+Bodies/right/Initial velocity = 0; -0.3
+Loads/weight/Type = gravity
+Loads/weight/Bodies = left
+Loads/weight/Value = 0; -0.1
+Probes/light/Location = 3.5, 1.2
+Probes/light/Quantities = velocity
+Time/Integrator = Newmark
+Time/End time = 2
+Time/Steps = 60
+""")
 light, heavy = (run(written(f"land-{d}", LAND.replace("{density}", d))).history()
                 for d in ("1", "50"))
 at_least("light block bounces to", light[-1]["v_y at light"], 0.1)
@@ -148,56 +90,26 @@ bound("  beside a heavy one it differs by",
       abs(heavy[-1]["v_y at light"] - light[-1]["v_y at light"]), 1e-6)
 
 # A boundary that pauses, and one in its place that never acted.
-PAUSE = SOLID + """
-subsection Mesh
-  set Lower corner = -0.3, -0.3
-  set Upper corner = 2.2, 2.7
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0.1
-    set Upper corner = 1.5, 2
-  end
-end
-subsection Boundaries
-  subsection A
-    set Points = 0 0.1; 1.5 0.1
-  end
-  subsection B
-    set Points = 0 0.1; 1.5 0.1
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -0.2
-  end
-end
-subsection Stages
-  subsection rests
-    set Boundaries = A
-  end
-  subsection falls
-    set Boundaries = none
-    subsection Time
-      set Integrator = Newmark
-      set End time = 1.01
-    end
-  end
-  subsection held
-    set Boundaries = {last}
-    subsection Time
-      set Integrator = Newmark
-      set End time = 1.05
-      set Steps = 8
-    end
-  end
-end
-"""
+PAUSE = SOLID + prm("""
+Mesh/Lower corner = -0.3, -0.3
+Mesh/Upper corner = 2.2, 2.7
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Bodies/block/Lower corner = 0, 0.1
+Bodies/block/Upper corner = 1.5, 2
+Boundaries/A/Points = 0 0.1; 1.5 0.1
+Boundaries/B/Points = 0 0.1; 1.5 0.1
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -0.2
+Stages/rests/Boundaries = A
+Stages/falls/Boundaries = none
+Stages/falls/Time/Integrator = Newmark
+Stages/falls/Time/End time = 1.01
+Stages/held/Boundaries = {last}
+Stages/held/Time/Integrator = Newmark
+Stages/held/Time/End time = 1.05
+Stages/held/Time/Steps = 8
+""")
 for enforcement in "symmetric Nitsche", "penalty", "augmented Lagrangian":
     again, new = (
         [row[f"reaction_y of {name}"] for row in

@@ -8,46 +8,24 @@ domains carry the forces, or where a body without stress turns."""
 
 from math import pi
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -1, -4
-  set Upper corner = 9, 9
-  set Cell size    = 0.25
-end
-subsection Method
-  set Strain = finite
-end
-subsection Materials
-  subsection steel
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection beam
-    set Lower corner = 0, 0
-    set Upper corner = 8, 1
-  end
-end
-subsection Boundaries
-  subsection left
-    set Points = 0 1; 0 0
-  end
-  subsection right
-    set Points          = 8 0; 8 1
-    set Rotation angle  = 90 * t
-    set Rotation centre = 8, 0.5
-    set Translation     = if(t > 0, 8 * sin(pi/2 * t) / (pi/2 * t) - 8, 0); if(t > 0, 8 * (1 - cos(pi/2 * t)) / (pi/2 * t), 0)
-  end
-end
-subsection Time
-  set Steps = 18
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+SCENE = prm("""
+Mesh/Lower corner = -1, -4
+Mesh/Upper corner = 9, 9
+Mesh/Cell size = 0.25
+Method/Strain = finite
+Materials/steel/Young modulus = 1000
+Materials/steel/Poisson ratio = 0.3
+Bodies/beam/Lower corner = 0, 0
+Bodies/beam/Upper corner = 8, 1
+Boundaries/left/Points = 0 1; 0 0
+Boundaries/right/Points = 8 0; 8 1
+Boundaries/right/Rotation angle = 90 * t
+Boundaries/right/Rotation centre = 8, 0.5
+Boundaries/right/Translation = if(t > 0, 8 * sin(pi/2 * t) / (pi/2 * t) - 8, 0); if(t > 0, 8 * (1 - cos(pi/2 * t)) / (pi/2 * t), 0)
+Time/Steps = 18
+Output/Points = false
+Output/Mesh = false
+""")
 scene = folder / "beam.prm"
 scene.write_text(SCENE)
 TOLD = "leave equilibrium"

@@ -53,36 +53,20 @@ end
 
 def beam(angle):
     c, s = cos(radians(angle)), sin(radians(angle))
-    scene = scene_of(f"beam-{angle}", f"""
-subsection Bodies
-  subsection beam
-    set Lower corner   = 0, 0
-    set Upper corner   = 5, 1
-    set Rotation angle = {angle}
-    set Translation    = 0.5, 0.2
-  end
-end
-subsection Boundaries
-  subsection left
-    set Body = beam
-    set Part = left
-  end
-end
-subsection Loads
-  subsection shear
-    set Type  = surface traction
-    set Body  = beam
-    set Part  = right
-    set Value = {-s!r}; {c!r}
-  end
-end
-subsection Probes
-  subsection tip
-    set Location = {0.5 + 5 * c - 0.5 * s!r}, {0.2 + 5 * s + 0.5 * c!r}
-    set Kind     = interpolated
-  end
-end
-""")
+    scene = scene_of(f"beam-{angle}", prm(f"""
+Bodies/beam/Lower corner = 0, 0
+Bodies/beam/Upper corner = 5, 1
+Bodies/beam/Rotation angle = {angle}
+Bodies/beam/Translation = 0.5, 0.2
+Boundaries/left/Body = beam
+Boundaries/left/Part = left
+Loads/shear/Type = surface traction
+Loads/shear/Body = beam
+Loads/shear/Part = right
+Loads/shear/Value = {-s!r}; {c!r}
+Probes/tip/Location = {0.5 + 5 * c - 0.5 * s!r}, {0.2 + 5 * s + 0.5 * c!r}
+Probes/tip/Kind = interpolated
+"""))
 
     def reaction_and_tip(settings):
         row = run(scene, settings).history()[-1]
@@ -110,33 +94,19 @@ for name, angle, settings in (
     bound(f"{name}: what the reaction misses", max(map(abs, miss)), 1e-6)
     bound(f"{name}: tip over that of equal cells - 1", tip / of_box - 1, 0.05)
 
-block = scene_of("block", """
-subsection Method
-  set Method = CPDI2
-  set Strain = finite
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0.3, 0.2
-    set Upper corner = 3.3, 0.65
-  end
-end
-subsection Boundaries
-  subsection left
-    set Points     = 0.3 1.05; 0.3 -0.2
-    set Constraint = roller
-  end
-  subsection base
-    set Points     = -0.1 0.2; 3.7 0.2
-    set Constraint = roller
-  end
-  subsection plate
-    set Points      = 3.7 0.65; -0.1 0.65
-    set Constraint  = roller
-    set Translation = 0; -0.001*t
-  end
-end
-""")
+block = scene_of("block", prm("""
+Method/Method = CPDI2
+Method/Strain = finite
+Bodies/block/Lower corner = 0.3, 0.2
+Bodies/block/Upper corner = 3.3, 0.65
+Boundaries/left/Points = 0.3 1.05; 0.3 -0.2
+Boundaries/left/Constraint = roller
+Boundaries/base/Points = -0.1 0.2; 3.7 0.2
+Boundaries/base/Constraint = roller
+Boundaries/plate/Points = 3.7 0.65; -0.1 0.65
+Boundaries/plate/Constraint = roller
+Boundaries/plate/Translation = 0; -0.001*t
+"""))
 force = run(block, DISTORTED).history()[-1]["reaction_y of plate"]
 exact = -1e4 / (1 - 0.3 ** 2) * 0.001 / 0.45 * 3
 bound("force of a plate over the exact one - 1", force / exact - 1, 0.02)

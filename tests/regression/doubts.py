@@ -72,47 +72,25 @@ text("footing above the ground", told(idle))
 
 # Small strain where it is none: force over area of the start is no stress where
 # points move.
-PLATE = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 3, 1.5
-  set Cell size    = 0.25
-end
-subsection Materials
-  subsection steel
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection plate
-    set Shape        = box
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection base
-    set Side       = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection pull
-    set Type  = surface traction
-    set Body  = plate
-    set Part  = right
-    set Value = 100 * t; 0
-  end
-end
-subsection Time
-  set Steps = 4
-end
-"""
+PLATE = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 3, 1.5
+Mesh/Cell size = 0.25
+Materials/steel/Young modulus = 1000
+Materials/steel/Poisson ratio = 0.3
+Bodies/plate/Shape = box
+Bodies/plate/Lower corner = 0, 0
+Bodies/plate/Upper corner = 2, 1
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/base/Side = bottom
+Grid conditions/base/Components = y
+Loads/pull/Type = surface traction
+Loads/pull/Body = plate
+Loads/pull/Part = right
+Loads/pull/Value = 100 * t; 0
+Time/Steps = 4
+""")
 plate = folder / "plate.prm"
 plate.write_text(PLATE)
 SMALL = {"Method/Strain": "small", "Method/Method": "GIMP"}
@@ -126,25 +104,15 @@ for name, settings in (
 
 # What displacements do not know of after a reset: that the plate was strained, and
 # is not slender; that it was moved.
-STEPS = """subsection Time
-  set Steps = 4
-end
-"""
+STEPS = prm("""
+Time/Steps = 4
+""")
 assert STEPS in PLATE
-plate.write_text(PLATE.replace(STEPS, """subsection Stages
-  subsection first
-    subsection Time
-      set Steps = 4
-    end
-  end
-  subsection held
-    set Reset displacements = true
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-""").replace("100 * t", "100 * min(t, 1)"))
+plate.write_text(PLATE.replace(STEPS, prm("""
+Stages/first/Time/Steps = 4
+Stages/held/Reset displacements = true
+Stages/held/Time/End time = 2
+""")).replace("100 * t", "100 * min(t, 1)"))
 for name, settings in (
         ("", {"Output/Checkpoint every": "1 step"}),
         (", not reset", {"Stages/held/Reset displacements": "false"}),
@@ -167,52 +135,27 @@ text("plate moved, then held: warnings", told(result))
 
 # A block that has fallen on a floor and rests: what stress is left in it counts,
 # though motion once had much more energy.
-landed = folder / "landed.prm"
-landed.write_text("""
-subsection Mesh
-  set Lower corner = -1, 0
-  set Upper corner = 2, 3
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection block
-    set Young modulus = 1e7
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner      = 0, 1
-    set Upper corner      = 1, 2
-    set Stiffness damping = 0.002
-  end
-end
-subsection Grid conditions
-  subsection floor
-    set Side       = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Time
-  set Integrator = Newmark
-  set End time   = 3
-  set Steps      = 1000
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
+landed = scene_file("landed.prm", """
+Mesh/Lower corner = -1, 0
+Mesh/Upper corner = 2, 3
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Method/Strain = finite
+Materials/block/Young modulus = 1e7
+Materials/block/Poisson ratio = 0.3
+Materials/block/Density = 2
+Bodies/block/Lower corner = 0, 1
+Bodies/block/Upper corner = 1, 2
+Bodies/block/Stiffness damping = 0.002
+Grid conditions/floor/Side = bottom
+Grid conditions/floor/Components = y
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Time/Integrator = Newmark
+Time/End time = 3
+Time/Steps = 1000
+Output/Points = false
+Output/Mesh = false
 """)
 result = run(landed, on_ranks=1)
 text("landed", told(result) or "nothing")

@@ -57,74 +57,36 @@ for name, material in (("elastic", {}),
 
 # What was no cure for steps that Newton's method could not end is one for a grain
 # that comes later.
-LATER = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 6, 12
-  set Cell size = 1
-end
-subsection Method
-  set Method = material point
-  set Strain = finite
-end
-subsection Materials
-  subsection soft
-    set Young modulus = 100
-    set Poisson ratio = 0
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection column
-    set Lower corner = 0, 0
-    set Upper corner = 1, 10
-  end
-  subsection grain
-    set Lower corner = 4.1, 0.1
-    set Upper corner = 4.9, 0.9
-    set Point grid = 1, 1
-  end
-end
-subsection Grid conditions
-  subsection sides
-    set Lower corner = 0, 0
-    set Upper corner = 1, 12
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection push
-    set Type = surface traction
-    set Points = 1 10; 0 10
-    set Value = 0; -60*min(t, 0.12)
-  end
-  subsection weight
-    set Type = gravity
-    set Value = 0; -1
-    set Bodies = grain
-  end
-end
-subsection Solver
-  set Maximum iterations = 3
-end
-subsection Stages
-  subsection one
-    set Bodies = column
-  end
-  subsection two
-    set Bodies = column, grain
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+LATER = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 6, 12
+Mesh/Cell size = 1
+Method/Method = material point
+Method/Strain = finite
+Materials/soft/Young modulus = 100
+Materials/soft/Poisson ratio = 0
+Materials/soft/Density = 1
+Bodies/column/Lower corner = 0, 0
+Bodies/column/Upper corner = 1, 10
+Bodies/grain/Lower corner = 4.1, 0.1
+Bodies/grain/Upper corner = 4.9, 0.9
+Bodies/grain/Point grid = 1, 1
+Grid conditions/sides/Lower corner = 0, 0
+Grid conditions/sides/Upper corner = 1, 12
+Grid conditions/sides/Components = x
+Grid conditions/bottom/Side = bottom
+Loads/push/Type = surface traction
+Loads/push/Points = 1 10; 0 10
+Loads/push/Value = 0; -60*min(t, 0.12)
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -1
+Loads/weight/Bodies = grain
+Solver/Maximum iterations = 3
+Stages/one/Bodies = column
+Stages/two/Bodies = column, grain
+Stages/two/Time/End time = 2
+Output/Write = end
+""")
 later = folder / "later.prm"
 later.write_text(LATER)
 grain = run(later)

@@ -3,40 +3,20 @@
 """Bodies and surfaces drawn by expressions: results depend neither on the number
 an expression is multiplied with, nor on where the scene lies."""
 
-LOADED = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 10, 4
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection soil
-    set Shape = expression
-    set Expression = {scale} * (4.5 - abs(x - 5))
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection crest
-    set Type = surface traction
-    set Points = 10 3.5; 0 3.5
-    set Value = 0; -2
-  end
-end
-"""
+LOADED = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 10, 4
+Mesh/Cell size = 1
+Method/Method = finite element
+Materials/soil/Young modulus = 1e4
+Materials/soil/Poisson ratio = 0.3
+Bodies/soil/Shape = expression
+Bodies/soil/Expression = {scale} * (4.5 - abs(x - 5))
+Grid conditions/base/Side = bottom
+Loads/crest/Type = surface traction
+Loads/crest/Points = 10 3.5; 0 3.5
+Loads/crest/Value = 0; -2
+""")
 for scale in 1, 1e-3, 1e-6, 1e4:
     (folder / "loaded.prm").write_text(LOADED.format(scale=scale))
     result = run(folder / "loaded.prm")
@@ -44,57 +24,27 @@ for scale in 1, 1e-3, 1e-6, 1e4:
     bound(f"level times {scale:g}: force on 9 of width, off 18",
           abs(force / 18 - 1), 1e-9)
 
-ROLLER = """
-subsection Mesh
-  set Lower corner = {x}, {y}
-  set Upper corner = {x} + 4, {y} + 3
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = material point
-  set Strain = finite
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection soil
-    set Shape = expression
-    set Expression = min(y - {y} - 0.6 - 0.2*sin(2*(x - {x})), {y} + 2.6 - y)
-  end
-end
-subsection Boundaries
-  subsection bed
-    set Surface = expression
-    set Expression = y - {y} - 0.6 - 0.2*sin(2*(x - {x}))
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-subsection Probes
-  subsection toe
-    set Location = {x} + 3.9, {y} + 1.2
-  end
-end
-subsection Time
-  set Steps = 4
-end
-"""
+ROLLER = prm("""
+Mesh/Lower corner = {x}, {y}
+Mesh/Upper corner = {x} + 4, {y} + 3
+Mesh/Cell size = 0.25
+Method/Method = material point
+Method/Strain = finite
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 1
+Bodies/soil/Shape = expression
+Bodies/soil/Expression = min(y - {y} - 0.6 - 0.2*sin(2*(x - {x})), {y} + 2.6 - y)
+Boundaries/bed/Surface = expression
+Boundaries/bed/Expression = y - {y} - 0.6 - 0.2*sin(2*(x - {x}))
+Boundaries/bed/Constraint = roller
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Probes/toe/Location = {x} + 3.9, {y} + 1.2
+Time/Steps = 4
+""")
 results = []
 for x, y in (0, 0), (4.2e5, 4.6e6):
     (folder / "roller.prm").write_text(

@@ -13,54 +13,28 @@ for scene in ("impact", "impact-roller"):
     text(f"{scene}: told", told(run(f"prm/dynamics/{scene}.prm")))
 
 # A block of full cells is pulled until it flows.
-PLATEAU = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 6
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection clay
-    set Model = von Mises
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Uniaxial yield stress = 1
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 4
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection pull
-    set Type = surface traction
-    set Points = 2 4; 0 4
-    set Value = 0; 1.3*t
-  end
-end
-subsection Time
-  set End time = 1
-  set Steps = 10
-end
-subsection Output
-  set Write = end
-end
-"""
+PLATEAU = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 6
+Mesh/Cell size = 0.5
+Method/Method = GIMP
+Materials/clay/Model = von Mises
+Materials/clay/Young modulus = 1000
+Materials/clay/Poisson ratio = 0.3
+Materials/clay/Uniaxial yield stress = 1
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 2, 4
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = y
+Loads/pull/Type = surface traction
+Loads/pull/Points = 2 4; 0 4
+Loads/pull/Value = 0; 1.3*t
+Time/End time = 1
+Time/Steps = 10
+Output/Write = end
+""")
 plateau = folder / "plateau.prm"
 plateau.write_text(PLATEAU)
 for strain in ("small", "finite"):

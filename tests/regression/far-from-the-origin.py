@@ -2,61 +2,33 @@
 # Copyright (C) 2026 by the Moraine authors
 """Scenes in map coordinates: what lies on faces of cells is found as it is at the origin."""
 
-BLOCK = """
-subsection Constants
-  set x = 0
-  set y = 0
-end
-subsection Materials
-  subsection block
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+BLOCK = prm("""
+Constants/x = 0
+Constants/y = 0
+Materials/block/Young modulus = 1000
+Materials/block/Poisson ratio = 0.3
+Output/Write = end
+""")
 
-STRETCH = BLOCK + """
-subsection Mesh
-  set Lower corner = $x, $y
-  set Upper corner = $x + 10.3, $y + 10.3
-  set Cells        = 10, 10
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Bodies
-  subsection block
-    set Lower corner = $x, $y
-    set Upper corner = $x + 10.3, $y + 10.3
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection bottom
-    set Side       = bottom
-    set Components = y
-  end
-  subsection right
-    set Side         = right
-    set Components   = x
-    set Displacement = 0.5*t; 0
-  end
-end
-subsection Mesh motion
-  set Stretch between = left, right
-end
-subsection Time
-  set End time = 4
-  set Steps    = 8
-end
-"""
+STRETCH = BLOCK + prm("""
+Mesh/Lower corner = $x, $y
+Mesh/Upper corner = $x + 10.3, $y + 10.3
+Mesh/Cells = 10, 10
+Method/Method = GIMP
+Method/Strain = finite
+Bodies/block/Lower corner = $x, $y
+Bodies/block/Upper corner = $x + 10.3, $y + 10.3
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = y
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/right/Displacement = 0.5*t; 0
+Mesh motion/Stretch between = left, right
+Time/End time = 4
+Time/Steps = 8
+""")
 stretch = folder / "stretch.prm"
 stretch.write_text(STRETCH)
 forces = [run(stretch, {"Constants/x": x, "Constants/y": y}
@@ -66,35 +38,19 @@ at_least("mesh that stretches: force", forces[0], 1000)
 bound("  elsewhere it differs by", max(abs(force / forces[0] - 1)
                                        for force in forces), 1e-6)
 
-TURNS = BLOCK + """
-subsection Mesh
-  set Lower corner = $x, $y
-  set Upper corner = $x + 3, $y + 3
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = finite element
-end
-subsection Bodies
-  subsection block
-    set Lower corner = $x, $y
-    set Upper corner = $x + 2, $y + 2
-  end
-end
-subsection Grid conditions
-  subsection corner
-    set Lower corner = $x, $y
-    set Upper corner = $x + 0.1, $y + 0.1
-  end
-end
-subsection Loads
-  subsection push
-    set Type     = point force
-    set Location = $x + 2, $y + 2
-    set Value    = -t; 0
-  end
-end
-"""
+TURNS = BLOCK + prm("""
+Mesh/Lower corner = $x, $y
+Mesh/Upper corner = $x + 3, $y + 3
+Mesh/Cell size = 0.5
+Method/Method = finite element
+Bodies/block/Lower corner = $x, $y
+Bodies/block/Upper corner = $x + 2, $y + 2
+Grid conditions/corner/Lower corner = $x, $y
+Grid conditions/corner/Upper corner = $x + 0.1, $y + 0.1
+Loads/push/Type = point force
+Loads/push/Location = $x + 2, $y + 2
+Loads/push/Value = -t; 0
+""")
 turns = folder / "turns.prm"
 turns.write_text(TURNS)
 for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
@@ -105,62 +61,34 @@ for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
 
 FAR = ((450000.3, 5300000.7), (3500123.1, 5812345.9))
 
-ON_FACES = BLOCK + """
-subsection Mesh
-  set Lower corner = $x, $y
-  set Upper corner = $x + 6, $y + 4.2
-  set Cells        = 20, 14
-end
-subsection Method
-  set Method = finite element
-  set Strain = small
-end
-subsection Bodies
-  subsection block
-    set Lower corner = $x + 0.3, $y + 0.3
-    set Upper corner = $x + 5.7, $y + 3.3
-  end
-end
-subsection Boundaries
-  subsection base
-    set Body = block
-    set Part = bottom
-  end
-  subsection left
-    set Body       = block
-    set Part       = left
-    set Constraint = roller
-  end
-end
-subsection Loads
-  subsection push
-    set Type  = surface traction
-    set Body  = block
-    set Part  = right
-    set Value = -2; 1
-    set Curve = t
-  end
-  subsection press
-    set Type  = surface traction
-    set Body  = block
-    set Part  = top
-    set Value = 0; -5
-    set Curve = t
-  end
-end
-subsection Time
-  set Steps = 4
-end
-subsection Probes
-  subsection corner
-    set Location = $x + 5.7, $y + 3.3
-    set Kind     = interpolated
-  end
-  subsection node
-    set Location = $x + 3, $y + 1.5
-  end
-end
-"""
+ON_FACES = BLOCK + prm("""
+Mesh/Lower corner = $x, $y
+Mesh/Upper corner = $x + 6, $y + 4.2
+Mesh/Cells = 20, 14
+Method/Method = finite element
+Method/Strain = small
+Bodies/block/Lower corner = $x + 0.3, $y + 0.3
+Bodies/block/Upper corner = $x + 5.7, $y + 3.3
+Boundaries/base/Body = block
+Boundaries/base/Part = bottom
+Boundaries/left/Body = block
+Boundaries/left/Part = left
+Boundaries/left/Constraint = roller
+Loads/push/Type = surface traction
+Loads/push/Body = block
+Loads/push/Part = right
+Loads/push/Value = -2; 1
+Loads/push/Curve = t
+Loads/press/Type = surface traction
+Loads/press/Body = block
+Loads/press/Part = top
+Loads/press/Value = 0; -5
+Loads/press/Curve = t
+Time/Steps = 4
+Probes/corner/Location = $x + 5.7, $y + 3.3
+Probes/corner/Kind = interpolated
+Probes/node/Location = $x + 3, $y + 1.5
+""")
 on_faces = folder / "on-faces.prm"
 on_faces.write_text(ON_FACES)
 
@@ -181,42 +109,22 @@ for x, y in FAR:
           max(abs(far / near - 1)
               for far, near in zip(answers(x, y), at_origin)), 1e-4)
 
-HELD = BLOCK + """
-subsection Mesh
-  set Lower corner = $x, $y
-  set Upper corner = $x + 3.3, $y + 1.5
-  set Cells        = 11, 5
-end
-subsection Method
-  set Method = finite element
-end
-subsection Bodies
-  subsection block
-    set Lower corner = $x, $y
-    set Upper corner = $x + 3.3, $y + 1.5
-  end
-end
-subsection Grid conditions
-  subsection foot
-    set Lower corner = $x + 1.2, $y
-    set Upper corner = $x + 2.1, $y
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = surface traction
-    set Body  = block
-    set Part  = top
-    set Value = 1; -1
-  end
-end
-subsection Probes
-  subsection top
-    set Location = $x + 3.3, $y + 1.5
-    set Kind     = interpolated
-  end
-end
-"""
+HELD = BLOCK + prm("""
+Mesh/Lower corner = $x, $y
+Mesh/Upper corner = $x + 3.3, $y + 1.5
+Mesh/Cells = 11, 5
+Method/Method = finite element
+Bodies/block/Lower corner = $x, $y
+Bodies/block/Upper corner = $x + 3.3, $y + 1.5
+Grid conditions/foot/Lower corner = $x + 1.2, $y
+Grid conditions/foot/Upper corner = $x + 2.1, $y
+Loads/weight/Type = surface traction
+Loads/weight/Body = block
+Loads/weight/Part = top
+Loads/weight/Value = 1; -1
+Probes/top/Location = $x + 3.3, $y + 1.5
+Probes/top/Kind = interpolated
+""")
 held = folder / "held.prm"
 held.write_text(HELD)
 moved = [run(held, {"Constants/x": x, "Constants/y": y}

@@ -5,62 +5,35 @@
 no material: what lies there of a boundary does not count, forces balance, and the
 block stays at its plates. One step that is computed wrong is not cut into others."""
 
-scene = folder / "scene.prm"
-scene.write_text("""
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -0.3, -0.3, -0.3
-  set Upper corner = 2.7, 2.7, 2.7
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-  set Degree = 2
-end
-subsection Materials
-  subsection gel
-    set Model         = neo-Hookean
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0, 0
-    set Upper corner = 2, 1, 1
-  end
-end
-subsection Boundaries
-  subsection top
-    set Body        = block
-    set Part        = top
-    set Translation = 0.4*t; 0; 0
-  end
-  subsection bottom
-    set Body = block
-    set Part = bottom
-  end
-  subsection front
-    set Body       = block
-    set Part       = front
-    set Constraint = roller
-  end
-  subsection back
-    set Body       = block
-    set Part       = back
-    set Constraint = roller
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-subsection Time
-  set End time      = 0.7
-  set Steps         = 7
-  set Smallest step = 0.9
-end
+scene = scene_file("scene.prm", """
+Dimension = 3
+Mesh/Lower corner = -0.3, -0.3, -0.3
+Mesh/Upper corner = 2.7, 2.7, 2.7
+Mesh/Cell size = 0.5
+Method/Method = finite element
+Method/Strain = finite
+Method/Degree = 2
+Materials/gel/Model = neo-Hookean
+Materials/gel/Young modulus = 100
+Materials/gel/Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 0, 0
+Bodies/block/Upper corner = 2, 1, 1
+Boundaries/top/Body = block
+Boundaries/top/Part = top
+Boundaries/top/Translation = 0.4*t; 0; 0
+Boundaries/bottom/Body = block
+Boundaries/bottom/Part = bottom
+Boundaries/front/Body = block
+Boundaries/front/Part = front
+Boundaries/front/Constraint = roller
+Boundaries/back/Body = block
+Boundaries/back/Part = back
+Boundaries/back/Constraint = roller
+Output/Points = false
+Output/Mesh = false
+Time/End time = 0.7
+Time/Steps = 7
+Time/Smallest step = 0.9
 """)
 result = run(scene)
 rows = result.history()

@@ -4,52 +4,28 @@
 both sides of it, and a coordinate that was rounded is no gap. A layer drawn by an
 expression bears down whatever number that is multiplied with."""
 
-GROUND = """
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {upper}
-  set Cell size    = 1
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 30e3
-    set Poisson ratio = 0.35
-    set Density       = 1.9
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = {gravity}
-  end
-end
-"""
-SIDES_3D = """
-subsection Grid conditions
-  subsection front
-    set Side       = front
-    set Components = y
-  end
-  subsection back
-    set Side       = back
-    set Components = y
-  end
-end
-"""
+GROUND = prm("""
+Dimension = {dim}
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = 1
+Materials/soil/Young modulus = 30e3
+Materials/soil/Poisson ratio = 0.35
+Materials/soil/Density = 1.9
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/bottom/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = {gravity}
+""")
+SIDES_3D = prm("""
+Grid conditions/front/Side = front
+Grid conditions/front/Components = y
+Grid conditions/back/Side = back
+Grid conditions/back/Components = y
+""")
 
 
 def body(name, keys):

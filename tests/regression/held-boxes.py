@@ -1,4 +1,3 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Nodes in the box of a grid condition are those of the mesh as it was built, and so
@@ -6,19 +5,14 @@ are the places of 'Displacement': where nodes have gone out of the box, also wit
 checkpoints and stages between, by 'Mesh motion' and with finite elements."""
 
 
-TIME = """
-subsection Time
-  set End time = 4
-  set Steps    = 4
-end
-"""
-STAGES = "subsection Stages" + "".join(f"""
-  subsection {name}
-    subsection Time
-      set End time = {end}
-      set Steps    = 2
-    end
-  end""" for name, end in (("one", 2), ("two", 4))) + "\nend\n"
+TIME = prm("""
+Time/End time = 4
+Time/Steps = 4
+""")
+STAGES = "subsection Stages" + "".join(prm(f"""
+{name}/Time/End time = {end}
+{name}/Time/Steps = 2
+""") for name, end in (("one", 2), ("two", 4))) + "\nend\n"
 
 
 def scene_of(name, method, cells, more, time=TIME):
@@ -49,18 +43,12 @@ end
 
 
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-PULLED = """
-subsection Grid conditions
-  subsection base
-    set Side = left
-  end
-  subsection pull
-    set Lower corner = 3.9, -0.1
-    set Upper corner = 4.1, 2.1
-    set Displacement = 0.3*t; 0
-  end
-end
-"""
+PULLED = prm("""
+Grid conditions/base/Side = left
+Grid conditions/pull/Lower corner = 3.9, -0.1
+Grid conditions/pull/Upper corner = 4.1, 2.1
+Grid conditions/pull/Displacement = 0.3*t; 0
+""")
 pulled = scene_of("pulled", "finite element", (8, 4), PULLED)
 staged = scene_of("staged", "finite element", (8, 4), PULLED, STAGES)
 force = run(pulled, QUIET).history()[-1]["reaction_x of pull"]
@@ -73,21 +61,13 @@ for name, scene, settings in (
           run(scene, {**QUIET, **settings}).history()[-1]["reaction_x of pull"]
           / force - 1, 1e-12)
 
-lifted = scene_of("lifted", "GIMP", (4, 4), """
-subsection Grid conditions
-  subsection bottom
-    set Side = bottom
-  end
-  subsection top
-    set Lower corner = -0.1, 1.9
-    set Upper corner = 2.1, 2.1
-    set Translation = 0; 0.08*t
-  end
-end
-subsection Mesh motion
-  set Stretch between = bottom, top
-end
-""")
+lifted = scene_of("lifted", "GIMP", (4, 4), prm("""
+Grid conditions/bottom/Side = bottom
+Grid conditions/top/Lower corner = -0.1, 1.9
+Grid conditions/top/Upper corner = 2.1, 2.1
+Grid conditions/top/Translation = 0; 0.08*t
+Mesh motion/Stretch between = bottom, top
+"""))
 BY_SIDE = {"Grid conditions/top/Lower corner": "", "Grid conditions/top/Upper corner": "",
            "Grid conditions/top/Side": "top"}
 bound("box that the mesh leaves: force over that of the side",
@@ -95,31 +75,19 @@ bound("box that the mesh leaves: force over that of the side",
       / run(lifted, {**QUIET, **BY_SIDE}).history()[-1]["reaction_y of top"] - 1,
       1e-12)
 
-stretched = scene_of("stretched", "GIMP", (4, 4), """
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Displacement = 0; 0.1*t*y
-  end
-  subsection right
-    set Side = right
-    set Displacement = 0; 0.1*t*y
-    set Components = y
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = y
-  end
-  subsection top
-    set Side = top
-    set Components = y
-    set Displacement = 0; 0.2*t
-  end
-end
-subsection Mesh motion
-  set Stretch between = bottom, top
-end
-""")
+stretched = scene_of("stretched", "GIMP", (4, 4), prm("""
+Grid conditions/left/Side = left
+Grid conditions/left/Displacement = 0; 0.1*t*y
+Grid conditions/right/Side = right
+Grid conditions/right/Displacement = 0; 0.1*t*y
+Grid conditions/right/Components = y
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = y
+Grid conditions/top/Side = top
+Grid conditions/top/Components = y
+Grid conditions/top/Displacement = 0; 0.2*t
+Mesh motion/Stretch between = bottom, top
+"""))
 last = run(stretched, QUIET).history()[-1]
 at_least("stretched with its mesh: force of the top", last["reaction_y of top"], 100)
 for side in ("left", "right"):

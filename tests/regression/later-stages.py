@@ -4,71 +4,35 @@
 their change from then on, springs are attached where their surface is by then,
 forces are on the points that were nearest at the start."""
 
-SOLID = """
-subsection Materials
-  subsection solid
-    set Young modulus = 10000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+SOLID = prm("""
+Materials/solid/Young modulus = 10000
+Materials/solid/Poisson ratio = 0.3
+Materials/solid/Density = 1
+Output/Write = end
+""")
 
 # A wall beside what was pulled before: at their corner both are at rest.
-HELD = SOLID + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 2
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-  subsection pull
-    set Side = top
-    set Components = x
-    set Displacement = 0.01*min(t, 1); 0
-  end
-  subsection wall
-    set Side = right
-    set Components = x
-  end
-end
-subsection Stages
-  subsection pulled
-    set Grid conditions = base, pull
-    subsection Time
-      set Steps = 2
-    end
-  end
-  subsection held
-    set Grid conditions = base, pull, wall
-    subsection Time
-      set End time = 2
-      set Steps = 2
-    end
-  end
-end
-subsection Probes
-  subsection middle
-    set Location = 1.1, 1.1
-    set Kind = interpolated
-  end
-end
-"""
+HELD = SOLID + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 2, 2
+Mesh/Cell size = 1
+Method/Method = finite element
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 2, 2
+Grid conditions/base/Side = bottom
+Grid conditions/pull/Side = top
+Grid conditions/pull/Components = x
+Grid conditions/pull/Displacement = 0.01*min(t, 1); 0
+Grid conditions/wall/Side = right
+Grid conditions/wall/Components = x
+Stages/pulled/Grid conditions = base, pull
+Stages/pulled/Time/Steps = 2
+Stages/held/Grid conditions = base, pull, wall
+Stages/held/Time/End time = 2
+Stages/held/Time/Steps = 2
+Probes/middle/Location = 1.1, 1.1
+Probes/middle/Kind = interpolated
+""")
 held = folder / "held.prm"
 held.write_text(HELD)
 rows = run(held).history()
@@ -93,74 +57,38 @@ text("at rest: energy in the summary", "energy" in rests.summary)
 
 # A block flies through the mesh: up on springs, without them, on others.
 STIFFNESS = 0.4
-FLIES = SOLID + f"""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 3, 8
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 1, 1
-    set Upper corner = 2, 2
-    set Initial velocity = 0; 4
-  end
-end
-subsection Boundaries
-  subsection foot
-    set Points = 1 1; 2 1
-    set Constraint = absorbing
-    set Dashpot factors = 0, 0
-    set Spring stiffness = {STIFFNESS}, 0
-  end
-end
-subsection Loads
-  subsection nail
-    set Type = force on points
-    set Location = 1.5, 1.5
-    set Value = 0.3; 0
-  end
-end
-subsection Stages
-  subsection springs
-    set Loads = none
-    subsection Time
-      set Integrator = Newmark
-      set End time = 0.25
-      set Steps = 5
-    end
-  end
-  subsection free
-    set Boundaries = none
-    subsection Time
-      set Integrator = Newmark
-      set End time = 0.75
-      set Steps = 10
-    end
-  end
-  subsection others
-    set Boundaries = foot
-    set Loads = nail
-    subsection Time
-      set Integrator = Newmark
-      set End time = 1
-      set Steps = 5
-    end
-  end
-end
-subsection Probes
-  subsection head
-    set Location = 1.5, 1.9
-  end
-  subsection heel
-    set Location = 1.5, 1.1
-  end
-end
-"""
+FLIES = SOLID + prm(f"""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 3, 8
+Mesh/Cell size = 0.5
+Method/Method = GIMP
+Method/Strain = finite
+Bodies/block/Lower corner = 1, 1
+Bodies/block/Upper corner = 2, 2
+Bodies/block/Initial velocity = 0; 4
+Boundaries/foot/Points = 1 1; 2 1
+Boundaries/foot/Constraint = absorbing
+Boundaries/foot/Dashpot factors = 0, 0
+Boundaries/foot/Spring stiffness = {STIFFNESS}, 0
+Loads/nail/Type = force on points
+Loads/nail/Location = 1.5, 1.5
+Loads/nail/Value = 0.3; 0
+Stages/springs/Loads = none
+Stages/springs/Time/Integrator = Newmark
+Stages/springs/Time/End time = 0.25
+Stages/springs/Time/Steps = 5
+Stages/free/Boundaries = none
+Stages/free/Time/Integrator = Newmark
+Stages/free/Time/End time = 0.75
+Stages/free/Time/Steps = 10
+Stages/others/Boundaries = foot
+Stages/others/Loads = nail
+Stages/others/Time/Integrator = Newmark
+Stages/others/Time/End time = 1
+Stages/others/Time/Steps = 5
+Probes/head/Location = 1.5, 1.9
+Probes/heel/Location = 1.5, 1.1
+""")
 flies = folder / "flies.prm"
 flies.write_text(FLIES)
 rows = run(flies).history()
@@ -185,56 +113,27 @@ text("displacements reset before a force finds its points",
      plain(refused.output.strip()).splitlines()[-1])
 
 # Two blocks share a nail at their interface; one goes.
-SHARED = SOLID + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 2
-  set Cell size = 1
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Bodies
-  subsection left
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-  subsection right
-    set Lower corner = 2, 0
-    set Upper corner = 4, 1
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection nail
-    set Type = force on points
-    set Location = 2, 0.75
-    set Value = 0; 1
-  end
-end
-subsection Stages
-  subsection both
-  end
-  subsection rest
-    set Loads = none
-    set Bodies = left
-    subsection Time
-      set End time = 2
-    end
-  end
-  subsection again
-    set Bodies = left
-    set Loads = nail
-    subsection Time
-      set End time = 3
-    end
-  end
-end
-"""
+SHARED = SOLID + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 2
+Mesh/Cell size = 1
+Method/Method = GIMP
+Bodies/left/Lower corner = 0, 0
+Bodies/left/Upper corner = 2, 1
+Bodies/right/Lower corner = 2, 0
+Bodies/right/Upper corner = 4, 1
+Grid conditions/base/Side = bottom
+Loads/nail/Type = force on points
+Loads/nail/Location = 2, 0.75
+Loads/nail/Value = 0; 1
+Stages/both/
+Stages/rest/Loads = none
+Stages/rest/Bodies = left
+Stages/rest/Time/End time = 2
+Stages/again/Bodies = left
+Stages/again/Loads = nail
+Stages/again/Time/End time = 3
+""")
 shared = folder / "shared.prm"
 shared.write_text(SHARED)
 for name, settings, left in (
@@ -246,64 +145,30 @@ for name, settings, left in (
     bound(f"  reaction + {left}", result.reactions["base"][1] + left, 1e-10)
 
 # A load that pauses goes with the ground, also if a body comes as it returns.
-PAUSED = SOLID + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 12, 3
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Bodies
-  subsection ground
-    set Lower corner = 0, 0
-    set Upper corner = 4, 1
-  end
-  subsection later
-    set Lower corner = 9, 0
-    set Upper corner = 10, 1
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-    set Displacement = 1.5*min(max(t - 1, 0), 1); 0
-  end
-end
-subsection Loads
-  subsection plate
-    set Type = surface traction
-    set Points = 1.9 1; 1.1 1
-    set Value = 0; -1
-  end
-end
-subsection Probes
-  subsection under
-    set Location = 1.5, 0.9
-  end
-end
-subsection Stages
-  subsection first
-    set Bodies = ground
-  end
-  subsection moves
-    set Bodies = ground
-    set Loads = none
-    subsection Time
-      set End time = 2
-      set Steps = 4
-    end
-  end
-  subsection again
-    set Bodies = ground, later
-    set Loads = plate
-    subsection Time
-      set End time = 3
-    end
-  end
-end
-"""
+PAUSED = SOLID + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 12, 3
+Mesh/Cell size = 0.5
+Method/Method = GIMP
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 4, 1
+Bodies/later/Lower corner = 9, 0
+Bodies/later/Upper corner = 10, 1
+Grid conditions/base/Side = bottom
+Grid conditions/base/Displacement = 1.5*min(max(t - 1, 0), 1); 0
+Loads/plate/Type = surface traction
+Loads/plate/Points = 1.9 1; 1.1 1
+Loads/plate/Value = 0; -1
+Probes/under/Location = 1.5, 0.9
+Stages/first/Bodies = ground
+Stages/moves/Bodies = ground
+Stages/moves/Loads = none
+Stages/moves/Time/End time = 2
+Stages/moves/Time/Steps = 4
+Stages/again/Bodies = ground, later
+Stages/again/Loads = plate
+Stages/again/Time/End time = 3
+""")
 paused = folder / "paused.prm"
 paused.write_text(PAUSED)
 alone, with_it = (run(paused, settings).history()[-1]["u_y at under"]
@@ -320,59 +185,31 @@ text("a load that paused, resumed", "the same history" if
      (whole.folder / "history.csv").read_bytes() == expected else "NO")
 
 # A load that has sunk with a body is as drawn again when the body comes back.
-COLUMN = SOLID.replace("10000", "100").replace("0.3", "0") + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 12
-  set Cell size = 1
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Bodies
-  subsection base
-    set Lower corner = 0, 0
-    set Upper corner = 1, 2
-  end
-  subsection block
-    set Lower corner = 0, 2
-    set Upper corner = 1, 10
-  end
-  subsection other
-    set Lower corner = 3, 0
-    set Upper corner = 4, 1
-  end
-end
-subsection Grid conditions
-  subsection sides
-    set Lower corner = 0, 0
-    set Upper corner = 4, 12
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection push
-    set Type = surface traction
-    set Points = 1 {top}; 0 {top}
-    set Value = 0; {force}
-  end
-  subsection weight
-    set Type = gravity
-    set Value = 0; {weight}
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 0.5, {top}
-    set Body = block
-    set Quantities = displacement, stress
-  end
-end
-"""
+COLUMN = SOLID.replace("10000", "100").replace("0.3", "0") + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 12
+Mesh/Cell size = 1
+Method/Method = {method}
+Method/Strain = finite
+Bodies/base/Lower corner = 0, 0
+Bodies/base/Upper corner = 1, 2
+Bodies/block/Lower corner = 0, 2
+Bodies/block/Upper corner = 1, 10
+Bodies/other/Lower corner = 3, 0
+Bodies/other/Upper corner = 4, 1
+Grid conditions/sides/Lower corner = 0, 0
+Grid conditions/sides/Upper corner = 4, 12
+Grid conditions/sides/Components = x
+Grid conditions/bottom/Side = bottom
+Loads/push/Type = surface traction
+Loads/push/Points = 1 {top}; 0 {top}
+Loads/push/Value = 0; {force}
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; {weight}
+Probes/top/Location = 0.5, {top}
+Probes/top/Body = block
+Probes/top/Quantities = displacement, stress
+""")
 STEPS = """
     subsection Time
       set End time = {end}
@@ -423,65 +260,29 @@ compare("load that begins as another body comes", alone, beside)
 
 # A lining takes the place of what is dug out. A probe beside both follows the body
 # that it names: the stress of its one cell is that of half its weight.
-LINED = SOLID.replace("0.3", "0") + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 2
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Bodies
-  subsection ground
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-  subsection core
-    set Lower corner = 0, 1
-    set Upper corner = 1, 2
-  end
-  subsection lining
-    set Lower corner = 0, 1
-    set Upper corner = 1, 2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-subsection Stages
-  subsection core
-    set Bodies = ground, core
-  end
-  subsection dug
-    set Bodies = ground
-    subsection Time
-      set End time = 2
-    end
-  end
-  subsection lined
-    set Bodies = ground, lining
-    subsection Time
-      set End time = 3
-    end
-  end
-end
-subsection Probes
-  subsection crown
-    set Location = 0.5, 1.5
-    set Body = lining
-    set Quantities = stress
-  end
-end
-"""
+LINED = SOLID.replace("0.3", "0") + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 2
+Mesh/Cell size = 1
+Method/Method = finite element
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 1, 1
+Bodies/core/Lower corner = 0, 1
+Bodies/core/Upper corner = 1, 2
+Bodies/lining/Lower corner = 0, 1
+Bodies/lining/Upper corner = 1, 2
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Stages/core/Bodies = ground, core
+Stages/dug/Bodies = ground
+Stages/dug/Time/End time = 2
+Stages/lined/Bodies = ground, lining
+Stages/lined/Time/End time = 3
+Probes/crown/Location = 0.5, 1.5
+Probes/crown/Body = lining
+Probes/crown/Quantities = stress
+""")
 lined = folder / "lined.prm"
 lined.write_text(LINED)
 result = run(lined)
@@ -507,68 +308,34 @@ text("quiet: all warnings", [
 
 # Walls that go on hold a body that comes by its own stress, not by that of the body
 # below, which is pressed until then: nu/(1 - nu) times its weight, over two walls.
-COMES = SOLID + """
-subsection Mesh
-  set Lower corner = -0.5, 0
-  set Upper corner = 1.5, 3
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = finite element
-  set Mesh after step = keep
-end
-subsection Bodies
-  subsection low
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-  subsection up
-    set Lower corner = 0, 1
-    set Upper corner = 1, 2
-  end
-end
-subsection Boundaries
-  subsection left
-    set Points = 0 3; 0 0
-    set Constraint = roller
-  end
-  subsection right
-    set Points = 1 0; 1 3
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection pressure
-    set Type = surface traction
-    set Body = low
-    set Part = top
-    set Value = 0; -100*t
-  end
-  subsection weight
-    set Bodies = up
-    set Value = 0; -10*(t-1)
-  end
-end
-subsection Stages
-  subsection pressed
-    set Bodies = low
-    set Loads = pressure
-  end
-  subsection filled
-    set Bodies = low, up
-    set Loads = weight
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-"""
+COMES = SOLID + prm("""
+Mesh/Lower corner = -0.5, 0
+Mesh/Upper corner = 1.5, 3
+Mesh/Cell size = 0.25
+Method/Method = finite element
+Method/Mesh after step = keep
+Bodies/low/Lower corner = 0, 0
+Bodies/low/Upper corner = 1, 1
+Bodies/up/Lower corner = 0, 1
+Bodies/up/Upper corner = 1, 2
+Boundaries/left/Points = 0 3; 0 0
+Boundaries/left/Constraint = roller
+Boundaries/right/Points = 1 0; 1 3
+Boundaries/right/Constraint = roller
+Grid conditions/base/Side = bottom
+Grid conditions/base/Components = y
+Loads/pressure/Type = surface traction
+Loads/pressure/Body = low
+Loads/pressure/Part = top
+Loads/pressure/Value = 0; -100*t
+Loads/weight/Bodies = up
+Loads/weight/Value = 0; -10*(t-1)
+Stages/pressed/Bodies = low
+Stages/pressed/Loads = pressure
+Stages/filled/Bodies = low, up
+Stages/filled/Loads = weight
+Stages/filled/Time/End time = 2
+""")
 comes = folder / "comes.prm"
 comes.write_text(COMES)
 THRUST = 0.3 / 0.7 * (10 / 2 + 10)  # of the body itself, and of the one below
@@ -591,45 +358,25 @@ for name, keys in (
     text(name, result.found())
 
 # A body that comes before one in flight is at rest, also at the nodes they share.
-JOINS = SOLID.replace("10000", "100") + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 12, 4
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Bodies
-  subsection flying
-    set Lower corner = 1, 1
-    set Upper corner = 3, 3
-    set Initial velocity = 1; 0
-  end
-  subsection new
-    set Lower corner = 3, 1
-    set Upper corner = 4, 3
-  end
-end
-subsection Stages
-  subsection one
-    set Bodies = flying
-    subsection Time
-      set Integrator = Newmark
-      set End time = 0.1
-      set Steps = 2
-    end
-  end
-  subsection two
-    set Bodies = flying, new
-    subsection Time
-      set Integrator = Newmark
-      set End time = 0.2
-      set Steps = 2
-    end
-  end
-end
-"""
+JOINS = SOLID.replace("10000", "100") + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 12, 4
+Mesh/Cell size = 1
+Method/Method = finite element
+Bodies/flying/Lower corner = 1, 1
+Bodies/flying/Upper corner = 3, 3
+Bodies/flying/Initial velocity = 1; 0
+Bodies/new/Lower corner = 3, 1
+Bodies/new/Upper corner = 4, 3
+Stages/one/Bodies = flying
+Stages/one/Time/Integrator = Newmark
+Stages/one/Time/End time = 0.1
+Stages/one/Time/Steps = 2
+Stages/two/Bodies = flying, new
+Stages/two/Time/Integrator = Newmark
+Stages/two/Time/End time = 0.2
+Stages/two/Time/Steps = 2
+""")
 joins = folder / "joins.prm"
 joins.write_text(JOINS)
 for name, settings in (
@@ -647,65 +394,31 @@ for name, settings in (
               result.summary["energy"]["balance_error"], 1e-10)
 
 # What comes fills the cells as they are, and so does a place on it.
-FILLED = SOLID.replace("10000", "100") + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 8
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Bodies
-  subsection ground
-    set Lower corner = 0, 0
-    set Upper corner = 4, 6
-  end
-  subsection fill
-    set Lower corner = 0, 6
-    set Upper corner = 4, 8
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -5
-  end
-end
-subsection Stages
-  subsection one
-    set Bodies = ground
-    subsection Time
-      set Steps = 2
-    end
-  end
-  subsection two
-    set Bodies = ground, fill
-    subsection Time
-      set End time = 2
-      set Steps = 2
-    end
-  end
-end
-subsection Probes
-  subsection point
-    set Location = 0.21132486540518713, 6.2113248654051871
-    set Body = fill
-    set Quantities = displacement, position
-  end
-  subsection place
-    set Location = 0.21132486540518713, 6.2113248654051871
-    set Kind = interpolated
-    set Quantities = displacement, position
-  end
-end
-"""
+FILLED = SOLID.replace("10000", "100") + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 8
+Mesh/Cell size = 1
+Method/Method = finite element
+Method/Strain = finite
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 4, 6
+Bodies/fill/Lower corner = 0, 6
+Bodies/fill/Upper corner = 4, 8
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -5
+Stages/one/Bodies = ground
+Stages/one/Time/Steps = 2
+Stages/two/Bodies = ground, fill
+Stages/two/Time/End time = 2
+Stages/two/Time/Steps = 2
+Probes/point/Location = 0.21132486540518713, 6.2113248654051871
+Probes/point/Body = fill
+Probes/point/Quantities = displacement, position
+Probes/place/Location = 0.21132486540518713, 6.2113248654051871
+Probes/place/Kind = interpolated
+Probes/place/Quantities = displacement, position
+""")
 filled = folder / "filled.prm"
 filled.write_text(FILLED)
 row = run(filled).history()[-1]
@@ -715,53 +428,25 @@ for key in ("x", "y", "u_x", "u_y"):
           row[f"{key} at place"] / row[f"{key} at point"] - 1, 1e-10)
 
 # A place leaves the cells; then the body of the point that it follows is gone.
-LEAVES = SOLID + """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 4
-  set Cell size = 1
-end
-subsection Method
-  set Method = material point
-  set Strain = finite
-end
-subsection Bodies
-  subsection left
-    set Lower corner = 0, 0
-    set Upper corner = 1, 2
-  end
-  subsection right
-    set Lower corner = 3, 0
-    set Upper corner = 4, 2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-    set Displacement = 0; 0.1*min(t, 1)
-  end
-end
-subsection Stages
-  subsection both
-    subsection Time
-      set Steps = 4
-    end
-  end
-  subsection one
-    set Bodies = right
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 0.5, 2
-    set Kind = interpolated
-    set Quantities = displacement, position
-  end
-end
-"""
+LEAVES = SOLID + prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 4
+Mesh/Cell size = 1
+Method/Method = material point
+Method/Strain = finite
+Bodies/left/Lower corner = 0, 0
+Bodies/left/Upper corner = 1, 2
+Bodies/right/Lower corner = 3, 0
+Bodies/right/Upper corner = 4, 2
+Grid conditions/base/Side = bottom
+Grid conditions/base/Displacement = 0; 0.1*min(t, 1)
+Stages/both/Time/Steps = 4
+Stages/one/Bodies = right
+Stages/one/Time/End time = 2
+Probes/top/Location = 0.5, 2
+Probes/top/Kind = interpolated
+Probes/top/Quantities = displacement, position
+""")
 leaves = folder / "leaves.prm"
 leaves.write_text(LEAVES)
 result = run(leaves)

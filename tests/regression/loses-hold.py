@@ -54,26 +54,22 @@ subsection Time
 end
 """
 scene = folder / "column.prm"
-PRESSED = """subsection top
-    set Side         = top
-    set Components   = y
-    set Displacement = 0; -0.6*t
-  end"""
-WALL = """subsection Boundaries
-  subsection top
-    set Body         = soil
-    set Part         = top
-    set Constraint   = roller
-    set {key} = 0; -0.6*t
-  end
-end"""
-LOAD = """subsection Loads
-  subsection load
-    set Type  = side traction
-    set Side  = top
-    set Value = 0; -400*t
-  end
-end"""
+PRESSED = prm("""
+top/Side = top
+top/Components = y
+top/Displacement = 0; -0.6*t
+""")
+WALL = prm("""
+Boundaries/top/Body = soil
+Boundaries/top/Part = top
+Boundaries/top/Constraint = roller
+Boundaries/top/{key} = 0; -0.6*t
+""")
+LOAD = prm("""
+Loads/load/Type = side traction
+Loads/load/Side = top
+Loads/load/Value = 0; -400*t
+""")
 
 
 def write(condition="", more="", checkpoint="never"):
@@ -133,42 +129,21 @@ text("resumed: ended alike", after["message"] == before["message"])
 text("resumed: told", after.get("warnings", []) == before["warnings"])
 
 # What goes with the material and has lost it is told of: a block leaves its floor.
-scene = folder / "leaves.prm"
-scene.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 5, 2
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0.5, 0.4
-    set Upper corner = 1.5, 1.4
-  end
-end
-subsection Boundaries
-  subsection floor
-    set Points     = 0.5 0.4; 2 0.4
-    set Constraint = roller
-  end
-  subsection carrier
-    set Body        = block
-    set Part        = top
-    set Translation = 2.5*t; 0
-  end
-end
-subsection Time
-  set Steps = 20
-end
+scene = scene_file("leaves.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 5, 2
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Bodies/block/Lower corner = 0.5, 0.4
+Bodies/block/Upper corner = 1.5, 1.4
+Boundaries/floor/Points = 0.5 0.4; 2 0.4
+Boundaries/floor/Constraint = roller
+Boundaries/carrier/Body = block
+Boundaries/carrier/Part = top
+Boundaries/carrier/Translation = 2.5*t; 0
+Time/Steps = 20
 """)
 show("floor that ends", expect=0)
 show("floor that goes on", {"Boundaries/floor/Points": "0.5 0.4; 4.5 0.4"}, expect=0)

@@ -13,50 +13,26 @@ def table(result):
 
 
 # A bar whose cells or steps are halved, also in other ways than by their own numbers.
-BAR = """
-subsection Mesh
-  set Type        = generator
-  set Generator   = hyper_rectangle
-  set Arguments   = 0, 0 : 1, 1 : true
-  set Refinements = 2
-end
-subsection Method
-  set Method          = finite element
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection elastic
-    set Young modulus = 1
-    set Poisson ratio = 0
-    set Density       = 1
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-end
-subsection Grid conditions
-  subsection held
-    set Side       = 0
-    set Components = x
-  end
-  subsection base
-    set Side       = 2
-    set Components = y
-  end
-end
-subsection Constants
-  set n = 4
-end
-subsection Probes
-  subsection tip
-    set Location = 1, 0.5
-    set Kind     = interpolated
-  end
-end
-"""
+BAR = prm("""
+Mesh/Type = generator
+Mesh/Generator = hyper_rectangle
+Mesh/Arguments = 0, 0 : 1, 1 : true
+Mesh/Refinements = 2
+Method/Method = finite element
+Method/Mesh after step = keep
+Materials/elastic/Young modulus = 1
+Materials/elastic/Poisson ratio = 0
+Materials/elastic/Density = 1
+Bodies/bar/Lower corner = 0, 0
+Bodies/bar/Upper corner = 1, 1
+Grid conditions/held/Side = 0
+Grid conditions/held/Components = x
+Grid conditions/base/Side = 2
+Grid conditions/base/Components = y
+Constants/n = 4
+Probes/tip/Location = 1, 0.5
+Probes/tip/Kind = interpolated
+""")
 bar = folder / "bar.prm"
 bar.write_text(BAR)
 PULLED = {"Loads/pull/Type": "body force",

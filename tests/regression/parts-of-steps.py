@@ -3,47 +3,22 @@
 # Copyright (C) 2026 by the Moraine authors
 """The mesh file has the displacement of all of a step, also of one in two parts."""
 
-scene = folder / "scene.prm"
-scene.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 1
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection b
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 0.5, 1
-    set Kind = interpolated
-    set Quantities = displacement
-  end
-end
-subsection Output
-  set Write = end
-end
+scene = scene_file("scene.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 1
+Mesh/Cell size = 0.5
+Materials/m/Young modulus = 1000
+Materials/m/Poisson ratio = 0.3
+Materials/m/Density = 1
+Bodies/b/Lower corner = 0, 0
+Bodies/b/Upper corner = 1, 1
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Probes/top/Location = 0.5, 1
+Probes/top/Kind = interpolated
+Probes/top/Quantities = displacement
+Output/Write = end
 """)
 for method, limit in (("finite element", 1e-5), ("GIMP", 1e-2)):
     for integrator in "Bathe", "Newmark":

@@ -1,4 +1,3 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Material that grows past the end of what holds it is told of: a block that spreads
@@ -53,12 +52,11 @@ end
 """
 PART = "    set Body = block\n    set Part = bottom"
 LINE = "    set Points = -1 0; 6 0"
-FOOTING = """  subsection footing
-    set Points = 1 3; 0 3
-    set Constraint = roller
-    set Translation = 0; -0.4*t
-  end
-"""
+FOOTING = prm("""
+footing/Points = 1 3; 0 3
+footing/Constraint = roller
+footing/Translation = 0; -0.4*t
+""")
 for name, low, more, modulus, methods in (
         ("on its own part", PART, "", 100, ("GIMP", "CPDI2")),
         ("on a longer line", LINE, "", 100, ("GIMP", "CPDI2")),
@@ -74,54 +72,30 @@ for name, low, more, modulus, methods in (
              or "nothing")
 
 # Between rollers that are its own sides; the first time to be told of, and the end.
-PRESSED = """
-subsection Mesh
-  set Lower corner = -1.3, -0.3
-  set Upper corner = 3.7, 1.7
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Materials
-  subsection gel
-    set Model         = neo-Hookean
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-end
-subsection Grid conditions
-  subsection middle
-    set Lower corner = 0.94, -1
-    set Upper corner = 0.96, 2
-    set Components   = x
-  end
-end
-subsection Boundaries
-  subsection low
-    set Body       = block
-    set Part       = bottom
-    set Constraint = roller
-  end
-  subsection top
-    set Body        = block
-    set Part        = top
-    set Constraint  = roller
-    set Translation = 0; -0.5*t
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+PRESSED = prm("""
+Mesh/Lower corner = -1.3, -0.3
+Mesh/Upper corner = 3.7, 1.7
+Mesh/Cell size = 0.25
+Method/Method = finite element
+Method/Strain = finite
+Materials/gel/Model = neo-Hookean
+Materials/gel/Young modulus = 100
+Materials/gel/Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 2, 1
+Grid conditions/middle/Lower corner = 0.94, -1
+Grid conditions/middle/Upper corner = 0.96, 2
+Grid conditions/middle/Components = x
+Boundaries/low/Body = block
+Boundaries/low/Part = bottom
+Boundaries/low/Constraint = roller
+Boundaries/top/Body = block
+Boundaries/top/Part = top
+Boundaries/top/Constraint = roller
+Boundaries/top/Translation = 0; -0.5*t
+Output/Points = false
+Output/Mesh = false
+""")
 pressed = folder / "pressed.prm"
 pressed.write_text(PRESSED)
 for end, steps in ((0.65, 13), (0.7, 14)):
@@ -162,15 +136,13 @@ for name, point, normal, motion in (
         ("front", "0, 0.13, 0", "0, -1, 0", ""),
         ("bottom", "0, 0, 0.13", "0, 0, -1", ""),
         ("top", "0, 0, 2.13", "0, 0, 1", "set Translation = 0; 0; -0.6*t")):
-    CUBE += f"""
-  subsection {name}
-    set Surface    = plane
-    set Point      = {point}
-    set Normal     = {normal}
-    set Constraint = roller
-    {motion}
-  end
-"""
+    CUBE += prm(f"""
+{name}/Surface = plane
+{name}/Point = {point}
+{name}/Normal = {normal}
+{name}/Constraint = roller
+{motion}
+""")
 CUBE += """
 end
 subsection Time

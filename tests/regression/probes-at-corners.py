@@ -4,48 +4,24 @@
 an interpolated probe there moves as its surroundings."""
 
 scene = folder / "corner.prm"
-SCENE = """
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {zero}
-  set Upper corner = {upper}
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = {zero}
-    set Upper corner = {corner}
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = {force}
-  end
-end
-subsection Probes
-  subsection corner
-    set Location = {corner}
-    set Kind = interpolated
-  end
-  subsection beside
-    set Location = {beside}
-    set Kind = interpolated
-  end
-end
-"""
+SCENE = prm("""
+Dimension = {dim}
+Mesh/Lower corner = {zero}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = 0.5
+Materials/m/Young modulus = 1000
+Materials/m/Poisson ratio = 0.3
+Materials/m/Density = 1
+Bodies/block/Lower corner = {zero}
+Bodies/block/Upper corner = {corner}
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = {force}
+Probes/corner/Location = {corner}
+Probes/corner/Kind = interpolated
+Probes/beside/Location = {beside}
+Probes/beside/Kind = interpolated
+""")
 
 
 def all_of(number, dim):

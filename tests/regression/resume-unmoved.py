@@ -3,81 +3,37 @@
 """Points that stay where they are, of bodies that came in another order than they
 are drawn in, go on from a checkpoint as if nothing had been."""
 
-LAYERS = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 4
-  set Cell size    = 0.5
-end
-subsection Method
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Density       = 1
-  end
-end
-subsection Bodies
-  subsection upper
-    set Lower corner = 0, 2.3
-    set Upper corner = 4, 3.3
-  end
-  subsection lower
-    set Lower corner = 0, 1.2
-    set Upper corner = 4, 2.3
-  end
-  subsection ground
-    set Lower corner = 0, 0
-    set Upper corner = 4, 1.2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-  subsection side
-    set Side       = left
-    set Components = x
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 1; -4
-  end
-end
-subsection Stages
-  subsection ground
-    set Bodies = ground
-  end
-  subsection lower
-    set Bodies = ground, lower
-    subsection Time
-      set End time = 2
-    end
-  end
-  subsection upper
-    set Bodies = ground, lower, upper
-    subsection Time
-      set End time = 3
-      set Steps    = 4
-    end
-  end
-end
-subsection Output
-  set Points           = false
-  set Mesh             = false
-  set Checkpoint every = 1 step
-end
-subsection Probes
-  subsection top
-    set Location = 3.9, 3.2
-    set Body     = upper
-  end
-end
-"""
+LAYERS = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 4
+Mesh/Cell size = 0.5
+Method/Mesh after step = keep
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 1
+Bodies/upper/Lower corner = 0, 2.3
+Bodies/upper/Upper corner = 4, 3.3
+Bodies/lower/Lower corner = 0, 1.2
+Bodies/lower/Upper corner = 4, 2.3
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 4, 1.2
+Grid conditions/base/Side = bottom
+Grid conditions/side/Side = left
+Grid conditions/side/Components = x
+Loads/weight/Type = gravity
+Loads/weight/Value = 1; -4
+Stages/ground/Bodies = ground
+Stages/lower/Bodies = ground, lower
+Stages/lower/Time/End time = 2
+Stages/upper/Bodies = ground, lower, upper
+Stages/upper/Time/End time = 3
+Stages/upper/Time/Steps = 4
+Output/Points = false
+Output/Mesh = false
+Output/Checkpoint every = 1 step
+Probes/top/Location = 3.9, 3.2
+Probes/top/Body = upper
+""")
 scene = folder / "layers.prm"
 scene.write_text(LAYERS)
 for method in "CPDI1", "CPDI2", "GIMP", "material point", "finite element":

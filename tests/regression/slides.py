@@ -5,55 +5,29 @@
 where points move, and the run ends as if it had stood: it says so, at the limit that
 points which stay end at. What is elastic, or stands, does not."""
 
-CUT = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 16, 9
-  set Cell size    = 1
-end
-subsection Materials
-  subsection clay
-    set Model              = von Mises
-    set Young modulus      = 10000
-    set Poisson ratio      = 0.3
-    set Shear yield stress = 10
-    set Density            = 1
-  end
-end
-subsection Bodies
-  subsection cut
-    set Shape    = polygon
-    set Vertices = 0 0; 16 0; 16 4; 8 4; 8 8; 0 8
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10*t/4
-  end
-end
-subsection Time
-  set End time = 4.8
-  set Steps    = 12
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+CUT = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 16, 9
+Mesh/Cell size = 1
+Materials/clay/Model = von Mises
+Materials/clay/Young modulus = 10000
+Materials/clay/Poisson ratio = 0.3
+Materials/clay/Shear yield stress = 10
+Materials/clay/Density = 1
+Bodies/cut/Shape = polygon
+Bodies/cut/Vertices = 0 0; 16 0; 16 4; 8 4; 8 8; 0 8
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10*t/4
+Time/End time = 4.8
+Time/Steps = 12
+Output/Points = false
+Output/Mesh = false
+""")
 scene = folder / "cut.prm"
 scene.write_text(CUT)
 

@@ -4,65 +4,27 @@
 """Lists of a stage: nothing is none, and only a key left out keeps what acted before;
 'check' says what acts in each stage."""
 
-scene = folder / "stages.prm"
-scene.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 4
-  set Cells = 1, 8
-end
-subsection Method
-  set Method = finite element
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection column
-    set Shape = mesh
-  end
-end
-subsection Boundaries
-  subsection wall
-    set Points = 0 4; 0 0
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-  subsection crown
-    set Side = top
-    set Components = x
-  end
-end
-subsection Loads
-  subsection pull
-    set Type = side traction
-    set Side = top
-    set Value = 0; 1
-  end
-end
-subsection Stages
-  subsection first
-  end
-  subsection second
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 0.5, 4
-    set Kind = interpolated
-  end
-end
+scene = scene_file("stages.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 4
+Mesh/Cells = 1, 8
+Method/Method = finite element
+Method/Mesh after step = keep
+Materials/m/Young modulus = 1000
+Materials/m/Poisson ratio = 0
+Bodies/column/Shape = mesh
+Boundaries/wall/Points = 0 4; 0 0
+Boundaries/wall/Constraint = roller
+Grid conditions/base/Side = bottom
+Grid conditions/crown/Side = top
+Grid conditions/crown/Components = x
+Loads/pull/Type = side traction
+Loads/pull/Side = top
+Loads/pull/Value = 0; 1
+Stages/first/
+Stages/second/Time/End time = 2
+Probes/top/Location = 0.5, 4
+Probes/top/Kind = interpolated
 """)
 
 

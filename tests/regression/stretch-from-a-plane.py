@@ -4,47 +4,25 @@
 top of a block: the plane rests, and so does the mesh there, as between the block's
 own bottom and top."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -1, 4
-  set Upper corner = 2, 7
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = CPDI1
-  set Strain = finite
-end
-subsection Materials
-  subsection solid
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 5
-    set Upper corner = 1, 6
-  end
-end
-subsection Boundaries
-  subsection bottom
-    {bottom}
-  end
-  subsection top
-    {top}
-    set Translation = 0; -0.3*t
-  end
-end
-subsection Mesh motion
-  set Stretch between = bottom, top
-end
-subsection Time
-  set Steps = 4
-end
-subsection Output
-  set Write = end
-end
-"""
+SCENE = prm("""
+Mesh/Lower corner = -1, 4
+Mesh/Upper corner = 2, 7
+Mesh/Cell size = 0.25
+Method/Method = CPDI1
+Method/Strain = finite
+Materials/solid/Young modulus = 1000
+Materials/solid/Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 5
+Bodies/block/Upper corner = 1, 6
+Boundaries/bottom/
+{bottom}
+Boundaries/top/
+{top}
+Boundaries/top/Translation = 0; -0.3*t
+Mesh motion/Stretch between = bottom, top
+Time/Steps = 4
+Output/Write = end
+""")
 
 
 def plane(y, normal):

@@ -1,4 +1,4 @@
-# ranks: 1 2  # debug: no
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What is told of where surfaces lie: that one goes on beyond its body, where that
@@ -41,21 +41,15 @@ def write(more, lower, upper, h):
     scene.write_text(SCENE.format(more=more, lower=lower, upper=upper, h=h))
 
 
-RING = """subsection Bodies
-  subsection ring
-    set Shape        = ring
-    set Centre       = 1.3, -1
-    set Radius       = 30
-    set Inner radius = 12
-  end
-end
-subsection Boundaries
-  subsection bore
-    set Body = ring
-    set Part = {part}
-    {more}
-  end
-end"""
+RING = prm("""
+Bodies/ring/Shape = ring
+Bodies/ring/Centre = 1.3, -1
+Bodies/ring/Radius = 30
+Bodies/ring/Inner radius = 12
+Boundaries/bore/Body = ring
+Boundaries/bore/Part = {part}
+{more}
+""")
 for h, part, enforcement in (
         (8, "inner", "augmented Lagrangian"), (4, "inner", "augmented Lagrangian"),
         (8, "inner", "penalty"), (8, "inner", "skew Nitsche"),
@@ -70,25 +64,15 @@ write(RING.format(part="", more=""), "-60, -60", "60, 60", 5)
 show("circle along the rim", {**CIRCLE, "Boundaries/bore/Radius": 12})
 show("circle inside the ring", {**CIRCLE, "Boundaries/bore/Radius": 20})
 
-BLOCK = """subsection Bodies
-  subsection block
-    set Lower corner = 0.3, 0.2
-    set Upper corner = 3.3, 3.2
-  end
-end
-subsection Grid conditions
-  subsection middle
-    set Lower corner = 1, 1
-    set Upper corner = 2, 2
-  end
-end
-subsection Boundaries
-  subsection base
-    set Points      = 0.3 {y}; {x} {y}
-    set Constraint  = {constraint}
-    set Enforcement = {enforcement}
-  end
-end"""
+BLOCK = prm("""
+Bodies/block/Lower corner = 0.3, 0.2
+Bodies/block/Upper corner = 3.3, 3.2
+Grid conditions/middle/Lower corner = 1, 1
+Grid conditions/middle/Upper corner = 2, 2
+Boundaries/base/Points = 0.3 {y}; {x} {y}
+Boundaries/base/Constraint = {constraint}
+Boundaries/base/Enforcement = {enforcement}
+""")
 for x, y, constraint, enforcement in (
         (3.3, 0.2, "fixed", "augmented Lagrangian"),
         (5, 0.2, "fixed", "augmented Lagrangian"),
@@ -137,14 +121,12 @@ subsection Stages
     end
   end
 end"""
-PLATE = """subsection Boundaries
-  subsection plate
-    set Body        = {body}
-    set Part        = {part}
-    set Constraint  = roller
-    {motion}
-  end
-end"""
+PLATE = prm("""
+Boundaries/plate/Body = {body}
+Boundaries/plate/Part = {part}
+Boundaries/plate/Constraint = roller
+{motion}
+""")
 
 
 def stages(title, left, loads="", boundaries="", first="", keep=""):
@@ -159,12 +141,11 @@ for rate in (0.1, 1.5):
            first="set Boundaries = none", keep="set Boundaries = plate",
            boundaries=PLATE.format(
                **TOP, motion=f"set Translation = 0; -{rate}*min(t,1)"))
-LOAD = """  subsection load
-    set Type  = {type}
-    set Value = 0; -40
-    {where}
-  end
-"""
+LOAD = prm("""
+load/Type = {type}
+load/Value = 0; -40
+{where}
+""")
 ON_TOP = LOAD.format(type="surface traction",
                      where="set Body  = b\n    set Part  = top")
 ON_POINTS = LOAD.format(type="force on points", where="set Location = 1.5, 4.4")
@@ -175,9 +156,7 @@ for left in ("a", "a, b"):
     stages(f"force on points of b, {left} left", left, loads=ON_POINTS)
 stages("load on b that ends", "a", loads=ON_TOP, keep="set Loads = weight")
 stages("rollers beside both", "a",
-       boundaries="""subsection Boundaries
-  subsection side
-    set Points     = 0 4.4; 0 0
-    set Constraint = roller
-  end
-end""")
+       boundaries=prm("""
+Boundaries/side/Points = 0 4.4; 0 0
+Boundaries/side/Constraint = roller
+"""))

@@ -47,12 +47,11 @@ subsection Output
 end
 {more}
 """
-BODY = """subsection {name}
-    set Material     = {material}
-    set Lower corner = {lower}
-    set Upper corner = {upper}
-  end
-  """
+BODY = prm("""
+{name}/Material = {material}
+{name}/Lower corner = {lower}
+{name}/Upper corner = {upper}
+""")
 scene = folder / "scene.prm"
 
 
@@ -73,12 +72,11 @@ for gap in (0, 0.05, 0.3, 0.55):
     show(f"columns {gap} apart", columns(gap))
 
 
-EXPRESSION = """subsection {name}
-    set Material   = firm
-    set Shape      = expression
-    set Expression = {expression}
-  end
-  """
+EXPRESSION = prm("""
+{name}/Material = firm
+{name}/Shape = expression
+{name}/Expression = {expression}
+""")
 
 
 def show_drawn(title, bodies):
@@ -106,23 +104,18 @@ def layers(top_of_seam):
 for top in (2, 1.9, 1.9995, 2.35):
     show(f"seam up to {top}", layers(top))
 
-FLOOR = """
-subsection Boundaries
-  subsection floor
-    set Points = -1, 1.3; 4, 1.3
-  end
-end
-"""
+FLOOR = prm("""
+Boundaries/floor/Points = -1, 1.3; 4, 1.3
+""")
 for bottom in (1.3, 1.45):
     show(f"block from {bottom} above a floor at 1.3",
          [("block", "firm", f"0, {bottom}", "2, 3")], FLOOR)
 
 # On a face of cells, inside of one, with a side that goes on in the air, and walls
 # that end with the body.
-SURFACE = """subsection {name}
-    set Points = {points}
-  end
-  """
+SURFACE = prm("""
+{name}/Points = {points}
+""")
 for title, bottom, surfaces in (
         ("footing to 0.75", 0, [("footing", "0.75, 3; 0, 3")]),
         ("footing to 0.85", 0, [("footing", "0.85, 3; 0, 3")]),
@@ -141,48 +134,31 @@ for title, bottom, surfaces in (
 
 # Of the rim of a body nothing is past the ends, also where points are those of cells
 # of degree 2.
-scene.write_text("""
-subsection Mesh
-  set Lower corner = -6, -6
-  set Upper corner = 6, 6
-  set Cell size    = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape          = box
-    set Lower corner   = 0, 0
-    set Upper corner   = 3, 4
-    set Rotation angle = 30
-    set Translation    = 0.013, 0.027
-  end
-end
-subsection Boundaries
-  subsection base
-    set Body = block
-    set Part = bottom
-  end
-end
-""")
+scene.write_text(prm("""
+Mesh/Lower corner = -6, -6
+Mesh/Upper corner = 6, 6
+Mesh/Cell size = 1
+Method/Method = finite element
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0.3
+Bodies/block/Shape = box
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 3, 4
+Bodies/block/Rotation angle = 30
+Bodies/block/Translation = 0.013, 0.027
+Boundaries/base/Body = block
+Boundaries/base/Part = bottom
+"""))
 for degree in (1, 2):
     result = run(scene, {"Method/Degree": degree}, command="check")
     text(f"base of a turned block, degree {degree}: notes",
          len(result.found()))
 
 # A body as thick as the mesh and one cell, that bends, or cannot, or is thicker.
-SIDE = """subsection {side}
-    set Side       = {side}
-    set Components = {components}
-  end
-  """
+SIDE = prm("""
+{side}/Side = {side}
+{side}/Components = {components}
+""")
 for title, size, held in (
         ("beam one cell thick", 1, [("left", "x, y")]),
         ("layer one cell thick", 1, [("bottom", "x, y")]),
@@ -202,32 +178,18 @@ for title, begin, top in (("bar two cells thick, on mesh lines", 0, 1),
                           ("bar two cells thick, by halves", -0.25, 1),
                           ("bar two cells thick, by 0.6 and 0.4", -0.3, 1),
                           ("plate one cell thick, by halves", -0.25, 0.5)):
-    scene.write_text(f"""
-set Dimension = 3
-subsection Mesh
-  set Lower corner = {begin}, {begin}, {begin}
-  set Upper corner = {begin + 3}, {begin + 3}, {begin + 3}
-  set Cell size    = 0.5
-end
-subsection Materials
-  subsection firm
-    set Young modulus = 1e5
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, 0, 0
-    set Upper corner = 2, 1, {top}
-  end
-end
-subsection Boundaries
-  subsection end
-    set Body = bar
-    set Part = left
-  end
-end
-""")
+    scene.write_text(prm(f"""
+Dimension = 3
+Mesh/Lower corner = {begin}, {begin}, {begin}
+Mesh/Upper corner = {begin + 3}, {begin + 3}, {begin + 3}
+Mesh/Cell size = 0.5
+Materials/firm/Young modulus = 1e5
+Materials/firm/Poisson ratio = 0.3
+Bodies/bar/Lower corner = 0, 0, 0
+Bodies/bar/Upper corner = 2, 1, {top}
+Boundaries/end/Body = bar
+Boundaries/end/Part = left
+"""))
     text(title + ": told", "thin-body" in run(scene, command="check").ids())
 
 # One that hangs on thick ground does not bend by itself.
@@ -250,46 +212,24 @@ for title, load in (
     show(title, [("block", "firm", "0, 0", "2, 4")],
          f"subsection Loads\n  subsection p\n {load}\n  end\nend\n")
 
-STAGES = """
-subsection Stages
-  subsection ground
-    set Bodies = below
-  end
-  subsection strut
-    set Bodies = below, strut
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-"""
+STAGES = prm("""
+Stages/ground/Bodies = below
+Stages/strut/Bodies = below, strut
+Stages/strut/Time/End time = 2
+""")
 show("strut of a later stage", [("below", "soft", "0, 0", "3, 2"),
                                 ("strut", "firm", "1, 2", "1.3, 3.5")], STAGES,
      command="run")
 
-PLATE = """
-subsection Boundaries
-  subsection plate
-    set Points       = 3 2; 0 2
-    set Constraint   = roller
-    set Displacement = 0; -0.001*(t-1)
-  end
-end
-subsection Stages
-  subsection weight
-    set Boundaries = none
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection plate
-    set Boundaries = plate
-    subsection Time
-      set End time = 2
-    end
-  end
-end
-"""
+PLATE = prm("""
+Boundaries/plate/Points = 3 2; 0 2
+Boundaries/plate/Constraint = roller
+Boundaries/plate/Displacement = 0; -0.001*(t-1)
+Stages/weight/Boundaries = none
+Stages/weight/Time/End time = 1
+Stages/plate/Boundaries = plate
+Stages/plate/Time/End time = 2
+""")
 for material in ("firm", "soft"):
     show(f"plate on settled ground, {material}",
          [("ground", material, "0, 0", "3, 2")], PLATE, command="run")

@@ -1,4 +1,3 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Soil at rest between walls on a base, and a hole that is widened: the force of

@@ -4,55 +4,27 @@
 wall that is an implicit boundary, though nodes of the base hold its lowest cell
 too. By the exact stress it is nu/(1 - nu) rho g H^2/2."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -0.5, 0
-  set Upper corner = 2.5, 2.5
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e6
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection soil
-    set Lower corner = 0, 0
-    set Upper corner = 2, 2
-  end
-end
-subsection Boundaries
-  subsection left
-    set Body = soil
-    set Part = left
-    set Constraint = roller
-  end
-  subsection right
-    set Body = soil
-    set Part = right
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -9.81
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+SCENE = prm("""
+Mesh/Lower corner = -0.5, 0
+Mesh/Upper corner = 2.5, 2.5
+Mesh/Cell size = 0.5
+Method/Method = finite element
+Materials/soil/Young modulus = 1e6
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 1
+Bodies/soil/Lower corner = 0, 0
+Bodies/soil/Upper corner = 2, 2
+Boundaries/left/Body = soil
+Boundaries/left/Part = left
+Boundaries/left/Constraint = roller
+Boundaries/right/Body = soil
+Boundaries/right/Part = right
+Boundaries/right/Constraint = roller
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -9.81
+Output/Write = end
+""")
 scene = folder / "scene.prm"
 scene.write_text(SCENE)
 EXACT = 0.3 / 0.7 * 9.81 * 2

@@ -6,48 +6,24 @@ yields, so that a stiff one is no weaker than a soft one."""
 
 import json
 
-SHEARED = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 1
-  set Cells        = 8, 8
-end
-subsection Method
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection block
-    set Model              = von Mises
-    set Young modulus      = 1000
-    set Poisson ratio      = 0.3
-    set Shear yield stress = 1
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-  end
-end
-subsection Grid conditions
-  subsection bottom
-    set Side = bottom
-  end
-  subsection top
-    set Side         = top
-    set Displacement = 5*$k/1000*t; 0
-  end
-end
-subsection Constants
-  set k = 1
-end
-subsection Time
-  set Steps = 10
-end
-subsection Output
-  set Write = end
-end
-"""
+SHEARED = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 1
+Mesh/Cells = 8, 8
+Method/Mesh after step = keep
+Materials/block/Model = von Mises
+Materials/block/Young modulus = 1000
+Materials/block/Poisson ratio = 0.3
+Materials/block/Shear yield stress = 1
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 1, 1
+Grid conditions/bottom/Side = bottom
+Grid conditions/top/Side = top
+Grid conditions/top/Displacement = 5*$k/1000*t; 0
+Constants/k = 1
+Time/Steps = 10
+Output/Write = end
+""")
 scene = folder / "sheared.prm"
 scene.write_text(SHEARED)
 forces = {}

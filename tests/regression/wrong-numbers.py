@@ -5,48 +5,28 @@
 boundaries that cut cells, a step too long for its error, a load between steps,
 cells that are too coarse for a body, displacements and turns too large for small strain."""
 
-PAD = """
-subsection Mesh
-  set Lower corner = 900, -400
-  set Upper corner = 1300, 0
-  set Cell size = 5
-end
-subsection Method
-  set Method = finite element
-  set Degree = 2
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Model = neo-Hookean
-    set Young modulus = 3
-    set Poisson ratio = 0.45
-  end
-end
-subsection Bodies
-  subsection pad
-    set Lower corner = 0, 0
-    set Upper corner = 200, 100
-    set Rotation angle = 31
-    set Translation = 1053.7, -287.9
-  end
-end
-subsection Boundaries
-  subsection bottom
-    set Body = pad
-    set Part = bottom
-  end
-  subsection top
-    set Body = pad
-    set Part = top
-    set Translation = 35*t*sin(31*pi/180); -35*t*cos(31*pi/180)
-  end
-end
-subsection Time
-  set End time = 0.5
-  set Steps = 10
-end
-"""
+PAD = prm("""
+Mesh/Lower corner = 900, -400
+Mesh/Upper corner = 1300, 0
+Mesh/Cell size = 5
+Method/Method = finite element
+Method/Degree = 2
+Method/Strain = finite
+Materials/rubber/Model = neo-Hookean
+Materials/rubber/Young modulus = 3
+Materials/rubber/Poisson ratio = 0.45
+Bodies/pad/Lower corner = 0, 0
+Bodies/pad/Upper corner = 200, 100
+Bodies/pad/Rotation angle = 31
+Bodies/pad/Translation = 1053.7, -287.9
+Boundaries/bottom/Body = pad
+Boundaries/bottom/Part = bottom
+Boundaries/top/Body = pad
+Boundaries/top/Part = top
+Boundaries/top/Translation = 35*t*sin(31*pi/180); -35*t*cos(31*pi/180)
+Time/End time = 0.5
+Time/Steps = 10
+""")
 
 # A pad that is squeezed until points of cut cells are: no step is accepted that
 # leaves the forces of its plates out of balance.
@@ -150,13 +130,12 @@ subsection Grid conditions
   end
 end
 """
-SECOND = """
-  subsection wall
-    set Shape = box
-    set Lower corner = {x}, 0
-    set Upper corner = 4, 4
-    set Material = stiff
-  end"""
+SECOND = prm("""
+wall/Shape = box
+wall/Lower corner = {x}, 0
+wall/Upper corner = 4, 4
+wall/Material = stiff
+""")
 for name, corner, second, stiffness, pull in (
         ("a strip of 1.2 cells", "4, 1.35", "", 1, 0.1),
         ("a strip of two", "4, 1.55", "", 1, 0.1),
@@ -174,43 +153,25 @@ for name, corner, second, stiffness, pull in (
     text(f"{name}: found", result.found() or "nothing")
 
 # A turn is no strain, but small strain finds some in one that is prescribed.
-SHAFT = """
-subsection Mesh
-  set Lower corner = -35, -35
-  set Upper corner = 35, 35
-  set Cell size = 5
-end
-subsection Materials
-  subsection steel
-    set Young modulus = 210000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection shaft
-    set Shape = ring
-    set Centre = 0, 0
-    set Radius = 30
-    set Inner radius = 12
-  end
-end
-subsection Boundaries
-  subsection bore
-    set Body = shaft
-    set Part = inner
-    set Rotation angle = 3*t
-  end
-  subsection bearing
-    set Body = shaft
-    set Part = outer
-    set Constraint = roller
-    set Rotation angle = 0
-  end
-end
-subsection Time
-  set Steps = 4
-end
-"""
+SHAFT = prm("""
+Mesh/Lower corner = -35, -35
+Mesh/Upper corner = 35, 35
+Mesh/Cell size = 5
+Materials/steel/Young modulus = 210000
+Materials/steel/Poisson ratio = 0.3
+Bodies/shaft/Shape = ring
+Bodies/shaft/Centre = 0, 0
+Bodies/shaft/Radius = 30
+Bodies/shaft/Inner radius = 12
+Boundaries/bore/Body = shaft
+Boundaries/bore/Part = inner
+Boundaries/bore/Rotation angle = 3*t
+Boundaries/bearing/Body = shaft
+Boundaries/bearing/Part = outer
+Boundaries/bearing/Constraint = roller
+Boundaries/bearing/Rotation angle = 0
+Time/Steps = 4
+""")
 scene = folder / "shaft.prm"
 scene.write_text(SHAFT)
 HELD = {"Boundaries/bearing/Constraint": "fixed"}
@@ -262,48 +223,26 @@ for grid, method in (("8, 8", "material point"), ("10, 10", "material point"),
     text(f"{grid} points in 4 x 4 cells, {method}: found", "point-volumes" in result.ids())
 
 # Bodies of elements that move into each other, and through a floor with none at it.
-FLIGHT = """
-subsection Mesh
-  set Lower corner = -3, 0
-  set Upper corner = 3, 1
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection bar
-    set Young modulus = 100
-    set Poisson ratio = 0
-    set Density       = 1
-  end
-end
-subsection Bodies
-  subsection left
-    set Lower corner     = -2, 0.5
-    set Upper corner     = -1, 1
-    set Initial velocity = {velocity}
-  end
-  subsection right
-    set Lower corner = 0, 0.5
-    set Upper corner = 1, 1
-  end
-end
-subsection Grid conditions
-  subsection floor
-    set Side = bottom
-  end
-end
-subsection Time
-  set Integrator = Newmark
-  set End time   = 2
-  set Steps      = 20
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+FLIGHT = prm("""
+Mesh/Lower corner = -3, 0
+Mesh/Upper corner = 3, 1
+Mesh/Cell size = 0.25
+Method/Method = {method}
+Materials/bar/Young modulus = 100
+Materials/bar/Poisson ratio = 0
+Materials/bar/Density = 1
+Bodies/left/Lower corner = -2, 0.5
+Bodies/left/Upper corner = -1, 1
+Bodies/left/Initial velocity = {velocity}
+Bodies/right/Lower corner = 0, 0.5
+Bodies/right/Upper corner = 1, 1
+Grid conditions/floor/Side = bottom
+Time/Integrator = Newmark
+Time/End time = 2
+Time/Steps = 20
+Output/Points = false
+Output/Mesh = false
+""")
 flight = folder / "flight.prm"
 for method, velocity in (("finite element", "1; 0"), ("finite element", "0; -0.5"),
                          ("finite element", "0.2; 0"), ("GIMP", "1; 0"),
@@ -322,79 +261,37 @@ for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):
         text(f"{grid} points turned by {angle}: half lengths", f"{x} {y}")
 
 # What is filled up from the old level, above ground that has risen meanwhile.
-HEAVE = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 14
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection clay
-    set Young modulus = 500
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection low
-    set Lower corner   = 0, 0
-    set Upper corner   = 1, 6
-    set Initial stress = geostatic
-  end
-  subsection dug
-    set Lower corner   = 0, 6
-    set Upper corner   = 1, 9
-    set Initial stress = geostatic
-  end
-  subsection fill
-    set Lower corner = 0, 6
-    set Upper corner = 1, 9
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-  subsection base
-    set Side       = bottom
-    set Components = y
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Stages
-  subsection rest
-    set Bodies = low, dug
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection pit
-    set Bodies = low
-    subsection Time
-      set End time = 2
-    end
-  end
-  subsection filled
-    set Bodies = low, fill
-    subsection Time
-      set End time = 3
-    end
-  end
-end
-"""
+HEAVE = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 14
+Mesh/Cell size = 0.5
+Method/Method = GIMP
+Materials/clay/Young modulus = 500
+Materials/clay/Poisson ratio = 0.3
+Materials/clay/Density = 2
+Bodies/low/Lower corner = 0, 0
+Bodies/low/Upper corner = 1, 6
+Bodies/low/Initial stress = geostatic
+Bodies/dug/Lower corner = 0, 6
+Bodies/dug/Upper corner = 1, 9
+Bodies/dug/Initial stress = geostatic
+Bodies/fill/Lower corner = 0, 6
+Bodies/fill/Upper corner = 1, 9
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/base/Side = bottom
+Grid conditions/base/Components = y
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Stages/rest/Bodies = low, dug
+Stages/rest/Time/End time = 1
+Stages/pit/Bodies = low
+Stages/pit/Time/End time = 2
+Stages/filled/Bodies = low, fill
+Stages/filled/Time/End time = 3
+""")
 heave = folder / "heave.prm"
 heave.write_text(HEAVE)
 for name, settings in (
@@ -408,45 +305,25 @@ for name, settings in (
         one for one in result.ids() if one in ("point-volumes", "bodies-meet")])
 
 # What is dug has the shape that is left: however a cylinder lies in its cells.
-BORED = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -4, -4, -4
-  set Upper corner = 4, 4, 4
-  set Cell size = {h}
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection all
-    set Lower corner = -4, -4, -4
-    set Upper corner = 4, 4, 4
-  end
-  subsection hole
-    set Shape = cylinder
-    set Axis start = {start}
-    set Axis end = {end}
-    set Radius = {radius}
-  end
-  subsection ground
-    set Shape = difference
-    set Operands = all, hole
-  end
-  subsection core
-    set Shape = {core}
-    set Operands = all, hole
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-"""
+BORED = prm("""
+Dimension = 3
+Mesh/Lower corner = -4, -4, -4
+Mesh/Upper corner = 4, 4, 4
+Mesh/Cell size = {h}
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0.3
+Bodies/all/Lower corner = -4, -4, -4
+Bodies/all/Upper corner = 4, 4, 4
+Bodies/hole/Shape = cylinder
+Bodies/hole/Axis start = {start}
+Bodies/hole/Axis end = {end}
+Bodies/hole/Radius = {radius}
+Bodies/ground/Shape = difference
+Bodies/ground/Operands = all, hole
+Bodies/core/Shape = {core}
+Bodies/core/Operands = all, hole
+Grid conditions/base/Side = bottom
+""")
 scene = folder / "bored.prm"
 for name, start, end in (("along x", "-4, 0.13, -0.21", "4, 0.13, -0.21"),
                          ("along y", "0.13, -4, -0.21", "0.13, 4, -0.21"),
@@ -474,52 +351,24 @@ for name, settings in (
 
 # What one body says of its cut cells does not depend on another, far away; its
 # domains reach cells that have none of its points.
-APART = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 8, 4
-  set Cell size = 1
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection solid
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection pulled
-    set Lower corner = 0, 0
-    set Upper corner = 2, 2
-    set Aggregate below = 0
-  end
-  subsection other
-    set Lower corner = 5, 0
-    set Upper corner = 7, 2
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection pull
-    set Value = 0; 3*t
-    set Bodies = pulled
-  end
-end
-subsection Time
-  set Steps = 4
-end
-subsection Probes
-  subsection top
-    set Location = 0.1, 1.9
-  end
-end
-"""
+APART = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 8, 4
+Mesh/Cell size = 1
+Method/Method = GIMP
+Materials/solid/Young modulus = 100
+Materials/solid/Poisson ratio = 0.3
+Bodies/pulled/Lower corner = 0, 0
+Bodies/pulled/Upper corner = 2, 2
+Bodies/pulled/Aggregate below = 0
+Bodies/other/Lower corner = 5, 0
+Bodies/other/Upper corner = 7, 2
+Grid conditions/base/Side = bottom
+Loads/pull/Value = 0; 3*t
+Loads/pull/Bodies = pulled
+Time/Steps = 4
+Probes/top/Location = 0.1, 1.9
+""")
 apart = folder / "apart.prm"
 apart.write_text(APART)
 lifts = [run(apart, {"Bodies/other/Aggregate below": fill}).history()[-1]["u_y at top"]

@@ -5,68 +5,32 @@
 a block at rest under gravity stays at rest, whatever has brought its base there,
 also when the run goes on from the middle of it."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -0.5, -0.5
-  set Upper corner = 5, 3.5
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 10000
-    set Poisson ratio = 0.3
-    set Density = 2
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0.1
-    set Upper corner = 4, 2.1
-    set Rotation angle = 12
-    set Translation = 0, 0.2
-  end
-end
-subsection Boundaries
-  subsection base
-    set Points = 0 0.1; 4 0.1
-    set Rotation angle = 12
-    set Translation = 0; 0.2
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-subsection Stages
-  subsection rest
-    subsection Time
-      set Steps = 2
-    end
-  end
-  subsection absorbing
-    subsection Time
-      set Integrator = Newmark
-      set End time = 1.5
-      set Steps = 20
-    end
-    set Absorbing = base
-  end
-end
-subsection Output
-  set Write = end
-end
-subsection Probes
-  subsection top
-    set Location = 2.5, 2.3
-    set Kind = interpolated
-  end
-end
-"""
+SCENE = prm("""
+Mesh/Lower corner = -0.5, -0.5
+Mesh/Upper corner = 5, 3.5
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Materials/soil/Young modulus = 10000
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 2
+Bodies/block/Lower corner = 0, 0.1
+Bodies/block/Upper corner = 4, 2.1
+Bodies/block/Rotation angle = 12
+Bodies/block/Translation = 0, 0.2
+Boundaries/base/Points = 0 0.1; 4 0.1
+Boundaries/base/Rotation angle = 12
+Boundaries/base/Translation = 0; 0.2
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Stages/rest/Time/Steps = 2
+Stages/absorbing/Time/Integrator = Newmark
+Stages/absorbing/Time/End time = 1.5
+Stages/absorbing/Time/Steps = 20
+Stages/absorbing/Absorbing = base
+Output/Write = end
+Probes/top/Location = 2.5, 2.3
+Probes/top/Kind = interpolated
+""")
 scene = folder / "base.prm"
 scene.write_text(SCENE)
 

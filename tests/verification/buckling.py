@@ -9,42 +9,22 @@ import math
 E, LENGTH, HEIGHT = 120000, 10, 0.5
 EULER = math.pi**2 * E * HEIGHT**3 / 12 / (4 * LENGTH**2)
 
-COLUMN = f"""
-subsection Mesh
-  set Lower corner = 0, -1
-  set Upper corner = 11, 1.5
-  set Cell size    = 0.125
-end
-subsection Materials
-  subsection steel
-    set Young modulus = {E}
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection column
-    set Lower corner = 0, 0
-    set Upper corner = {LENGTH}, {HEIGHT}
-  end
-end
-subsection Grid conditions
-  subsection foot
-    set Side = left
-  end
-end
-subsection Loads
-  subsection force
-    set Type  = surface traction
-    set Body  = column
-    set Part  = right
-    set Curve = t
-    set Value = {-0.2 * EULER / HEIGHT}; 0
-  end
-end
-subsection Study
-  set Kind = buckling
-end
-"""
+COLUMN = prm(f"""
+Mesh/Lower corner = 0, -1
+Mesh/Upper corner = 11, 1.5
+Mesh/Cell size = 0.125
+Materials/steel/Young modulus = {E}
+Materials/steel/Poisson ratio = 0
+Bodies/column/Lower corner = 0, 0
+Bodies/column/Upper corner = {LENGTH}, {HEIGHT}
+Grid conditions/foot/Side = left
+Loads/force/Type = surface traction
+Loads/force/Body = column
+Loads/force/Part = right
+Loads/force/Curve = t
+Loads/force/Value = {-0.2 * EULER / HEIGHT}; 0
+Study/Kind = buckling
+""")
 scene = folder / "column.prm"
 scene.write_text(COLUMN)
 

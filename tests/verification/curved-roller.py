@@ -27,52 +27,32 @@ for method in ("GIMP", "material point", "finite element"):
 # A shaft in a bearing that does not follow the mesh. Turned at its bore, it has
 # neither stress nor torque; pressed in, what its rim carries is that of Lame's
 # solution for u(12) = 0, u(30) = -0.03.
-SHAFT = """
-subsection Mesh
-  set Lower corner = 67, -43
-  set Upper corner = 137, 27
-  set Cell size    = 5
-end
-subsection Method
-  set Strain = finite
-end
-subsection Materials
-  subsection steel
-    set Young modulus = 210000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection shaft
-    set Shape        = ring
-    set Centre       = 101.3, -7.9
-    set Radius       = 30
-    set Inner radius = 12
-  end
-end
-subsection Boundaries
-  subsection bore
-    set Body            = shaft
-    set Part            = inner
-    set Rotation angle  = if(t > 1, 60 * (t - 1), 0)
-    set Rotation centre = 101.3, -7.9
-  end
-  subsection bearing
-    set Surface         = circle
-    set Centre          = 101.3, -7.9
-    set Radius          = 30
-    set Body side       = inside
-    set Constraint      = roller
-    set Rotation angle  = 0
-    set Rotation centre = 101.3, -7.9
-    {press}
-  end
-end
-subsection Time
-  set End time = 2
-  set Steps    = 8
-end
-"""
+SHAFT = prm("""
+Mesh/Lower corner = 67, -43
+Mesh/Upper corner = 137, 27
+Mesh/Cell size = 5
+Method/Strain = finite
+Materials/steel/Young modulus = 210000
+Materials/steel/Poisson ratio = 0.3
+Bodies/shaft/Shape = ring
+Bodies/shaft/Centre = 101.3, -7.9
+Bodies/shaft/Radius = 30
+Bodies/shaft/Inner radius = 12
+Boundaries/bore/Body = shaft
+Boundaries/bore/Part = inner
+Boundaries/bore/Rotation angle = if(t > 1, 60 * (t - 1), 0)
+Boundaries/bore/Rotation centre = 101.3, -7.9
+Boundaries/bearing/Surface = circle
+Boundaries/bearing/Centre = 101.3, -7.9
+Boundaries/bearing/Radius = 30
+Boundaries/bearing/Body side = inside
+Boundaries/bearing/Constraint = roller
+Boundaries/bearing/Rotation angle = 0
+Boundaries/bearing/Rotation centre = 101.3, -7.9
+{press}
+Time/End time = 2
+Time/Steps = 8
+""")
 SHRINK = """set Displacement = -0.03 * if(t > 1, 1, t) * (x - 101.3) / sqrt((x - 101.3)^2 + (y + 7.9)^2); -0.03 * if(t > 1, 1, t) * (y + 7.9) / sqrt((x - 101.3)^2 + (y + 7.9)^2)"""
 E, NU, A, B, U = 210000, 0.3, 12, 30, -0.03
 LAME = E / (1 + NU) / (1 - 2 * NU)  # sigma_r = LAME (C + (1 - 2 nu) D / r^2)
@@ -96,57 +76,33 @@ for method in ("GIMP", "finite element"):
           last["moment of bearing"] / force / B, 1e-9)
 
 # A cylinder in a smooth tube, pressed to 0.8 of its length: uniaxial strain.
-CONFINED = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -0.86, -0.86, -0.86
-  set Upper corner = 0.94, 0.94, 1.94
-  set Cells        = 9, 9, 14
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Model         = neo-Hookean
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection plug
-    set Shape      = cylinder
-    set Axis start = 0, 0, 0
-    set Axis end   = 0, 0, 1
-    set Radius     = 0.5
-  end
-end
-subsection Boundaries
-  subsection tube
-    set Body       = plug
-    set Part       = side
-    set Constraint = roller
-  end
-  subsection bottom
-    set Body = plug
-    set Part = bottom
-  end
-  subsection piston
-    set Body        = plug
-    set Part        = top
-    set Constraint  = roller
-    set Translation = 0; 0; -0.2*t
-  end
-end
-subsection Time
-  set Steps = 4
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+CONFINED = prm("""
+Dimension = 3
+Mesh/Lower corner = -0.86, -0.86, -0.86
+Mesh/Upper corner = 0.94, 0.94, 1.94
+Mesh/Cells = 9, 9, 14
+Method/Method = finite element
+Method/Strain = finite
+Materials/rubber/Model = neo-Hookean
+Materials/rubber/Young modulus = 1000
+Materials/rubber/Poisson ratio = 0.3
+Bodies/plug/Shape = cylinder
+Bodies/plug/Axis start = 0, 0, 0
+Bodies/plug/Axis end = 0, 0, 1
+Bodies/plug/Radius = 0.5
+Boundaries/tube/Body = plug
+Boundaries/tube/Part = side
+Boundaries/tube/Constraint = roller
+Boundaries/bottom/Body = plug
+Boundaries/bottom/Part = bottom
+Boundaries/piston/Body = plug
+Boundaries/piston/Part = top
+Boundaries/piston/Constraint = roller
+Boundaries/piston/Translation = 0; 0; -0.2*t
+Time/Steps = 4
+Output/Points = false
+Output/Mesh = false
+""")
 scene.write_text(CONFINED)
 result = run(scene, on_ranks=1)
 MU, LAMBDA, STRETCH = 1000 / 2.6, 300 / 1.3 / 0.4, 0.8

@@ -12,7 +12,7 @@ from math import cos, hypot, radians, sin, sqrt
 BLOCK = "prm/hard-cases/cut-block.prm"
 H = 0.125
 # MORAINE_PLACES = 300 takes more of a sequence that is always the same.
-PLACES = int(os.environ.get("MORAINE_PLACES", 9 if ranks == 1 else 2))
+PLACES = int(os.environ.get("MORAINE_PLACES", 9))
 
 
 def at(angle, dx, dy, h=H):
@@ -130,7 +130,7 @@ for cure, name in (({}, ""), (GHOST, "ghost, ")):
               max(run(BLOCK, {**at(*place), **conditions, **cure,
                               "Method/Method": method})
                   .summary["condition_number"]
-                  for place in positions(6 if ranks == 1 else 2))
+                  for place in positions(6))
               / aligned, 2)
 
 # A body that flies through its mesh has cut cells in nearly every step.

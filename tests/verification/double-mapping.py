@@ -1,4 +1,4 @@
-# ranks: 1 2  # debug: no
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """DM, DM-G, DM-C and DM-GC: what each part does to stresses. All are on all ranks

@@ -42,55 +42,43 @@ subsection Output
 end
 {more}
 """
-BODY = """subsection {name}
-    set Lower corner   = {lower}
-    set Upper corner   = {upper}
-    set Initial stress = geostatic
-    {more}
-  end
-  """
-BASE = """subsection base
-    set Enforcement = {enforcement}
-    set Points      = {points}
-  end
-"""
-WALL = """subsection {part}
-    set Body       = ground
-    set Part       = {part}
-    set Constraint = roller
-  end
-"""
-STAGE = """subsection {name}
-    {keys}
-    subsection Time
-      set End time = {end}
-      {time}
-    end
-  end
-"""
-LEFT = """subsection left
-    set Lower corner = -0.01, -1
-    set Upper corner = 0.01, 9
-    set Components   = x
-  end
-"""
+BODY = prm("""
+{name}/Lower corner = {lower}
+{name}/Upper corner = {upper}
+{name}/Initial stress = geostatic
+{more}
+""")
+BASE = prm("""
+base/Enforcement = {enforcement}
+base/Points = {points}
+""")
+WALL = prm("""
+{part}/Body = ground
+{part}/Part = {part}
+{part}/Constraint = roller
+""")
+STAGE = prm("""
+{name}/
+{keys}
+{name}/Time/End time = {end}
+{time}
+""")
+LEFT = prm("""
+left/Lower corner = -0.01, -1
+left/Upper corner = 0.01, 9
+left/Components = x
+""")
 RIGHT = LEFT.replace("left", "right").replace("-0.01", "5.99").replace("0.01,", "6.01,")
-PROBE = """subsection Probes
-  subsection top
-    set Location = 1, 5.9
-  end
-end
-"""
+PROBE = prm("""
+Probes/top/Location = 1, 5.9
+""")
 # rho c_p is 219.09.
-PUSH = """subsection Loads
-  subsection push
-    set Type     = surface traction
-    set Body     = ground
-    set Part     = top
-    set Value    = 0; if(t > 2, 21.909, 0)
-  end
-end
-"""
+PUSH = prm("""
+Loads/push/Type = surface traction
+Loads/push/Body = ground
+Loads/push/Part = top
+Loads/push/Value = 0; if(t > 2, 21.909, 0)
+""")
 scene = folder / "scene.prm"
 
 

@@ -1,61 +1,36 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A bar is pulled into plastic flow by grid conditions on lines of nodes near its ends,
 beyond which it goes on by less than a tenth of a cell, or does so as it is pulled. Its
 stress is uniform, that of finite elements whose mesh ends with the bar."""
 
-SCENE = """
-set Dimension = 2
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {upper}
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = {method}
-  set Strain = {strain}
-  set Mesh after step = {after}
-end
-subsection Materials
-  subsection metal
-    set Model = von Mises
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Uniaxial yield stress = {strength}
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = {from}, {below}
-    set Upper corner = {to}, 0.75
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Lower corner = -0.1, -1
-    set Upper corner =  0.1, 2
-    set Components = x
-  end
-  subsection right
-    set Lower corner = 2.4, -1
-    set Upper corner = 2.6, 2
-    set Components = x
-    set Displacement = {pull}; 0
-  end
-  subsection below
-    set Lower corner = -1, -0.1
-    set Upper corner =  4,  0.1
-    set Components = y
-  end
-end
-subsection Time
-  set Steps = 4
-end
-subsection Output
-  set Mesh = false
-end
-"""
+SCENE = prm("""
+Dimension = 2
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = 0.25
+Method/Method = {method}
+Method/Strain = {strain}
+Method/Mesh after step = {after}
+Materials/metal/Model = von Mises
+Materials/metal/Young modulus = 1000
+Materials/metal/Poisson ratio = 0.3
+Materials/metal/Uniaxial yield stress = {strength}
+Bodies/bar/Lower corner = {from}, {below}
+Bodies/bar/Upper corner = {to}, 0.75
+Grid conditions/left/Lower corner = -0.1, -1
+Grid conditions/left/Upper corner = 0.1, 2
+Grid conditions/left/Components = x
+Grid conditions/right/Lower corner = 2.4, -1
+Grid conditions/right/Upper corner = 2.6, 2
+Grid conditions/right/Components = x
+Grid conditions/right/Displacement = {pull}; 0
+Grid conditions/below/Lower corner = -1, -0.1
+Grid conditions/below/Upper corner = 4,  0.1
+Grid conditions/below/Components = y
+Time/Steps = 4
+Output/Mesh = false
+""")
 scene = folder / "scene.prm"
 FITTED = {"lower": "0, 0", "upper": "2.5, 0.75", "method": "finite element"}
 

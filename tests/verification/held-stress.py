@@ -92,23 +92,14 @@ for bottom, rest in ((0.1, 1e-12), (0.2, 1e-2)):
                   last["reaction_y of base"] / (4 * WEIGHT * HEIGHT) - 1, 1e-9)
 
 # Nodes of a side hold at first, then the surface in the same place.
-write(-0.5, 0.06, "", "subsection nodes\n set Side = bottom\n end", """
-subsection Stages
-  subsection nodes
-    set Boundaries = none
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection surface
-    set Boundaries      = base
-    set Grid conditions = left, right
-    subsection Time
-      set End time = 2
-      set Steps    = 2
-    end
-  end
-end""")
+write(-0.5, 0.06, "", "subsection nodes\n set Side = bottom\n end", prm("""
+Stages/nodes/Boundaries = none
+Stages/nodes/Time/End time = 1
+Stages/surface/Boundaries = base
+Stages/surface/Grid conditions = left, right
+Stages/surface/Time/End time = 2
+Stages/surface/Time/Steps = 2
+"""))
 for method in ("material point", "finite element"):
     rows = run(scene, {"Method/Method": method}).history()
     for name in ("sigma_yy at low", "u_y at surface"):
@@ -117,59 +108,30 @@ for method in ("material point", "finite element"):
 
 # Ground beside a rough wall at 15 degrees, at finite strain: pieces of the wall begin
 # with how the stress varies along them, too. Without that 0.24 % is out of balance.
-WALL = """
-subsection Mesh
-  set Lower corner = -1, -0.6
-  set Upper corner = 4, 3.4
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-    set Density       = 2
-
-  end
-end
-subsection Bodies
-  subsection ground
-    set Shape = polygon
-    set Vertices = 0 -0.1; 4 -0.1; 4 2.4; -0.67 2.4
-    set Initial stress = geostatic
-    set K0 = 0.5
-  end
-end
-subsection Boundaries
-  subsection wall
-    set Body = ground
-    set Part = 4
-  end
-  subsection base
-    set Body = ground
-    set Part = 1
-    set Constraint = roller
-  end
-end
-subsection Grid conditions
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Time
-  set Steps = 2
-end
-"""
+WALL = prm("""
+Mesh/Lower corner = -1, -0.6
+Mesh/Upper corner = 4, 3.4
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Method/Strain = finite
+Materials/soil/Young modulus = 1e4
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 2
+Bodies/ground/Shape = polygon
+Bodies/ground/Vertices = 0 -0.1; 4 -0.1; 4 2.4; -0.67 2.4
+Bodies/ground/Initial stress = geostatic
+Bodies/ground/K0 = 0.5
+Boundaries/wall/Body = ground
+Boundaries/wall/Part = 4
+Boundaries/base/Body = ground
+Boundaries/base/Part = 1
+Boundaries/base/Constraint = roller
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Time/Steps = 2
+""")
 wall = folder / "wall.prm"
 wall.write_text(WALL)
 found = run(wall, {"Output/Write": "end"})

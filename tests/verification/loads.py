@@ -95,43 +95,23 @@ bound("half of it outside the mesh: base reaction - 240",
       half.reactions["base"][1] - 240, 1e-8)
 text("  found", half.found())
 
-ARC = """
-subsection Mesh
-  set Type = generator
-  set Generator = hyper_shell
-  set Arguments = 0, 0 : 5 : 10 : 12 : true
-  set Refinements = 1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection solid
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection ring
-    set Shape = mesh
-  end
-end
-subsection Grid conditions
-  subsection inside
-    set Side = 0
-  end
-end
-subsection Loads
-  subsection pull
-    set Type = surface traction
-    set Surface = circle
-    set Centre = 0, 0
-    set Radius = 10
-    set Body side = inside
-    set Value = 1; 0
-  end
-end
-"""
+ARC = prm("""
+Mesh/Type = generator
+Mesh/Generator = hyper_shell
+Mesh/Arguments = 0, 0 : 5 : 10 : 12 : true
+Mesh/Refinements = 1
+Method/Method = finite element
+Materials/solid/Young modulus = 1000
+Materials/solid/Poisson ratio = 0.3
+Bodies/ring/Shape = mesh
+Grid conditions/inside/Side = 0
+Loads/pull/Type = surface traction
+Loads/pull/Surface = circle
+Loads/pull/Centre = 0, 0
+Loads/pull/Radius = 10
+Loads/pull/Body side = inside
+Loads/pull/Value = 1; 0
+""")
 scene = folder / "arc.prm"
 scene.write_text(ARC)
 bound("arc: reaction over its length + 1",

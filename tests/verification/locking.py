@@ -110,49 +110,24 @@ for title, beside in (("", None), (" beyond 3 h of the edge", (1, 0))):
 
 # Domains that reach over faces of cells in a uniform strain: their parts in cells
 # are found by where those faces cross them.
-scene = folder / "stretched.prm"
-scene.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 6, 3
-  set Cell size = 0.25
-end
-subsection Method
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Young modulus = 100
-    set Poisson ratio = 0.49
-  end
-end
-subsection Bodies
-  subsection sheet
-    set Lower corner = 0, 0
-    set Upper corner = 4, 2
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Boundaries
-  subsection right
-    set Body = sheet
-    set Part = right
-    set Constraint = roller
-    set Translation = 0.04*t; 0
-  end
-end
-subsection Time
-  set Steps = 8
-end
+scene = scene_file("stretched.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 6, 3
+Mesh/Cell size = 0.25
+Method/Strain = finite
+Materials/rubber/Young modulus = 100
+Materials/rubber/Poisson ratio = 0.49
+Bodies/sheet/Lower corner = 0, 0
+Bodies/sheet/Upper corner = 4, 2
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = y
+Boundaries/right/Body = sheet
+Boundaries/right/Part = right
+Boundaries/right/Constraint = roller
+Boundaries/right/Translation = 0.04*t; 0
+Time/Steps = 8
 """)
 mean = {}
 for method in "GIMP", "CPDI1", "CPDI2":

@@ -6,51 +6,29 @@ fitted to them. Those whose motions a cell can follow keep all they hold."""
 
 from math import cos, radians, sin
 
-SCENE = """
-subsection Mesh
-  set Lower corner = {mesh_low}
-  set Upper corner = {mesh_high}
-  set Cell size    = {h}
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection clay
-    set Model              = {model}
-    set Young modulus      = 20000
-    set Poisson ratio      = 0.49
-    set Density            = 1.8
-    {more}
-  end
-end
-subsection Bodies
-  subsection soil
-    set Lower corner   = {low}
-    set Upper corner   = {high}
-    set Initial stress = geostatic
-    set K0             = 1
-  end
-end
-subsection Boundaries
+SCENE = prm("""
+Mesh/Lower corner = {mesh_low}
+Mesh/Upper corner = {mesh_high}
+Mesh/Cell size = {h}
+Method/Method = {method}
+Materials/clay/Model = {model}
+Materials/clay/Young modulus = 20000
+Materials/clay/Poisson ratio = 0.49
+Materials/clay/Density = 1.8
+{more}
+Bodies/soil/Lower corner = {low}
+Bodies/soil/Upper corner = {high}
+Bodies/soil/Initial stress = geostatic
+Bodies/soil/K0 = 1
+Boundaries/
 {boundaries}
-end
-subsection Grid conditions
+Grid conditions/
 {conditions}
-end
-subsection Loads
-  subsection g
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Time
-  set Steps = 5
-end
-subsection Output
-  set Write = end
-end
-"""
+Loads/g/Type = gravity
+Loads/g/Value = 0; -10
+Time/Steps = 5
+Output/Write = end
+""")
 YIELDS = {"model": "von Mises", "more": "set Shear yield stress = 12"}
 ELASTIC = {"model": "linear elastic", "more": ""}
 

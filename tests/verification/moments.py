@@ -6,47 +6,27 @@ of a ring, which cancel."""
 
 from math import cos, pi, radians, sin
 
-MATERIAL = """
-subsection Materials
-  subsection m
-    set Young modulus = {E}
-    set Poisson ratio = {nu}
-    set Density = 1
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+MATERIAL = prm("""
+Materials/m/Young modulus = {E}
+Materials/m/Poisson ratio = {nu}
+Materials/m/Density = 1
+Output/Write = end
+""")
 scene = folder / "scene.prm"
 
 # Weight 40, arm 4.
-scene.write_text(MATERIAL.format(E=1e6, nu=0.3) + """
-subsection Mesh
-  set Lower corner = -1, -1
-  set Upper corner = 6, 4
-  set Cell size = 0.25
-end
-subsection Bodies
-  subsection b
-    set Lower corner = 3, 0.1
-    set Upper corner = 5, 2.1
-  end
-end
-subsection Boundaries
-  subsection base
-    set Body = b
-    set Part = bottom
-    set Rotation angle = 5*t
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10
-  end
-end
-""")
+scene.write_text(MATERIAL.format(E=1e6, nu=0.3) + prm("""
+Mesh/Lower corner = -1, -1
+Mesh/Upper corner = 6, 4
+Mesh/Cell size = 0.25
+Bodies/b/Lower corner = 3, 0.1
+Bodies/b/Upper corner = 5, 2.1
+Boundaries/base/Body = b
+Boundaries/base/Part = bottom
+Boundaries/base/Rotation angle = 5*t
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+"""))
 KEEP = {"Method/Mesh after step": "keep"}
 for method in "material point", "GIMP", "finite element":
     for name, settings, turned in (
@@ -63,11 +43,11 @@ for method in "material point", "GIMP", "finite element":
               1e-3 if turned else 1e-8)
 
 # Both rims of a ring, by surfaces and by nodes.
-RIM = """subsection {name}
-    set {place}
-    set Rotation angle = {angle}
-  end
-  """
+RIM = prm("""
+{name}/
+set {place}
+{name}/Rotation angle = {angle}
+""")
 RIMS = ("inner", "5*t"), ("outer", "0*t")
 G = 1e4 / 2.6
 EXACT = 4 * pi * G * 0.25 * 2.25 / 2 * sin(radians(5))

@@ -41,12 +41,11 @@ subsection Time
   set Steps = {steps}
 end
 """
-ROLLER = """  subsection {name}
-    set Constraint = roller
-    set Body = block
-    set Part = {name}
-  end
-"""
+ROLLER = prm("""
+{name}/Constraint = roller
+{name}/Body = block
+{name}/Part = {name}
+""")
 
 
 def pressed(dim, method, offset, pressure, steps):

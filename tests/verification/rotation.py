@@ -33,49 +33,29 @@ bound("disc, finite element, generalised-alpha: angular momentum after a turn "
 
 # A disc turns in a hole of its own size. What turns it is of second order in
 # the step with every integrator, and the table of energies is right.
-HOLE = """
-subsection Mesh
-  set Lower corner = -1.5, -1.5
-  set Upper corner = 1.5, 1.5
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Materials
-  subsection m
-    set Model = neo-Hookean
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection disc
-    set Shape = disc
-    set Centre = 0, 0
-    set Radius = 1.1
-    set Initial velocity = -2*y; 2*x
-  end
-end
-subsection Boundaries
-  subsection rim
-    set Surface = circle
-    set Centre = 0, 0
-    set Radius = 1.1
-    set Body side = inside
-    set Constraint = roller
-  end
-end
-subsection Time
-  set End time = 6
-  set Steps = 150
-end
-subsection Output
-  set Write = end
-end
-"""
+HOLE = prm("""
+Mesh/Lower corner = -1.5, -1.5
+Mesh/Upper corner = 1.5, 1.5
+Mesh/Cell size = 0.25
+Method/Method = finite element
+Method/Strain = finite
+Materials/m/Model = neo-Hookean
+Materials/m/Young modulus = 1e4
+Materials/m/Poisson ratio = 0.3
+Materials/m/Density = 1
+Bodies/disc/Shape = disc
+Bodies/disc/Centre = 0, 0
+Bodies/disc/Radius = 1.1
+Bodies/disc/Initial velocity = -2*y; 2*x
+Boundaries/rim/Surface = circle
+Boundaries/rim/Centre = 0, 0
+Boundaries/rim/Radius = 1.1
+Boundaries/rim/Body side = inside
+Boundaries/rim/Constraint = roller
+Time/End time = 6
+Time/Steps = 150
+Output/Write = end
+""")
 hole = folder / "hole.prm"
 hole.write_text(HOLE)
 for integrator in ("generalised-alpha", "Newmark", "Bathe", "energy-momentum"):
@@ -130,66 +110,38 @@ for method, settings in (("finite element", {}),
 
 # A segment of a disc that rocks in a bowl of its radius from 40 degrees: a rigid
 # pendulum. Generalised-alpha carries the forces of a step into the next.
-ROCKER = """
-subsection Mesh
-  set Lower corner = -1.2, -1.2
-  set Upper corner = 1.2, 1.2
-  set Cell size = 0.1
-end
-subsection Method
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Model = neo-Hookean
-    set Young modulus = 1e6
-    set Poisson ratio = 0.3
-    set Density = 2
-  end
-end
-subsection Bodies
-  subsection disc
-    set Shape = disc
-    set Centre = 0.013, 0
-    set Radius = 1
-  end
-  subsection half
-    set Shape = half-space
-    set Point = 0.013, -0.6
-    set Normal = 0, 1
-    set Rotation angle = 40
-    set Rotation centre = 0.013, 0
-  end
-  subsection segment
-    set Shape = intersection
-    set Operands = disc, half
-    set Material = rubber
-  end
-end
-subsection Boundaries
-  subsection bowl
-    set Surface = circle
-    set Centre = 0.013, 0
-    set Radius = 1
-    set Body side = inside
-    set Constraint = roller
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -9.81
-  end
-end
-subsection Time
-  set Integrator = generalised-alpha
-  set End time = 1.01
-  set Steps = 60
-end
-subsection Output
-  set Write = end
-end
-"""
+ROCKER = prm("""
+Mesh/Lower corner = -1.2, -1.2
+Mesh/Upper corner = 1.2, 1.2
+Mesh/Cell size = 0.1
+Method/Strain = finite
+Materials/rubber/Model = neo-Hookean
+Materials/rubber/Young modulus = 1e6
+Materials/rubber/Poisson ratio = 0.3
+Materials/rubber/Density = 2
+Bodies/disc/Shape = disc
+Bodies/disc/Centre = 0.013, 0
+Bodies/disc/Radius = 1
+Bodies/half/Shape = half-space
+Bodies/half/Point = 0.013, -0.6
+Bodies/half/Normal = 0, 1
+Bodies/half/Rotation angle = 40
+Bodies/half/Rotation centre = 0.013, 0
+Bodies/segment/Shape = intersection
+Bodies/segment/Operands = disc, half
+Bodies/segment/Material = rubber
+Boundaries/bowl/Surface = circle
+Boundaries/bowl/Centre = 0.013, 0
+Boundaries/bowl/Radius = 1
+Boundaries/bowl/Body side = inside
+Boundaries/bowl/Constraint = roller
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -9.81
+Time/Integrator = generalised-alpha
+Time/End time = 1.01
+Time/Steps = 60
+Output/Write = end
+""")
 rocker = folder / "rocker.prm"
 rocker.write_text(ROCKER)
 # Weight and the height that the centre of the segment falls.

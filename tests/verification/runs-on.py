@@ -1,4 +1,4 @@
-# ranks: 1 2  # debug: no
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Boundaries, loads and absorbing surfaces that are longer than the body, at any angle
@@ -25,47 +25,25 @@ def block(angle, ends, enforcement, overhang=0.):
         return f"set Surface = plane\nset Point = {at(*a)}\n" \
                f"set Normal = {text_of(c * x - s * y, s * x + c * y)}"
 
-    return f"""
-subsection Mesh
-  set Lower corner = -1, -1
-  set Upper corner = 2, 2
-  set Cell size = 0.1
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = polygon
-    set Vertices = {at(0, 0)}; {at(1, 0)}; {at(1, 1)}; {at(0, 1)}
-  end
-end
-subsection Boundaries
-  subsection base
-    set Constraint = roller
-    set Enforcement = {enforcement}
-    {surface((0, 0), (1, 0), 0, -1)}
-  end
-  subsection left
-    set Constraint = roller
-    set Enforcement = {enforcement}
-    {surface((0, 1), (0, 0), -1, 0)}
-  end
-end
-subsection Loads
-  subsection top
-    set Type = surface traction
-    set Value = {s!r}; {-c!r}
-    set Points = {at(1 + overhang, 1)}; {at(-overhang, 1)}
-  end
-end
-"""
+    return prm(f"""
+Mesh/Lower corner = -1, -1
+Mesh/Upper corner = 2, 2
+Mesh/Cell size = 0.1
+Method/Method = finite element
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0.3
+Bodies/block/Shape = polygon
+Bodies/block/Vertices = {at(0, 0)}; {at(1, 0)}; {at(1, 1)}; {at(0, 1)}
+Boundaries/base/Constraint = roller
+Boundaries/base/Enforcement = {enforcement}
+{surface((0, 0), (1, 0), 0, -1)}
+Boundaries/left/Constraint = roller
+Boundaries/left/Enforcement = {enforcement}
+{surface((0, 1), (0, 0), -1, 0)}
+Loads/top/Type = surface traction
+Loads/top/Value = {s!r}; {-c!r}
+Loads/top/Points = {at(1 + overhang, 1)}; {at(-overhang, 1)}
+""")
 
 
 def largest_error(result, direction):
@@ -97,47 +75,27 @@ for angle in 0, 20:
     bound(f"load on {angle} degrees, longer than the body: force over the right one - 1",
           sqrt(row["reaction_x of base"] ** 2 + row["reaction_y of base"] ** 2) - 1, 5e-3)
 
-CYLINDER = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -1.3, -1.3, -1
-  set Upper corner = 1.9, 1.9, 2.2
-  set Cell size = 0.2
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection column
-    set Shape = cylinder
-    set Axis start = {start}
-    set Axis end = {end}
-    set Radius = 0.7
-  end
-end
-subsection Boundaries
-  subsection base
-    set Enforcement = augmented Lagrangian
-    set Surface = plane
-    set Point = {start}
-    set Normal = {normal}
-  end
-end
-subsection Loads
-  subsection top
-    set Type = surface traction
-    set Value = {pressure}
-    set Body = column
-    set Part = top
-  end
-end
-"""
+CYLINDER = prm("""
+Dimension = 3
+Mesh/Lower corner = -1.3, -1.3, -1
+Mesh/Upper corner = 1.9, 1.9, 2.2
+Mesh/Cell size = 0.2
+Method/Method = finite element
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0
+Bodies/column/Shape = cylinder
+Bodies/column/Axis start = {start}
+Bodies/column/Axis end = {end}
+Bodies/column/Radius = 0.7
+Boundaries/base/Enforcement = augmented Lagrangian
+Boundaries/base/Surface = plane
+Boundaries/base/Point = {start}
+Boundaries/base/Normal = {normal}
+Loads/top/Type = surface traction
+Loads/top/Value = {pressure}
+Loads/top/Body = column
+Loads/top/Part = top
+""")
 d = (0.8 * sin(radians(20)), 0.6 * sin(radians(20)), cos(radians(20)))
 start = (0.013, 0.027, 0.031)
 scene.write_text(CYLINDER.format(
@@ -154,82 +112,48 @@ bound("cylinder tilted by 20 degrees on a plane: error of stress beside it",
 
 # A quarter of a cylinder of clay in a triaxial cell whose plates are planes; its
 # mesh follows it, and plates no longer run along the faces of cells.
-TRIAXIAL = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -960, -460, 290
-  set Upper corner = -910, -410, 450
-  set Cell size = 10
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection clay
-    set Model = von Mises
-    set Young modulus = 20
-    set Poisson ratio = 0.45
-    set Shear yield stress = 0.05
-  end
-end
-subsection Bodies
-  subsection whole
-    set Shape = cylinder
-    set Axis start = -960, -460, 303
-    set Axis end = -960, -460, 443
-    set Radius = 35
-  end
-  subsection quadrant
-    set Lower corner = -960, -460, 290
-    set Upper corner = -900, -400, 450
-  end
-  subsection sample
-    set Shape = intersection
-    set Operands = whole, quadrant
-  end
-end
-subsection Boundaries
-  subsection base
-    set Surface = plane
-    set Point = -960, -460, 303
-    set Normal = 0, 0, -1
-    set Constraint = roller
-  end
-  subsection platen
-    set Surface = plane
-    set Point = -960, -460, 443
-    set Normal = 0, 0, 1
-    set Constraint = roller
-    set Translation = 0; 0; 0: 0, 1: 0, 2: -2.8
-  end
-end
-subsection Grid conditions
-  subsection x
-    set Side = left
-    set Components = x
-  end
-  subsection y
-    set Side = front
-    set Components = y
-  end
-end
-subsection Loads
-  subsection cell
-    set Type = surface traction
-    set Value = -0.2 * (x + 960) / 35; -0.2 * (y + 460) / 35; 0
-    set Curve = 0: 0, 1: 1, 2: 1
-    set Surface = cylinder
-    set Axis start = -960, -460, 303
-    set Axis end = -960, -460, 443
-    set Radius = 35
-    set Body side = inside
-  end
-end
-subsection Time
-  set End time = 2
-  set Steps = 10
-end
-"""
+TRIAXIAL = prm("""
+Dimension = 3
+Mesh/Lower corner = -960, -460, 290
+Mesh/Upper corner = -910, -410, 450
+Mesh/Cell size = 10
+Method/Method = finite element
+Materials/clay/Model = von Mises
+Materials/clay/Young modulus = 20
+Materials/clay/Poisson ratio = 0.45
+Materials/clay/Shear yield stress = 0.05
+Bodies/whole/Shape = cylinder
+Bodies/whole/Axis start = -960, -460, 303
+Bodies/whole/Axis end = -960, -460, 443
+Bodies/whole/Radius = 35
+Bodies/quadrant/Lower corner = -960, -460, 290
+Bodies/quadrant/Upper corner = -900, -400, 450
+Bodies/sample/Shape = intersection
+Bodies/sample/Operands = whole, quadrant
+Boundaries/base/Surface = plane
+Boundaries/base/Point = -960, -460, 303
+Boundaries/base/Normal = 0, 0, -1
+Boundaries/base/Constraint = roller
+Boundaries/platen/Surface = plane
+Boundaries/platen/Point = -960, -460, 443
+Boundaries/platen/Normal = 0, 0, 1
+Boundaries/platen/Constraint = roller
+Boundaries/platen/Translation = 0; 0; 0: 0, 1: 0, 2: -2.8
+Grid conditions/x/Side = left
+Grid conditions/x/Components = x
+Grid conditions/y/Side = front
+Grid conditions/y/Components = y
+Loads/cell/Type = surface traction
+Loads/cell/Value = -0.2 * (x + 960) / 35; -0.2 * (y + 460) / 35; 0
+Loads/cell/Curve = 0: 0, 1: 1, 2: 1
+Loads/cell/Surface = cylinder
+Loads/cell/Axis start = -960, -460, 303
+Loads/cell/Axis end = -960, -460, 443
+Loads/cell/Radius = 35
+Loads/cell/Body side = inside
+Time/End time = 2
+Time/Steps = 10
+""")
 scene.write_text(TRIAXIAL)
 result = run(scene, expect=None)
 force = [row["reaction_z of platen"] / (pi * 35 ** 2 / 4) for row in result.history()]
@@ -271,22 +195,16 @@ subsection Time
   set Steps = 1
 end
 """
-SIDE = """
-subsection Grid conditions
-  subsection end
-    set Side = right
-    set Constraint = absorbing
-  end
-end"""
-LINE = """
-subsection Boundaries
-  subsection end
-    set Surface = plane
-    set Point = 2.3, 0
-    set Normal = 1, 0
-    set Constraint = absorbing
-  end
-end"""
+SIDE = prm("""
+Grid conditions/end/Side = right
+Grid conditions/end/Constraint = absorbing
+""")
+LINE = prm("""
+Boundaries/end/Surface = plane
+Boundaries/end/Point = 2.3, 0
+Boundaries/end/Normal = 1, 0
+Boundaries/end/Constraint = absorbing
+""")
 for name, how, right, low, high in (("side", SIDE, 3., 0., 4.), ("side", SIDE, 3., 1., 5.),
                                     ("side", SIDE, 3., 0.7, 3.45),
                                     ("plane", LINE, 2.3, 0., 4.), ("plane", LINE, 2.3, 0.7, 3.45)):
@@ -321,11 +239,10 @@ subsection Bodies
   end
 end
 subsection Grid conditions
-""" + "".join(f"""  subsection {side}
-    set Side = {side}
-    set Displacement = 0.5 * x * t; 0
-  end
-""" for side in ("left", "right", "bottom", "top")) + "end\n"
+""" + "".join(prm(f"""
+{side}/Side = {side}
+{side}/Displacement = 0.5 * x * t; 0
+""") for side in ("left", "right", "bottom", "top")) + "end\n"
 scene.write_text(FIELD)
 for steps in 1, 8:
     stress = [s[0] for (s,) in run(scene, {"Time/Steps": steps}).points("stress")]

@@ -11,71 +11,41 @@ from math import cos, hypot, log, radians, sin
 
 # A ring of inner radius 1 and outer radius 2, shear strength 1, of which the bore
 # moves: at the limit its pressure is 2 ln 2 (Hill 1950).
-RING = """
-subsection Mesh
-  set Upper corner = 2.3, 2.3
-end
-subsection Method
-  set Strain          = small
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection soil
-    set Model              = von Mises
-    set Young modulus      = 1000
-    set Poisson ratio      = 0.49
-    set Shear yield stress = 1
-  end
-end
-subsection Bodies
-  subsection quarter
-    set Shape        = box
-    set Lower corner = 0, 0
-    set Upper corner = 3, 3
-  end
-  subsection outer
-    set Shape  = disc
-    set Centre = 0, 0
-    set Radius = 2
-  end
-  subsection inner
-    set Shape  = disc
-    set Centre = 0, 0
-    set Radius = 1
-  end
-  subsection whole
-    set Shape    = intersection
-    set Operands = quarter, outer
-  end
-  subsection ring
-    set Shape    = difference
-    set Operands = whole, inner
-  end
-end
-subsection Boundaries
-  subsection left
-    set Surface    = plane
-    set Point      = 0, 0
-    set Normal     = -1, 0
-    set Constraint = roller
-  end
-  subsection bottom
-    set Surface    = plane
-    set Point      = 0, 0
-    set Normal     = 0, -1
-    set Constraint = roller
-  end
-  subsection bore
-    set Body         = ring
-    set Part         = inner
-    set Constraint   = fixed
-    set Displacement = 0.03*t*x/sqrt(x^2+y^2); 0.03*t*y/sqrt(x^2+y^2)
-  end
-end
-subsection Time
-  set Steps = 10
-end
-"""
+RING = prm("""
+Mesh/Upper corner = 2.3, 2.3
+Method/Strain = small
+Method/Mesh after step = keep
+Materials/soil/Model = von Mises
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.49
+Materials/soil/Shear yield stress = 1
+Bodies/quarter/Shape = box
+Bodies/quarter/Lower corner = 0, 0
+Bodies/quarter/Upper corner = 3, 3
+Bodies/outer/Shape = disc
+Bodies/outer/Centre = 0, 0
+Bodies/outer/Radius = 2
+Bodies/inner/Shape = disc
+Bodies/inner/Centre = 0, 0
+Bodies/inner/Radius = 1
+Bodies/whole/Shape = intersection
+Bodies/whole/Operands = quarter, outer
+Bodies/ring/Shape = difference
+Bodies/ring/Operands = whole, inner
+Boundaries/left/Surface = plane
+Boundaries/left/Point = 0, 0
+Boundaries/left/Normal = -1, 0
+Boundaries/left/Constraint = roller
+Boundaries/bottom/Surface = plane
+Boundaries/bottom/Point = 0, 0
+Boundaries/bottom/Normal = 0, -1
+Boundaries/bottom/Constraint = roller
+Boundaries/bore/Body = ring
+Boundaries/bore/Part = inner
+Boundaries/bore/Constraint = fixed
+Boundaries/bore/Displacement = 0.03*t*x/sqrt(x^2+y^2); 0.03*t*y/sqrt(x^2+y^2)
+Time/Steps = 10
+""")
 ring = folder / "ring.prm"
 ring.write_text(RING)
 
@@ -107,39 +77,24 @@ for method, h, offset, enforcement, allowed in (
 
 # A square turned by 30 degrees, its rims moved so that it is stretched along its one
 # side and pressed along the other: all of it has one stress.
-SQUARE = """
-subsection Mesh
-  set Lower corner = -1, -1
-  set Upper corner = 2, 2
-  set Cell size    = 0.1
-end
-subsection Method
-  set Strain          = small
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection soil
-    set Model              = von Mises
-    set Young modulus      = 1000
-    set Poisson ratio      = 0.3
-    set Shear yield stress = 1
-  end
-end
-subsection Bodies
-  subsection square
-    set Shape          = box
-    set Lower corner   = 0, 0
-    set Upper corner   = 1, 1
-    set Rotation angle = 30
-  end
-end
-subsection Boundaries
+SQUARE = prm("""
+Mesh/Lower corner = -1, -1
+Mesh/Upper corner = 2, 2
+Mesh/Cell size = 0.1
+Method/Strain = small
+Method/Mesh after step = keep
+Materials/soil/Model = von Mises
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Shear yield stress = 1
+Bodies/square/Shape = box
+Bodies/square/Lower corner = 0, 0
+Bodies/square/Upper corner = 1, 1
+Bodies/square/Rotation angle = 30
+Boundaries/
 RIMS
-end
-subsection Time
-  set Steps = 4
-end
-"""
+Time/Steps = 4
+""")
 square = folder / "square.prm"
 c, s = cos(radians(30)), sin(radians(30))
 # In the axes of the square u = (e x', -e y').
@@ -158,39 +113,24 @@ for method in "GIMP", "finite element":
     bound(f"square, {method}: largest error of a force over it", worst, 0.02)
 
 # A cube that is pressed between six plates, anywhere in its mesh.
-CUBE = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -0.07, -0.11, -0.05
-  set Upper corner = 1.43, 1.39, 1.45
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection soil
-    set Model              = von Mises
-    set Young modulus      = 1000
-    set Poisson ratio      = 0.3
-    set Shear yield stress = 1
-  end
-end
-subsection Bodies
-  subsection cube
-    set Shape        = box
-    set Lower corner = 0, 0, 0
-    set Upper corner = 1, 1, 1
-  end
-end
-subsection Boundaries
+CUBE = prm("""
+Dimension = 3
+Mesh/Lower corner = -0.07, -0.11, -0.05
+Mesh/Upper corner = 1.43, 1.39, 1.45
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Materials/soil/Model = von Mises
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Shear yield stress = 1
+Bodies/cube/Shape = box
+Bodies/cube/Lower corner = 0, 0, 0
+Bodies/cube/Upper corner = 1, 1, 1
+Boundaries/
 RIMS
-end
-subsection Time
-  set End time = 0.1
-  set Steps    = 4
-end
-"""
+Time/End time = 0.1
+Time/Steps = 4
+""")
 cube = folder / "cube.prm"
 cube.write_text(CUBE.replace("RIMS", "\n".join(
     f"  subsection {side}\n    set Body = cube\n    set Part = {side}\n"
@@ -209,50 +149,28 @@ for side, direction, sign in (("left", 0, -1), ("right", 0, 1),
           0.02)
 
 # Ground between walls four cells apart, which push with nu/(1 - nu) of its weight.
-BOX = """
-subsection Mesh
-  set Lower corner = -0.1, -0.15
-  set Upper corner = 1.4, 2.35
-  set Cell size    = 0.25
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e5
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection ground
-    set Shape        = box
-    set Lower corner = 0, 0
-    set Upper corner = 1, 2
-  end
-end
-subsection Boundaries
-  subsection left
-    set Body       = ground
-    set Part       = left
-    set Constraint = roller
-  end
-  subsection right
-    set Body       = ground
-    set Part       = right
-    set Constraint = roller
-  end
-  subsection base
-    set Body       = ground
-    set Part       = bottom
-    set Constraint = CONSTRAINT
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-"""
+BOX = prm("""
+Mesh/Lower corner = -0.1, -0.15
+Mesh/Upper corner = 1.4, 2.35
+Mesh/Cell size = 0.25
+Materials/soil/Young modulus = 1e5
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 2
+Bodies/ground/Shape = box
+Bodies/ground/Lower corner = 0, 0
+Bodies/ground/Upper corner = 1, 2
+Boundaries/left/Body = ground
+Boundaries/left/Part = left
+Boundaries/left/Constraint = roller
+Boundaries/right/Body = ground
+Boundaries/right/Part = right
+Boundaries/right/Constraint = roller
+Boundaries/base/Body = ground
+Boundaries/base/Part = bottom
+Boundaries/base/Constraint = CONSTRAINT
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+""")
 box = folder / "box.prm"
 for constraint, allowed in ("roller", 1e-3), ("fixed", 1e-2):
     box.write_text(BOX.replace("CONSTRAINT", constraint))
@@ -267,49 +185,28 @@ for constraint, allowed in ("roller", 1e-3), ("fixed", 1e-2):
 
 # A block two cells high between planes without ends, the upper of which moves: its
 # force is that of the stress on the block.
-PRESSED = """
-set Dimension = DIM
-subsection Mesh
-  set Lower corner = LOW
-  set Upper corner = HIGH
-  set Cell size    = 1
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = BLOCK_LOW
-    set Upper corner = BLOCK_HIGH
-  end
-end
-subsection Boundaries
+PRESSED = prm("""
+Dimension = DIM
+Mesh/Lower corner = LOW
+Mesh/Upper corner = HIGH
+Mesh/Cell size = 1
+Method/Method = GIMP
+Method/Strain = finite
+Materials/rubber/Young modulus = 1000
+Materials/rubber/Poisson ratio = 0.3
+Bodies/block/Lower corner = BLOCK_LOW
+Bodies/block/Upper corner = BLOCK_HIGH
+Boundaries/
 PLANES
-  subsection lid
-    set Surface     = plane
-    set Point       = BLOCK_HIGH
-    set Normal      = UP
-    set Constraint  = roller
-    set Translation = DOWN
-  end
-end
-subsection Time
-  set Steps = STEPS
-end
-subsection Probes
-  subsection inside
-    set Location   = MIDDLE
-    set Quantities = stress
-  end
-end
-"""
+Boundaries/lid/Surface = plane
+Boundaries/lid/Point = BLOCK_HIGH
+Boundaries/lid/Normal = UP
+Boundaries/lid/Constraint = roller
+Boundaries/lid/Translation = DOWN
+Time/Steps = STEPS
+Probes/inside/Location = MIDDLE
+Probes/inside/Quantities = stress
+""")
 pressed = folder / "pressed.prm"
 
 

@@ -40,11 +40,10 @@ subsection Time
   set Steps = 3
 end
 """
-ROLLER = """  subsection {side}
-    set Side = {side}
-    set Components = {component}
-  end
-"""
+ROLLER = prm("""
+{side}/Side = {side}
+{side}/Components = {component}
+""")
 
 
 def press(dim, method, strain, pressure, width=1):

@@ -8,92 +8,48 @@ projection; what is far too small is refused."""
 
 from math import pi
 
-CUBE = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -1.5, -1.5, -1.5
-  set Upper corner = 1.5, 1.5, 1.5
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 8000
-    set Poisson ratio = 0.35
-  end
-end
-subsection Bodies
-  subsection soil
-    set Lower corner = -1.5, -1.5, -1.5
-    set Upper corner = 1.5, 1.5, 1.5
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection drag
-    set Type = surface traction
-    {surface}
-    set Value = 1; 0; 0
-  end
-end
-"""
+CUBE = prm("""
+Dimension = 3
+Mesh/Lower corner = -1.5, -1.5, -1.5
+Mesh/Upper corner = 1.5, 1.5, 1.5
+Mesh/Cell size = 0.5
+Materials/soil/Young modulus = 8000
+Materials/soil/Poisson ratio = 0.35
+Bodies/soil/Lower corner = -1.5, -1.5, -1.5
+Bodies/soil/Upper corner = 1.5, 1.5, 1.5
+Grid conditions/base/Side = bottom
+Loads/drag/Type = surface traction
+{surface}
+Loads/drag/Value = 1; 0; 0
+""")
 # A quarter of a cylindrical hole along two planes of symmetry.
-HOLE = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 2, 2, 1
-  set Cell size = 0.5
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 8000
-    set Poisson ratio = 0.35
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0, 0
-    set Upper corner = 2, 2, 1
-  end
-  subsection bore
-    set Shape = cylinder
-    set Axis start = 0, 0, -1
-    set Axis end = 0, 0, 2
-    set Radius = {radius}
-  end
-  subsection soil
-    set Shape = difference
-    set Operands = block, bore
-    set Material = soil
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection front
-    set Side = front
-    set Components = y
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = z
-  end
-end
-subsection Loads
-  subsection water
-    set Type = surface traction
-    set Body = soil
-    set Part = bore/side
-    set Value = 100 * x / {radius}; 100 * y / {radius}; 0
-  end
-end
-"""
+HOLE = prm("""
+Dimension = 3
+Mesh/Lower corner = 0, 0, 0
+Mesh/Upper corner = 2, 2, 1
+Mesh/Cell size = 0.5
+Materials/soil/Young modulus = 8000
+Materials/soil/Poisson ratio = 0.35
+Bodies/block/Lower corner = 0, 0, 0
+Bodies/block/Upper corner = 2, 2, 1
+Bodies/bore/Shape = cylinder
+Bodies/bore/Axis start = 0, 0, -1
+Bodies/bore/Axis end = 0, 0, 2
+Bodies/bore/Radius = {radius}
+Bodies/soil/Shape = difference
+Bodies/soil/Operands = block, bore
+Bodies/soil/Material = soil
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/front/Side = front
+Grid conditions/front/Components = y
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = z
+Loads/water/Type = surface traction
+Loads/water/Body = soil
+Loads/water/Part = bore/side
+Loads/water/Value = 100 * x / {radius}; 100 * y / {radius}; 0
+""")
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 CYLINDER = ("set Surface = cylinder\n set Axis start = {0}\n"
             " set Axis end = {1}\n set Radius = {2}\n set Body side = outside")

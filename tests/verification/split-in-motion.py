@@ -7,48 +7,28 @@ A body without stiffness whose velocity is v = x/2 stretches without end; each
 point keeps its velocity, so that x = X (1 + t/2). The lower half of the point
 that a probe follows ends 0.95 of the way from the origin to (3.8, 0.2)."""
 
-STRETCH = """
-set Dimension = 2
-subsection Mesh
-  set Lower corner = -12, -3
-  set Upper corner = 12, 3
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-  set Split domains = {split}
-end
-subsection Materials
-  subsection dust
-    set Young modulus = 1e-6
-    set Poisson ratio = 0
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection cloud
-    set Lower corner = -2, -1
-    set Upper corner = 2, 1
-    set Initial velocity = 0.5*x; 0
-  end
-end
-subsection Probes
-  subsection tip
-    set Location = 1.9, 0.1
-    set Quantities = velocity, position
-  end
-end
-subsection Time
-  set Integrator = {integrator}
-  set Steps = {steps}
-  set End time = {end}
-end
-subsection Output
-  set Points = false
-  set Mesh = false
-end
-"""
+STRETCH = prm("""
+Dimension = 2
+Mesh/Lower corner = -12, -3
+Mesh/Upper corner = 12, 3
+Mesh/Cell size = 0.5
+Method/Method = {method}
+Method/Strain = finite
+Method/Split domains = {split}
+Materials/dust/Young modulus = 1e-6
+Materials/dust/Poisson ratio = 0
+Materials/dust/Density = 1
+Bodies/cloud/Lower corner = -2, -1
+Bodies/cloud/Upper corner = 2, 1
+Bodies/cloud/Initial velocity = 0.5*x; 0
+Probes/tip/Location = 1.9, 0.1
+Probes/tip/Quantities = velocity, position
+Time/Integrator = {integrator}
+Time/Steps = {steps}
+Time/End time = {end}
+Output/Points = false
+Output/Mesh = false
+""")
 
 
 def stretch(method, split, integrator, steps, end):
@@ -77,74 +57,36 @@ stretch("CPDI1", "true", "generalised-alpha", 60, 6)
 stretch("material point", "false", "Newmark", 3, 1.5)
 
 # Displacements that count from a reset, of points that split later.
-BAR = """
-set Dimension = 2
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 1
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection soft
-    set Young modulus = 1
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, 0
-    set Upper corner = 2, 1
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-    set Components = x
-  end
-  subsection bottom
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Boundaries
-  subsection grip
-    set Body = bar
-    set Part = right
-    set Constraint = components
-    set Components = x
-    set Translation = 0: 0, 1: 0.8, 2: 1.2; 0
-  end
-end
-subsection Stages
-  subsection pull
-    subsection Time
-      set End time = 1
-      set Steps = 8
-    end
-  end
-  subsection more
-    set Reset displacements = true
-    subsection Time
-      set End time = 2
-      set Steps = 4
-    end
-  end
-end
-subsection Probes
-  subsection middle
-    set Location = 1, 0.5
-    set Quantities = position, displacement
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh = false
-end
-"""
+BAR = prm("""
+Dimension = 2
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 1
+Mesh/Cell size = 0.25
+Method/Method = {method}
+Method/Strain = finite
+Materials/soft/Young modulus = 1
+Materials/soft/Poisson ratio = 0
+Bodies/bar/Lower corner = 0, 0
+Bodies/bar/Upper corner = 2, 1
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = y
+Boundaries/grip/Body = bar
+Boundaries/grip/Part = right
+Boundaries/grip/Constraint = components
+Boundaries/grip/Components = x
+Boundaries/grip/Translation = 0: 0, 1: 0.8, 2: 1.2; 0
+Stages/pull/Time/End time = 1
+Stages/pull/Time/Steps = 8
+Stages/more/Reset displacements = true
+Stages/more/Time/End time = 2
+Stages/more/Time/Steps = 4
+Probes/middle/Location = 1, 0.5
+Probes/middle/Quantities = position, displacement
+Output/Points = false
+Output/Mesh = false
+""")
 for method in ("GIMP", "CPDI1"):
     scene = folder / "bar.prm"
     scene.write_text(BAR.format(method=method))

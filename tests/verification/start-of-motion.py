@@ -60,12 +60,11 @@ OMEGA = sqrt(3)
 
 
 def time(integrator, end, steps):
-    return f"""subsection Time
-  set Integrator = {integrator}
-  set End time = {end}
-  set Steps = {steps}
-end
-"""
+    return prm(f"""
+Time/Integrator = {integrator}
+Time/End time = {end}
+Time/Steps = {steps}
+""")
 
 
 def damped(t):
@@ -78,47 +77,33 @@ def in_one(integrator, steps):
 
 
 def load_begins(integrator, steps):
-    return f"""subsection Loads
-  subsection p
-    set Type = side traction
-    set Side = right
-    set Value = 0.01; 0
-  end
-end
-subsection Stages
-  subsection a
-    set Loads = none
-    {time(integrator, 1, 2)}
-  end
-  subsection b
-    set Loads = p
-    {time(integrator, 5, steps)}
-  end
-end
-"""
+    return prm(f"""
+Loads/p/Type = side traction
+Loads/p/Side = right
+Loads/p/Value = 0.01; 0
+Stages/a/Loads = none
+{time(integrator, 1, 2)}
+Stages/b/Loads = p
+{time(integrator, 5, steps)}
+""")
 
 
 def hold_ends(integrator, steps):
-    return f"""subsection Stages
-  subsection pull
-    {time("quasi-static", 1, 1)}
-  end
-  subsection held
-    {time(integrator, 2, 2)}
-  end
-  subsection free
-    set Grid conditions = l, y, top
-    {time(integrator, 6, steps)}
-  end
-end
-"""
+    return prm(f"""
+Stages/pull/
+{time("quasi-static", 1, 1)}
+Stages/held/
+{time(integrator, 2, 2)}
+Stages/free/Grid conditions = l, y, top
+{time(integrator, 6, steps)}
+""")
 
 
-held = """subsection r
-    set Side = right
-    set Components = x
-    set Displacement = 0.01 * min(t, 1); 0
-  end"""
+held = prm("""
+r/Side = right
+r/Components = x
+r/Displacement = 0.01 * min(t, 1); 0
+""")
 for name, parts, rest, exact in (
         ("mass damping", {"body": "set Initial velocity = 0.01 * x; 0\n"
                                   "    set Mass damping = 1"}, in_one, damped),

@@ -1,4 +1,3 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A condition whose motion starts at a speed: a body with this velocity follows
@@ -54,19 +53,17 @@ subsection Output
   set Write = end
 end
 """
-SIDE = """subsection hand
-    set Side = left
-    set Components = x
-    set Displacement = {motion}; 0
-  end"""
-SURFACE = """subsection Boundaries
-  subsection hand
-    set Body = b
-    set Part = left
-    set Constraint = roller
-    set Translation = {motion}; 0
-  end
-end"""
+SIDE = prm("""
+hand/Side = left
+hand/Components = x
+hand/Displacement = {motion}; 0
+""")
+SURFACE = prm("""
+Boundaries/hand/Body = b
+Boundaries/hand/Part = left
+Boundaries/hand/Constraint = roller
+Boundaries/hand/Translation = {motion}; 0
+""")
 SINE = "sin(2*pi*t)"
 
 
@@ -102,51 +99,26 @@ text("held at rest, velocity 1",
      of("1", motion="0", expect=2).output.strip().split(": ", 2)[2])
 
 # A block that turns about its corner, held there by a hand that turns alike.
-spin = folder / "spin.prm"
-spin.write_text("""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 1
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1e7
-    set Poisson ratio = 0.3
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection b
-    set Shape = mesh
-    set Initial velocity = -2*pi*y; 2*pi*x
-  end
-end
-subsection Grid conditions
-  subsection hand
-    set Lower corner = -0.1, -0.1
-    set Upper corner = 0.3, 0.3
-    set Rotation angle = 360*t
-  end
-end
-subsection Time
-  set Integrator = energy-momentum
-  set End time = 1
-  set Steps = 100
-end
-subsection Probes
-  subsection far
-    set Location = 1, 1
-    set Kind = interpolated
-  end
-end
-subsection Output
-  set Write = end
-end
+spin = scene_file("spin.prm", """
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 1
+Mesh/Cell size = 0.25
+Method/Method = finite element
+Method/Strain = finite
+Materials/m/Young modulus = 1e7
+Materials/m/Poisson ratio = 0.3
+Materials/m/Density = 1
+Bodies/b/Shape = mesh
+Bodies/b/Initial velocity = -2*pi*y; 2*pi*x
+Grid conditions/hand/Lower corner = -0.1, -0.1
+Grid conditions/hand/Upper corner = 0.3, 0.3
+Grid conditions/hand/Rotation angle = 360*t
+Time/Integrator = energy-momentum
+Time/End time = 1
+Time/Steps = 100
+Probes/far/Location = 1, 1
+Probes/far/Kind = interpolated
+Output/Write = end
 """)
 result = run(spin)
 rows = result.history()

@@ -1,4 +1,4 @@
-# ranks: 1 2  # debug: no
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Two bodies in one mesh, one 1e9 times as stiff as the other: all linear
@@ -56,14 +56,12 @@ end
 subsection Bodies
 """
     for name, (lower, upper) in zip(("stiff", "soft"), bodies):
-        text += f"""
-  subsection {name}
-    set Shape = box
-    set Lower corner = {lower}
-    set Upper corner = {upper}
-    set Material = {name}
-  end
-"""
+        text += prm(f"""
+{name}/Shape = box
+{name}/Lower corner = {lower}
+{name}/Upper corner = {upper}
+{name}/Material = {name}
+""")
     file = folder / "contrast.prm"
     file.write_text(text + "end\n")
     return file

@@ -8,47 +8,24 @@ energy that is missing)."""
 from math import cos, hypot, radians, sin
 
 # Cantilever of length 10 and height 1, anywhere in its mesh.
-BEAM = """
-subsection Mesh
-  set Lower corner = -1.03, -1.03
-  set Upper corner = 12.97, 12.97
-end
-subsection Method
-  set Strain          = small
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection steel
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection beam
-    set Shape        = box
-    set Lower corner = 0, 0
-    set Upper corner = 10, 1
-  end
-end
-subsection Boundaries
-  subsection wall
-    set Body       = beam
-    set Part       = left
-    set Constraint = fixed
-  end
-end
-subsection Loads
-  subsection end
-    set Type = surface traction
-    set Body = beam
-    set Part = right
-  end
-end
-subsection Probes
-  subsection tip
-  end
-end
-"""
+BEAM = prm("""
+Mesh/Lower corner = -1.03, -1.03
+Mesh/Upper corner = 12.97, 12.97
+Method/Strain = small
+Method/Mesh after step = keep
+Materials/steel/Young modulus = 1000
+Materials/steel/Poisson ratio = 0.3
+Bodies/beam/Shape = box
+Bodies/beam/Lower corner = 0, 0
+Bodies/beam/Upper corner = 10, 1
+Boundaries/wall/Body = beam
+Boundaries/wall/Part = left
+Boundaries/wall/Constraint = fixed
+Loads/end/Type = surface traction
+Loads/end/Body = beam
+Loads/end/Part = right
+Probes/tip/
+""")
 scene = folder / "beam.prm"
 scene.write_text(BEAM)
 

@@ -1,4 +1,3 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Simple stretch (Wang et al. 2018, section 3.1) by five methods: stretches,

@@ -7,47 +7,26 @@ doc/topics/implicit-boundaries.md."""
 
 from math import hypot
 
-scene = folder / "bar.prm"
-scene.write_text("""
-subsection Mesh
-  set Lower corner = -2, -2
-  set Upper corner = 8, 8
-  set Cell size    = 0.25
-end
-subsection Method
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, 0
-    set Upper corner = 4, 1
-  end
-end
-subsection Boundaries
-  subsection hinge
-    set Body = bar
-    set Part = left
-    set Rotation angle = 90*t
-    set Rotation centre = 0, 0.5
-  end
-  subsection pull
-    set Body = bar
-    set Part = right
-    set Constraint = roller
-    set Rotation angle = 90*t
-    set Rotation centre = 0, 0.5
-    set Translation = 2*t*cos(pi*t/2); 2*t*sin(pi*t/2)
-  end
-end
-subsection Time
-  set Steps = 40
-end
+scene = scene_file("bar.prm", """
+Mesh/Lower corner = -2, -2
+Mesh/Upper corner = 8, 8
+Mesh/Cell size = 0.25
+Method/Strain = finite
+Materials/rubber/Young modulus = 1000
+Materials/rubber/Poisson ratio = 0.3
+Bodies/bar/Lower corner = 0, 0
+Bodies/bar/Upper corner = 4, 1
+Boundaries/hinge/Body = bar
+Boundaries/hinge/Part = left
+Boundaries/hinge/Rotation angle = 90*t
+Boundaries/hinge/Rotation centre = 0, 0.5
+Boundaries/pull/Body = bar
+Boundaries/pull/Part = right
+Boundaries/pull/Constraint = roller
+Boundaries/pull/Rotation angle = 90*t
+Boundaries/pull/Rotation centre = 0, 0.5
+Boundaries/pull/Translation = 2*t*cos(pi*t/2); 2*t*sin(pi*t/2)
+Time/Steps = 40
 """)
 NITSCHE = {"Boundaries/*/Enforcement": "skew Nitsche"}
 YIELDS = {"Materials/rubber/Model": "von Mises",

@@ -7,43 +7,24 @@ that they share, however both lie in the mesh."""
 
 from math import asin, cos, hypot, pi, radians, sin
 
-SCENE = """
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {upper}
-  set Cell size    = {h}
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection stone
-    set Young modulus = 1e5
-    set Poisson ratio = 0.25
-  end
-end
-subsection Bodies
+SCENE = prm("""
+Dimension = {dim}
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = {h}
+Method/Method = {method}
+Materials/stone/Young modulus = 1e5
+Materials/stone/Poisson ratio = 0.25
+Bodies/
 {bodies}
-end
-subsection Boundaries
-  subsection foot
-    set Body = {foot}
-    set Part = {part}
-  end
-end
-subsection Loads
-  subsection traction
-    set Type = surface traction
-    {surface}
-    set Value = {value}
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+Boundaries/foot/Body = {foot}
+Boundaries/foot/Part = {part}
+Loads/traction/Type = surface traction
+{surface}
+Loads/traction/Value = {value}
+Output/Points = false
+Output/Mesh = false
+""")
 scene = folder / "scene.prm"
 
 

@@ -1,47 +1,26 @@
-# ranks: 1 2
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What is symmetric stays so, to the last digits, whatever cells it cuts: nodes and
 cells that filled ones are equally near to follow all of these."""
 
-RING = """
-subsection Mesh
-  set Lower corner = -2.2, -2.2
-  set Upper corner = 2.2, 2.2
-  set Cell size    = 0.2
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection ring
-    set Shape        = ring
-    set Centre       = 0, 0
-    set Radius       = 2
-    set Inner radius = 1
-  end
-end
-subsection Boundaries
-  subsection outer
-    set Body = ring
-    set Part = outer
-  end
-end
-subsection Loads
-  subsection pressure
-    set Type  = surface traction
-    set Body  = ring
-    set Part  = inner
-    set Value = t * x / sqrt(x^2 + y^2); t * y / sqrt(x^2 + y^2)
-  end
-end
-subsection Time
-  set Steps = 1
-end
-"""
+RING = prm("""
+Mesh/Lower corner = -2.2, -2.2
+Mesh/Upper corner = 2.2, 2.2
+Mesh/Cell size = 0.2
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0.3
+Bodies/ring/Shape = ring
+Bodies/ring/Centre = 0, 0
+Bodies/ring/Radius = 2
+Bodies/ring/Inner radius = 1
+Boundaries/outer/Body = ring
+Boundaries/outer/Part = outer
+Loads/pressure/Type = surface traction
+Loads/pressure/Body = ring
+Loads/pressure/Part = inner
+Loads/pressure/Value = t * x / sqrt(x^2 + y^2); t * y / sqrt(x^2 + y^2)
+Time/Steps = 1
+""")
 scene = folder / "ring.prm"
 scene.write_text(RING)
 

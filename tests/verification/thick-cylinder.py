@@ -47,70 +47,38 @@ for title, scene in (("fitted", FITTED), ("cut", CUT)):
     number(f"{title}, pointwise: displacement of the inner edge", at, 2)
     number(f"{title}, pointwise: mean stress", mean, 2)
 
-SLICE = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 2.4, 2.4, 0.2
-  set Cell size    = 0.2
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection tube
-    set Shape        = cylinder
-    set Axis start   = 0, 0, -1
-    set Axis end     = 0, 0, 2
-    set Radius       = 2
-    set Inner radius = 1
-  end
-  subsection quarter
-    set Shape        = box
-    set Lower corner = 0, 0, 0
-    set Upper corner = 3, 3, 0.2
-  end
-  subsection slice
-    set Shape    = intersection
-    set Operands = tube, quarter
-  end
-end
-subsection Grid conditions
-  subsection x
-    set Side       = left
-    set Components = x
-  end
-  subsection y
-    set Side       = front
-    set Components = y
-  end
-  subsection bottom
-    set Side       = bottom
-    set Components = z
-  end
-  subsection top
-    set Side       = top
-    set Components = z
-  end
-end
-subsection Loads
-  subsection pressure
-    set Type  = surface traction
-    set Body  = slice
-    set Part  = tube/inner
-    set Value = 0.1*x/sqrt(x^2 + y^2); 0.1*y/sqrt(x^2 + y^2); 0
-  end
-end
-subsection Output
-  set Mesh = false
-end
-"""
+SLICE = prm("""
+Dimension = 3
+Mesh/Lower corner = 0, 0, 0
+Mesh/Upper corner = 2.4, 2.4, 0.2
+Mesh/Cell size = 0.2
+Method/Method = finite element
+Materials/rock/Young modulus = 1000
+Materials/rock/Poisson ratio = 0
+Bodies/tube/Shape = cylinder
+Bodies/tube/Axis start = 0, 0, -1
+Bodies/tube/Axis end = 0, 0, 2
+Bodies/tube/Radius = 2
+Bodies/tube/Inner radius = 1
+Bodies/quarter/Shape = box
+Bodies/quarter/Lower corner = 0, 0, 0
+Bodies/quarter/Upper corner = 3, 3, 0.2
+Bodies/slice/Shape = intersection
+Bodies/slice/Operands = tube, quarter
+Grid conditions/x/Side = left
+Grid conditions/x/Components = x
+Grid conditions/y/Side = front
+Grid conditions/y/Components = y
+Grid conditions/bottom/Side = bottom
+Grid conditions/bottom/Components = z
+Grid conditions/top/Side = top
+Grid conditions/top/Components = z
+Loads/pressure/Type = surface traction
+Loads/pressure/Body = slice
+Loads/pressure/Part = tube/inner
+Loads/pressure/Value = 0.1*x/sqrt(x^2 + y^2); 0.1*y/sqrt(x^2 + y^2); 0
+Output/Mesh = false
+""")
 scene = folder / "slice.prm"
 scene.write_text(SLICE)
 for degree, all_over, most in ((1, 5e-3, 1.2e-2), (2, 3e-4, 3e-3)):

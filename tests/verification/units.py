@@ -43,56 +43,30 @@ def plastic(L, S, T, dynamic=False):
     base = "; ".join(text_of(turned(x, 0), L, " ") for x in (-0.5, 1.5))
     probe = text_of(turned(0.9, 0.1), L)
     push = (150., -400.) if dynamic else (17., -42.)
-    return f"""
-subsection Mesh
-  set Lower corner = {text_of((-0.2, -0.1), L)}
-  set Upper corner = {text_of((1.8, 1.4), L)}
-  set Cells = 16, 12
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection clay
-    set Model = von Mises
-    set Young modulus = {1e3 * S!r}
-    set Poisson ratio = 0.4
-    set Density = {2 * S * T**2 / L**2!r}
-    set Shear yield stress = 0: {10 * S!r}, 0.1: {12 * S!r}
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = polygon
-    set Vertices = {corners}
-  end
-end
-subsection Boundaries
-  subsection base
-    set Points = {base}
-    set Constraint = {"roller" if dynamic else "fixed"}
-  end
-end
-subsection Loads
-  subsection push
-    set Type = body force
-    set Value = {growing(push, S / L, T)}
-  end
-end
-subsection Time
-  set End time = {(0.2 if dynamic else 1.) * T!r}
-  set Steps = 8
-  {"set Integrator = Newmark" if dynamic else ""}
-end
-subsection Probes
-  subsection corner
-    set Location = {probe}
-    set Kind = nearest point
-    set Quantities = displacement, stress
-  end
-end
-"""
+    return prm(f"""
+Mesh/Lower corner = {text_of((-0.2, -0.1), L)}
+Mesh/Upper corner = {text_of((1.8, 1.4), L)}
+Mesh/Cells = 16, 12
+Method/Method = GIMP
+Method/Strain = finite
+Materials/clay/Model = von Mises
+Materials/clay/Young modulus = {1e3 * S!r}
+Materials/clay/Poisson ratio = 0.4
+Materials/clay/Density = {2 * S * T**2 / L**2!r}
+Materials/clay/Shear yield stress = 0: {10 * S!r}, 0.1: {12 * S!r}
+Bodies/block/Shape = polygon
+Bodies/block/Vertices = {corners}
+Boundaries/base/Points = {base}
+Boundaries/base/Constraint = {"roller" if dynamic else "fixed"}
+Loads/push/Type = body force
+Loads/push/Value = {growing(push, S / L, T)}
+Time/End time = {(0.2 if dynamic else 1.) * T!r}
+Time/Steps = 8
+{"set Integrator = Newmark" if dynamic else ""}
+Probes/corner/Location = {probe}
+Probes/corner/Kind = nearest point
+Probes/corner/Quantities = displacement, stress
+""")
 
 
 def tilted(L, S, T, dim, method):
@@ -111,63 +85,36 @@ def tilted(L, S, T, dim, method):
             text_of(turned(x, 0.7) + (z + 0.041,), L, " ")
             for x, z in ((0, 0), (0, 0.6), (1, 0.6), (1, 0))))
     size = (1, 0.7, 0.6)[:dim]
-    return f"""
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {text_of((-0.1, -0.02, -0.11)[:dim], L)}
-  set Upper corner = {text_of((1.4, 1.23, 0.89)[:dim], L)}
-  set Cells = {"6, 5, 4" if dim == 3 else "12, 10"}
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-  set Points per direction = 2
-end
-subsection Materials
-  subsection soft
-    set Model = neo-Hookean
-    set Young modulus = {1e3 * S!r}
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = box
-    set Lower corner = {text_of((0,) * dim, L)}
-    set Upper corner = {text_of(size, L)}
-    set Rotation angle = 17
-    {"set Rotation axis = 0, 0, 1" if dim == 3 else ""}
-    set Translation = {text_of((0.313, 0.107, 0.041)[:dim], L)}
-  end
-end
-subsection Boundaries
-  subsection base
-    {base}
-  end
-end
-subsection Loads
-  subsection press
-    set Type = surface traction
-    {top}
-    set Value = {growing((2., -5., 1.)[:dim], S)}
-  end
-  subsection drag
-    set Type = body force
-    set Bodies = block
-    set Value = {growing((1., -2., 1.)[:dim], S / L)}
-  end
-end
-subsection Time
-  set Steps = 2
-end
-subsection Probes
-  subsection corner
-    set Location = {text_of((turned(0.95, 0.65) + (0.3,))[:dim], L)}
-    set Kind = nearest point
-    set Quantities = displacement, stress
-  end
-end
-"""
+    return prm(f"""
+Dimension = {dim}
+Mesh/Lower corner = {text_of((-0.1, -0.02, -0.11)[:dim], L)}
+Mesh/Upper corner = {text_of((1.4, 1.23, 0.89)[:dim], L)}
+Mesh/Cells = {"6, 5, 4" if dim == 3 else "12, 10"}
+Method/Method = {method}
+Method/Strain = finite
+Method/Points per direction = 2
+Materials/soft/Model = neo-Hookean
+Materials/soft/Young modulus = {1e3 * S!r}
+Materials/soft/Poisson ratio = 0.3
+Bodies/block/Shape = box
+Bodies/block/Lower corner = {text_of((0,) * dim, L)}
+Bodies/block/Upper corner = {text_of(size, L)}
+Bodies/block/Rotation angle = 17
+{"set Rotation axis = 0, 0, 1" if dim == 3 else ""}
+Bodies/block/Translation = {text_of((0.313, 0.107, 0.041)[:dim], L)}
+Boundaries/base/
+{base}
+Loads/press/Type = surface traction
+{top}
+Loads/press/Value = {growing((2., -5., 1.)[:dim], S)}
+Loads/drag/Type = body force
+Loads/drag/Bodies = block
+Loads/drag/Value = {growing((1., -2., 1.)[:dim], S / L)}
+Time/Steps = 2
+Probes/corner/Location = {text_of((turned(0.95, 0.65) + (0.3,))[:dim], L)}
+Probes/corner/Kind = nearest point
+Probes/corner/Quantities = displacement, stress
+""")
 
 
 DRAWN = 1e-3  # a traction, 1e-6 of Young's modulus
@@ -181,47 +128,24 @@ def fitted(L, S, T, dim, load):
     else:
         force = ("set Type = side traction\n set Side = right\n set Value = "
                  + text_of((DRAWN, DRAWN / 2, DRAWN / 4)[:dim], S, "; "))
-    return f"""
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {text_of((0,) * dim, L)}
-  set Upper corner = {text_of((2, 1, 1)[:dim], L)}
-  set Cells = {"6, 3, 3" if dim == 3 else "12, 6"}
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-  subsection elastic
-    set Young modulus = {1e3 * S!r}
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = box
-    set Lower corner = {text_of((0,) * dim, L)}
-    set Upper corner = {text_of((2, 1, 1)[:dim], L)}
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-  end
-end
-subsection Loads
-  subsection force
-    {force}
-  end
-end
-subsection Probes
-  subsection corner
-    set Location = {text_of((2, 1, 1)[:dim], L)}
-    set Kind = interpolated
-    set Quantities = displacement
-  end
-end
-"""
+    return prm(f"""
+Dimension = {dim}
+Mesh/Lower corner = {text_of((0,) * dim, L)}
+Mesh/Upper corner = {text_of((2, 1, 1)[:dim], L)}
+Mesh/Cells = {"6, 3, 3" if dim == 3 else "12, 6"}
+Method/Method = finite element
+Materials/elastic/Young modulus = {1e3 * S!r}
+Materials/elastic/Poisson ratio = 0.3
+Bodies/block/Shape = box
+Bodies/block/Lower corner = {text_of((0,) * dim, L)}
+Bodies/block/Upper corner = {text_of((2, 1, 1)[:dim], L)}
+Grid conditions/left/Side = left
+Loads/force/
+{force}
+Probes/corner/Location = {text_of((2, 1, 1)[:dim], L)}
+Probes/corner/Kind = interpolated
+Probes/corner/Quantities = displacement
+""")
 
 
 def results(scene, units, settings):
