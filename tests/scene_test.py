@@ -157,7 +157,7 @@ def _ended(words, n, refused):
 
 def prm(text):
     """A scene of lines 'Section/Name/Key = value'; 'Section/Name/' opens a section
-    for the lines after it that are none of these."""
+    for the lines after it that are none of these, '/' closes all."""
     opened, lines = [], []
     for line in text.strip("\n").split("\n"):
         key, equals, value = line.partition(" =")
@@ -165,7 +165,7 @@ def prm(text):
                 equals or line.endswith("/")):
             lines.append(line)
             continue
-        *path, key = key.split("/")
+        *path, key = key.split("/") if line != "/" else [""]
         same = len(os.path.commonprefix([path, opened]))
         lines += ["end"] * (len(opened) - same)
         lines += [f"subsection {name}" for name in path[same:]]
@@ -175,9 +175,9 @@ def prm(text):
     return "\n".join(lines + ["end"] * len(opened)) + "\n"
 
 
-def scene_file(name, text):
+def scene_file(name, *texts):
     path = _folder / name
-    path.write_text(prm(text))
+    path.write_text("".join(map(prm, texts)))
     return path
 
 

@@ -53,7 +53,7 @@ refused("a mesh that moves off a held side", stretch, {
 
 # Sides and conditions that move alike, in stages: what holds a side in one of
 # them need not in another, and the second begins with a mesh that is longer.
-STAGES = prm("""
+stages = scene_file("stages.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 2, 2
 Mesh/Cells = 2, 2
@@ -74,8 +74,6 @@ Mesh motion/Stretch between = left, right
 Stages/first/Time/End time = 1
 Stages/second/Time/End time = 2
 """)
-stages = folder / "stages.prm"
-stages.write_text(STAGES)
 lid, plate = "Grid conditions/lid/", "Grid conditions/plate/"
 for name, settings in (
         ("a mesh that two stages stretch", {}),

@@ -8,7 +8,7 @@ domains carry the forces, or where a body without stress turns."""
 
 from math import pi
 
-SCENE = prm("""
+scene = scene_file("beam.prm", """
 Mesh/Lower corner = -1, -4
 Mesh/Upper corner = 9, 9
 Mesh/Cell size = 0.25
@@ -26,8 +26,6 @@ Time/Steps = 18
 Output/Points = false
 Output/Mesh = false
 """)
-scene = folder / "beam.prm"
-scene.write_text(SCENE)
 TOLD = "leave equilibrium"
 exact = 1000 / (1 - 0.3**2) / 12 * (pi / 2) / 8  # E I / (1 - nu^2) / radius
 for method in ("finite element", "GIMP", "material point"):

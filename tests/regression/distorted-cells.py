@@ -33,19 +33,13 @@ BOX = {"Mesh/Lower corner": "-0.5, -0.5", "Mesh/Upper corner": "6.5, 5.5",
 
 
 def scene_of(name, words):
-    scene = folder / f"{name}.prm"
-    scene.write_text(f"""
-subsection Materials
-  subsection steel
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-  end
-end
-subsection Output
-  set Write  = end
-  set Points = false
-  set Mesh   = false
-end
+    scene = scene_file(f"{name}.prm", f"""
+Materials/steel/Young modulus = 1e4
+Materials/steel/Poisson ratio = 0.3
+Output/Write = end
+Output/Points = false
+Output/Mesh = false
+/
 {words}
 """)
     return scene

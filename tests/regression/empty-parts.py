@@ -57,7 +57,7 @@ for name, material in (("elastic", {}),
 
 # What was no cure for steps that Newton's method could not end is one for a grain
 # that comes later.
-LATER = prm("""
+later = scene_file("later.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 6, 12
 Mesh/Cell size = 1
@@ -87,8 +87,6 @@ Stages/two/Bodies = column, grain
 Stages/two/Time/End time = 2
 Output/Write = end
 """)
-later = folder / "later.prm"
-later.write_text(LATER)
 grain = run(later)
 text("a grain after steps without a cure", grain.summary["status"])
 text("  found", grain.found())

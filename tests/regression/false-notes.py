@@ -13,7 +13,7 @@ for scene in ("impact", "impact-roller"):
     text(f"{scene}: told", told(run(f"prm/dynamics/{scene}.prm")))
 
 # A block of full cells is pulled until it flows.
-PLATEAU = prm("""
+plateau = scene_file("plateau.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 4, 6
 Mesh/Cell size = 0.5
@@ -35,8 +35,6 @@ Time/End time = 1
 Time/Steps = 10
 Output/Write = end
 """)
-plateau = folder / "plateau.prm"
-plateau.write_text(PLATEAU)
 for strain in ("small", "finite"):
     result = run(plateau, {"Method/Strain": strain}, expect=1)
     text(f"plateau, {strain} strain: too few points",

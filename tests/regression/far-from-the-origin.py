@@ -10,7 +10,7 @@ Materials/block/Poisson ratio = 0.3
 Output/Write = end
 """)
 
-STRETCH = BLOCK + prm("""
+stretch = scene_file("stretch.prm", BLOCK, """
 Mesh/Lower corner = $x, $y
 Mesh/Upper corner = $x + 10.3, $y + 10.3
 Mesh/Cells = 10, 10
@@ -29,8 +29,6 @@ Mesh motion/Stretch between = left, right
 Time/End time = 4
 Time/Steps = 8
 """)
-stretch = folder / "stretch.prm"
-stretch.write_text(STRETCH)
 forces = [run(stretch, {"Constants/x": x, "Constants/y": y}
               ).history()[-1]["reaction_x of right"]
           for x, y in ((0, 0), (17000.1, 0), (530000.1, 5800000.3))]
@@ -38,7 +36,7 @@ at_least("mesh that stretches: force", forces[0], 1000)
 bound("  elsewhere it differs by", max(abs(force / forces[0] - 1)
                                        for force in forces), 1e-6)
 
-TURNS = BLOCK + prm("""
+turns = scene_file("turns.prm", BLOCK, """
 Mesh/Lower corner = $x, $y
 Mesh/Upper corner = $x + 3, $y + 3
 Mesh/Cell size = 0.5
@@ -51,8 +49,6 @@ Loads/push/Type = point force
 Loads/push/Location = $x + 2, $y + 2
 Loads/push/Value = -t; 0
 """)
-turns = folder / "turns.prm"
-turns.write_text(TURNS)
 for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
     refused = run(turns, {"Constants/x": x, "Constants/y": y}, expect=2)
     text(f"held at a corner, at ({x:g}, {y:g})",
@@ -61,7 +57,7 @@ for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
 
 FAR = ((450000.3, 5300000.7), (3500123.1, 5812345.9))
 
-ON_FACES = BLOCK + prm("""
+on_faces = scene_file("on-faces.prm", BLOCK, """
 Mesh/Lower corner = $x, $y
 Mesh/Upper corner = $x + 6, $y + 4.2
 Mesh/Cells = 20, 14
@@ -89,8 +85,6 @@ Probes/corner/Location = $x + 5.7, $y + 3.3
 Probes/corner/Kind = interpolated
 Probes/node/Location = $x + 3, $y + 1.5
 """)
-on_faces = folder / "on-faces.prm"
-on_faces.write_text(ON_FACES)
 
 
 def answers(x, y):
@@ -109,7 +103,7 @@ for x, y in FAR:
           max(abs(far / near - 1)
               for far, near in zip(answers(x, y), at_origin)), 1e-4)
 
-HELD = BLOCK + prm("""
+held = scene_file("held.prm", BLOCK, """
 Mesh/Lower corner = $x, $y
 Mesh/Upper corner = $x + 3.3, $y + 1.5
 Mesh/Cells = 11, 5
@@ -125,8 +119,6 @@ Loads/weight/Value = 1; -1
 Probes/top/Location = $x + 3.3, $y + 1.5
 Probes/top/Kind = interpolated
 """)
-held = folder / "held.prm"
-held.write_text(HELD)
 moved = [run(held, {"Constants/x": x, "Constants/y": y}
              ).history()[-1]["u_y at top"] for x, y in ((0, 0), *FAR)]
 bound("box that holds nodes: displacements elsewhere differ by",

@@ -12,7 +12,7 @@ Output/Write = end
 """)
 
 # A wall beside what was pulled before: at their corner both are at rest.
-HELD = SOLID + prm("""
+held = scene_file("held.prm", SOLID, """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 2, 2
 Mesh/Cell size = 1
@@ -33,8 +33,6 @@ Stages/held/Time/Steps = 2
 Probes/middle/Location = 1.1, 1.1
 Probes/middle/Kind = interpolated
 """)
-held = folder / "held.prm"
-held.write_text(HELD)
 rows = run(held).history()
 at_least("pulled: displacement", rows[1]["u_x at middle"], 1e-3)
 # Small strain on nodes that went along is in balance to the square of their motion.
@@ -57,7 +55,7 @@ text("at rest: energy in the summary", "energy" in rests.summary)
 
 # A block flies through the mesh: up on springs, without them, on others.
 STIFFNESS = 0.4
-FLIES = SOLID + prm(f"""
+flies = scene_file("flies.prm", SOLID, f"""
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 3, 8
 Mesh/Cell size = 0.5
@@ -89,8 +87,6 @@ Stages/others/Time/Steps = 5
 Probes/head/Location = 1.5, 1.9
 Probes/heel/Location = 1.5, 1.1
 """)
-flies = folder / "flies.prm"
-flies.write_text(FLIES)
 rows = run(flies).history()
 on_springs, free = ([row for row in rows if row["t"] < end][-1]
                     for end in (0.26, 0.76))
@@ -113,7 +109,7 @@ text("displacements reset before a force finds its points",
      plain(refused.output.strip()).splitlines()[-1])
 
 # Two blocks share a nail at their interface; one goes.
-SHARED = SOLID + prm("""
+shared = scene_file("shared.prm", SOLID, """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 4, 2
 Mesh/Cell size = 1
@@ -134,8 +130,6 @@ Stages/again/Bodies = left
 Stages/again/Loads = nail
 Stages/again/Time/End time = 3
 """)
-shared = folder / "shared.prm"
-shared.write_text(SHARED)
 for name, settings, left in (
         ("while it rests", {}, 0.5),
         ("while it acts", {"Stages/rest/Loads": "nail"}, 0.5),
@@ -145,7 +139,7 @@ for name, settings, left in (
     bound(f"  reaction + {left}", result.reactions["base"][1] + left, 1e-10)
 
 # A load that pauses goes with the ground, also if a body comes as it returns.
-PAUSED = SOLID + prm("""
+paused = scene_file("paused.prm", SOLID, """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 12, 3
 Mesh/Cell size = 0.5
@@ -169,8 +163,6 @@ Stages/again/Bodies = ground, later
 Stages/again/Loads = plate
 Stages/again/Time/End time = 3
 """)
-paused = folder / "paused.prm"
-paused.write_text(PAUSED)
 alone, with_it = (run(paused, settings).history()[-1]["u_y at under"]
                   for settings in ({}, {"Stages/*/Bodies": "ground, later"}))
 at_least("a load that paused: settlement", -alone, 1e-5)
@@ -260,7 +252,7 @@ compare("load that begins as another body comes", alone, beside)
 
 # A lining takes the place of what is dug out. A probe beside both follows the body
 # that it names: the stress of its one cell is that of half its weight.
-LINED = SOLID.replace("0.3", "0") + prm("""
+lined = scene_file("lined.prm", SOLID.replace("0.3", "0"), """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 1, 2
 Mesh/Cell size = 1
@@ -283,8 +275,6 @@ Probes/crown/Location = 0.5, 1.5
 Probes/crown/Body = lining
 Probes/crown/Quantities = stress
 """)
-lined = folder / "lined.prm"
-lined.write_text(LINED)
 result = run(lined)
 text("probe of the lining", [round(row["sigma_yy at crown"], 1) + 0.
                              for row in result.history()])
@@ -308,7 +298,7 @@ text("quiet: all warnings", [
 
 # Walls that go on hold a body that comes by its own stress, not by that of the body
 # below, which is pressed until then: nu/(1 - nu) times its weight, over two walls.
-COMES = SOLID + prm("""
+comes = scene_file("comes.prm", SOLID, """
 Mesh/Lower corner = -0.5, 0
 Mesh/Upper corner = 1.5, 3
 Mesh/Cell size = 0.25
@@ -336,8 +326,6 @@ Stages/filled/Bodies = low, up
 Stages/filled/Loads = weight
 Stages/filled/Time/End time = 2
 """)
-comes = folder / "comes.prm"
-comes.write_text(COMES)
 THRUST = 0.3 / 0.7 * (10 / 2 + 10)  # of the body itself, and of the one below
 for how in ("skew Nitsche", "symmetric Nitsche", "augmented Lagrangian"):
     reaction = run(comes, {"Boundaries/*/Enforcement": how}).summary["reactions"]
@@ -358,7 +346,7 @@ for name, keys in (
     text(name, result.found())
 
 # A body that comes before one in flight is at rest, also at the nodes they share.
-JOINS = SOLID.replace("10000", "100") + prm("""
+joins = scene_file("joins.prm", SOLID.replace("10000", "100"), """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 12, 4
 Mesh/Cell size = 1
@@ -377,8 +365,6 @@ Stages/two/Time/Integrator = Newmark
 Stages/two/Time/End time = 0.2
 Stages/two/Time/Steps = 2
 """)
-joins = folder / "joins.prm"
-joins.write_text(JOINS)
 for name, settings in (
         ("finite element", {"Method/Mesh after step": "keep"}),
         ("lumped", {"Method/Mesh after step": "keep",
@@ -394,7 +380,7 @@ for name, settings in (
               result.summary["energy"]["balance_error"], 1e-10)
 
 # What comes fills the cells as they are, and so does a place on it.
-FILLED = SOLID.replace("10000", "100") + prm("""
+filled = scene_file("filled.prm", SOLID.replace("10000", "100"), """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 4, 8
 Mesh/Cell size = 1
@@ -419,8 +405,6 @@ Probes/place/Location = 0.21132486540518713, 6.2113248654051871
 Probes/place/Kind = interpolated
 Probes/place/Quantities = displacement, position
 """)
-filled = folder / "filled.prm"
-filled.write_text(FILLED)
 row = run(filled).history()[-1]
 at_least("a place on what comes: has settled by", 6.2 - row["y at place"], 0.4)
 for key in ("x", "y", "u_x", "u_y"):
@@ -428,7 +412,7 @@ for key in ("x", "y", "u_x", "u_y"):
           row[f"{key} at place"] / row[f"{key} at point"] - 1, 1e-10)
 
 # A place leaves the cells; then the body of the point that it follows is gone.
-LEAVES = SOLID + prm("""
+leaves = scene_file("leaves.prm", SOLID, """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 4, 4
 Mesh/Cell size = 1
@@ -447,8 +431,6 @@ Probes/top/Location = 0.5, 2
 Probes/top/Kind = interpolated
 Probes/top/Quantities = displacement, position
 """)
-leaves = folder / "leaves.prm"
-leaves.write_text(LEAVES)
 result = run(leaves)
 text("notes of a place out of the cells", [
     " ".join(line.split())

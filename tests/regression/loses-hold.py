@@ -6,53 +6,31 @@ they push material are told of, and surfaces that stay while they move it throug
 
 import json
 
-SCENE = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 2
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection soil
-    set Lower corner = 0, 0
-    set Upper corner = 1, 2
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-  subsection base
-    set Side       = bottom
-    set Components = y
-  end
-  {condition}
-end
+SCENE = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 2
+Mesh/Cell size = 0.25
+Method/Method = GIMP
+Method/Strain = finite
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = 0.3
+Bodies/soil/Lower corner = 0, 0
+Bodies/soil/Upper corner = 1, 2
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/base/Side = bottom
+Grid conditions/base/Components = y
+Grid conditions/
+{condition}
+/
 {more}
-subsection Output
-  set Points           = false
-  set Mesh             = false
-  set Checkpoint every = {checkpoint}
-end
-subsection Time
-  set Steps = 12
-end
-"""
+Output/Points = false
+Output/Mesh = false
+Output/Checkpoint every = {checkpoint}
+Time/Steps = 12
+""")
 scene = folder / "column.prm"
 PRESSED = prm("""
 top/Side = top

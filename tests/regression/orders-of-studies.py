@@ -13,7 +13,7 @@ def table(result):
 
 
 # A bar whose cells or steps are halved, also in other ways than by their own numbers.
-BAR = prm("""
+bar = scene_file("bar.prm", """
 Mesh/Type = generator
 Mesh/Generator = hyper_rectangle
 Mesh/Arguments = 0, 0 : 1, 1 : true
@@ -33,8 +33,6 @@ Constants/n = 4
 Probes/tip/Location = 1, 0.5
 Probes/tip/Kind = interpolated
 """)
-bar = folder / "bar.prm"
-bar.write_text(BAR)
 PULLED = {"Loads/pull/Type": "body force",
           "Loads/pull/Value": "pi*pi/4*sin(pi/2*x); 0",
           "Exact solution/Displacement": "sin(pi/2*x); 0",

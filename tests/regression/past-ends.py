@@ -6,50 +6,29 @@ others."""
 
 from math import log
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -1.03, -1.02
-  set Upper corner = 6.97, 4.98
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection soil
-    set Young modulus = {modulus}
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 0, 0
-    set Upper corner = 3, 3
-  end
-end
-subsection Boundaries
-  subsection low
+SCENE = prm("""
+Mesh/Lower corner = -1.03, -1.02
+Mesh/Upper corner = 6.97, 4.98
+Mesh/Cell size = 0.5
+Method/Method = {method}
+Method/Strain = finite
+Materials/soil/Young modulus = {modulus}
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 2
+Bodies/block/Lower corner = 0, 0
+Bodies/block/Upper corner = 3, 3
+Boundaries/low/
 {low}
-    set Constraint = roller
-  end
-  subsection left
-    set Body = block
-    set Part = left
-    set Constraint = roller
-  end
-{more}end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10*t
-  end
-end
-subsection Time
-  set Steps = 20
-end
-"""
+Boundaries/low/Constraint = roller
+Boundaries/left/Body = block
+Boundaries/left/Part = left
+Boundaries/left/Constraint = roller
+Boundaries/
+{more}
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10*t
+Time/Steps = 20
+""")
 PART = "    set Body = block\n    set Part = bottom"
 LINE = "    set Points = -1 0; 6 0"
 FOOTING = prm("""
@@ -72,7 +51,7 @@ for name, low, more, modulus, methods in (
              or "nothing")
 
 # Between rollers that are its own sides; the first time to be told of, and the end.
-PRESSED = prm("""
+pressed = scene_file("pressed.prm", """
 Mesh/Lower corner = -1.3, -0.3
 Mesh/Upper corner = 3.7, 1.7
 Mesh/Cell size = 0.25
@@ -96,8 +75,6 @@ Boundaries/top/Translation = 0; -0.5*t
 Output/Points = false
 Output/Mesh = false
 """)
-pressed = folder / "pressed.prm"
-pressed.write_text(PRESSED)
 for end, steps in ((0.65, 13), (0.7, 14)):
     result = run(pressed, {"Time/End time": end, "Time/Steps": steps})
     text(f"pressed to t = {end}", [

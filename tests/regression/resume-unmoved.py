@@ -3,7 +3,7 @@
 """Points that stay where they are, of bodies that came in another order than they
 are drawn in, go on from a checkpoint as if nothing had been."""
 
-LAYERS = prm("""
+scene = scene_file("layers.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 4, 4
 Mesh/Cell size = 0.5
@@ -34,8 +34,6 @@ Output/Checkpoint every = 1 step
 Probes/top/Location = 3.9, 3.2
 Probes/top/Body = upper
 """)
-scene = folder / "layers.prm"
-scene.write_text(LAYERS)
 for method in "CPDI1", "CPDI2", "GIMP", "material point", "finite element":
     more = {"Method/Method": method}
     if method == "GIMP": # boxes that are not parts of cells

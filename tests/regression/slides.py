@@ -5,7 +5,7 @@
 where points move, and the run ends as if it had stood: it says so, at the limit that
 points which stay end at. What is elastic, or stands, does not."""
 
-CUT = prm("""
+scene = scene_file("cut.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 16, 9
 Mesh/Cell size = 1
@@ -28,8 +28,6 @@ Time/Steps = 12
 Output/Points = false
 Output/Mesh = false
 """)
-scene = folder / "cut.prm"
-scene.write_text(CUT)
 
 
 def show(title, settings, expect=0):

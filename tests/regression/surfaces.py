@@ -5,25 +5,18 @@
 matters; that it begins inside a body; that what it lies on is gone. Nothing of
 surfaces along the rim of their body, round or not."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {upper}
-  set Cell size    = {h}
-end
-subsection Materials
-  subsection ground
-    set Young modulus = 1e5
-    set Poisson ratio = 0.25
-    set Density       = 2
-  end
-end
+SCENE = prm("""
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = {h}
+Materials/ground/Young modulus = 1e5
+Materials/ground/Poisson ratio = 0.25
+Materials/ground/Density = 2
+/
 {more}
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
+Output/Points = false
+Output/Mesh = false
+""")
 scene = folder / "scene.prm"
 
 
@@ -84,43 +77,25 @@ for x, y, constraint, enforcement in (
           "-2, -2", "6, 6", 0.5)
     show(f"base to ({x}, {y}), {constraint}, {enforcement}")
 
-STAGES = """subsection Bodies
-  subsection a
-    set Lower corner = 0, 0
-    set Upper corner = 3, 4.1
-  end
-  subsection b
-    set Lower corner = 0, 4.1
-    set Upper corner = 3, 4.4
-  end
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-{loads}end
+STAGES = prm("""
+Bodies/a/Lower corner = 0, 0
+Bodies/a/Upper corner = 3, 4.1
+Bodies/b/Lower corner = 0, 4.1
+Bodies/b/Upper corner = 3, 4.4
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Loads/
+{loads}
+/
 {boundaries}
-subsection Stages
-  subsection before
-    {first}
-    subsection Time
-      set End time = 1
-    end
-  end
-  subsection after
-    set Bodies = {left}
-    {keep}
-    subsection Time
-      set End time = 2
-    end
-  end
-end"""
+Stages/before/
+{first}
+Stages/before/Time/End time = 1
+Stages/after/Bodies = {left}
+{keep}
+Stages/after/Time/End time = 2
+""")
 PLATE = prm("""
 Boundaries/plate/Body = {body}
 Boundaries/plate/Part = {part}

@@ -3,37 +3,21 @@
 """Soil at rest between walls on a base, and a hole that is widened: the force of
 nodes that two grid conditions hold is shared out, whichever of them comes first."""
 
-SOIL = """
-subsection Mesh
-  set Lower corner = {low}
-  set Upper corner = {high}
-  set Cells        = {cells}
-end
-subsection Method
-  set Method = {method}
-  set Degree = {degree}
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e5
-    set Poisson ratio = 0.25
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection layer
-    set Shape = mesh
-  end
-end
-subsection Grid conditions
-{conditions}end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = {down}
-  end
-end
-"""
+SOIL = prm("""
+Mesh/Lower corner = {low}
+Mesh/Upper corner = {high}
+Mesh/Cells = {cells}
+Method/Method = {method}
+Method/Degree = {degree}
+Materials/soil/Young modulus = 1e5
+Materials/soil/Poisson ratio = 0.25
+Materials/soil/Density = 2
+Bodies/layer/Shape = mesh
+Grid conditions/
+{conditions}
+Loads/weight/Type = gravity
+Loads/weight/Value = {down}
+""")
 # At rest the walls carry K0 = nu / (1 - nu) = 1/3 of the weight above.
 H, L, GAMMA, K0 = 4, 6, 20, 1 / 3
 

@@ -4,7 +4,7 @@
 wall that is an implicit boundary, though nodes of the base hold its lowest cell
 too. By the exact stress it is nu/(1 - nu) rho g H^2/2."""
 
-SCENE = prm("""
+scene = scene_file("scene.prm", """
 Mesh/Lower corner = -0.5, 0
 Mesh/Upper corner = 2.5, 2.5
 Mesh/Cell size = 0.5
@@ -25,8 +25,6 @@ Loads/weight/Type = gravity
 Loads/weight/Value = 0; -9.81
 Output/Write = end
 """)
-scene = folder / "scene.prm"
-scene.write_text(SCENE)
 EXACT = 0.3 / 0.7 * 9.81 * 2
 for method in ("finite element", "material point", "GIMP"):
     for how, keys in (("finite strain", {"Method/Strain": "finite"}),

@@ -6,7 +6,7 @@ yields, so that a stiff one is no weaker than a soft one."""
 
 import json
 
-SHEARED = prm("""
+scene = scene_file("sheared.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 1, 1
 Mesh/Cells = 8, 8
@@ -24,8 +24,6 @@ Constants/k = 1
 Time/Steps = 10
 Output/Write = end
 """)
-scene = folder / "sheared.prm"
-scene.write_text(SHEARED)
 forces = {}
 for strain in "small", "finite":
     for k in (1e-1, 1e-4, 1e-6, 1e-8):

@@ -96,40 +96,24 @@ for curve, peak in (("0: 0, 0.101: 0, 0.103: 1, 0.105: 0", 0.103),
          any(abs(row["t"] - peak) < 1e-12 for row in pulse.history()))
 
 # What cells are too coarse for, and what small strain is too coarse for.
-BLOCK = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 4, 4
-  set Cell size = 0.25
-end
-subsection Materials
-  subsection soft
-    set Young modulus = 1
-    set Poisson ratio = 0.3
-  end
-  subsection stiff
-    set Young modulus = {stiffness}
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = box
-    set Lower corner = 0, {bottom}
-    set Upper corner = {corner}
-    set Material = soft
-  end{second}
-end
-subsection Grid conditions
-  subsection left
-    set Side = left
-  end
-  subsection right
-    set Side = right
-    set Displacement = {pull}*t; 0
-  end
-end
-"""
+BLOCK = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 4, 4
+Mesh/Cell size = 0.25
+Materials/soft/Young modulus = 1
+Materials/soft/Poisson ratio = 0.3
+Materials/stiff/Young modulus = {stiffness}
+Materials/stiff/Poisson ratio = 0.3
+Bodies/block/Shape = box
+Bodies/block/Lower corner = 0, {bottom}
+Bodies/block/Upper corner = {corner}
+Bodies/block/Material = soft
+Bodies/
+{second}
+Grid conditions/left/Side = left
+Grid conditions/right/Side = right
+Grid conditions/right/Displacement = {pull}*t; 0
+""")
 SECOND = prm("""
 wall/Shape = box
 wall/Lower corner = {x}, 0
@@ -153,7 +137,7 @@ for name, corner, second, stiffness, pull in (
     text(f"{name}: found", result.found() or "nothing")
 
 # A turn is no strain, but small strain finds some in one that is prescribed.
-SHAFT = prm("""
+scene = scene_file("shaft.prm", """
 Mesh/Lower corner = -35, -35
 Mesh/Upper corner = 35, 35
 Mesh/Cell size = 5
@@ -172,8 +156,6 @@ Boundaries/bearing/Constraint = roller
 Boundaries/bearing/Rotation angle = 0
 Time/Steps = 4
 """)
-scene = folder / "shaft.prm"
-scene.write_text(SHAFT)
 HELD = {"Boundaries/bearing/Constraint": "fixed"}
 for name, settings in (
         ("small strain", {}),
@@ -261,7 +243,7 @@ for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):
         text(f"{grid} points turned by {angle}: half lengths", f"{x} {y}")
 
 # What is filled up from the old level, above ground that has risen meanwhile.
-HEAVE = prm("""
+heave = scene_file("heave.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 1, 14
 Mesh/Cell size = 0.5
@@ -292,8 +274,6 @@ Stages/pit/Time/End time = 2
 Stages/filled/Bodies = low, fill
 Stages/filled/Time/End time = 3
 """)
-heave = folder / "heave.prm"
-heave.write_text(HEAVE)
 for name, settings in (
         ("GIMP", {}), ("FE", {"Method/Method": "finite element"}),
         ("GIMP, hard ground", {"Materials/clay/Young modulus": 5e5}),
@@ -351,7 +331,7 @@ for name, settings in (
 
 # What one body says of its cut cells does not depend on another, far away; its
 # domains reach cells that have none of its points.
-APART = prm("""
+apart = scene_file("apart.prm", """
 Mesh/Lower corner = 0, 0
 Mesh/Upper corner = 8, 4
 Mesh/Cell size = 1
@@ -369,8 +349,6 @@ Loads/pull/Bodies = pulled
 Time/Steps = 4
 Probes/top/Location = 0.1, 1.9
 """)
-apart = folder / "apart.prm"
-apart.write_text(APART)
 lifts = [run(apart, {"Bodies/other/Aggregate below": fill}).history()[-1]["u_y at top"]
          for fill in (0.1, 0)]
 at_least("cut cells of one body: displacement", lifts[0], 0.01)

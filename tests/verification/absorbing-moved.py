@@ -5,7 +5,7 @@
 a block at rest under gravity stays at rest, whatever has brought its base there,
 also when the run goes on from the middle of it."""
 
-SCENE = prm("""
+scene = scene_file("base.prm", """
 Mesh/Lower corner = -0.5, -0.5
 Mesh/Upper corner = 5, 3.5
 Mesh/Cell size = 0.25
@@ -31,8 +31,6 @@ Output/Write = end
 Probes/top/Location = 2.5, 2.3
 Probes/top/Kind = interpolated
 """)
-scene = folder / "base.prm"
-scene.write_text(SCENE)
 
 
 def drift(name, result):

@@ -9,7 +9,7 @@ import math
 E, LENGTH, HEIGHT = 120000, 10, 0.5
 EULER = math.pi**2 * E * HEIGHT**3 / 12 / (4 * LENGTH**2)
 
-COLUMN = prm(f"""
+scene = scene_file("column.prm", f"""
 Mesh/Lower corner = 0, -1
 Mesh/Upper corner = 11, 1.5
 Mesh/Cell size = 0.125
@@ -25,8 +25,6 @@ Loads/force/Curve = t
 Loads/force/Value = {-0.2 * EULER / HEIGHT}; 0
 Study/Kind = buckling
 """)
-scene = folder / "column.prm"
-scene.write_text(COLUMN)
 
 
 def study(settings, expect=0, **keys):

@@ -44,16 +44,16 @@ def strip(method, cells, angle, dy, across, settings):
 def strips(method, cells, across, settings={}):
     """Least and largest force, largest stress over what is right, warnings."""
     forces, stresses, notes = [], [], 0
-    for angle in 0, 17, 45:
-        for dy in 0, 1e-8, 0.5, 0.75, 1 - 1e-6:
-            f, s, result = strip(method, cells, angle, dy, across, settings)
-            t = cells * H
-            forces.append(f)
-            stresses.append(s / (6 * f / t ** 2 if across else 5.))
-            # The body is thin for its cells, which matters where it bends.
-            notes += sum(one["id"] != "thin-body"
-                         for one in result.summary.get("warnings", []))
-            notes += result.summary["rejected_steps"]
+    for angle, dy in ((0, 0), (0, 1e-8), (0, 0.75), (0, 1 - 1e-6), (17, 0),
+                      (17, 0.5), (45, 1e-8), (45, 0.75)):
+        f, s, result = strip(method, cells, angle, dy, across, settings)
+        t = cells * H
+        forces.append(f)
+        stresses.append(s / (6 * f / t ** 2 if across else 5.))
+        # The body is thin for its cells, which matters where it bends.
+        notes += sum(one["id"] != "thin-body"
+                     for one in result.summary.get("warnings", []))
+        notes += result.summary["rejected_steps"]
     return min(forces), max(forces), max(stresses), notes
 
 
@@ -114,7 +114,7 @@ for h, allowed in (0.125, 0.1), (0.0625, 0.05):
 
 # A stiff sliver in cells that a soft body fills costs at most one row of its
 # eight cells, and no iterations.
-for contrast, part in (1e5, 1e-3), (1e9, 1e-8), (1e9, 1e-3), (1e9, 0.3):
+for contrast, part in (1e5, 1e-3), (1e9, 1e-8), (1e9, 0.3):
     results = [
         run(TWO, {"Mesh/Lower corner": f"{-part * h!r}, -0.5",
                   "Mesh/Upper corner": f"{2.5 - part * h!r}, 1.5",
@@ -177,8 +177,7 @@ for name, settings in (
         ("CPDI2", {"Method/Method": "CPDI2"}),
         ("finite element", {"Method/Method": "finite element"})):
     worst = told = 0
-    for n, (dx, dy) in enumerate(((0, 0), (0.37, 0.7), (1e-3, 1e-6),
-                                  (0.75, 0.5))):
+    for n, (dx, dy) in enumerate(((0.37, 0.7), (1e-3, 1e-6))):
         result = run(BAR, {**settings, **no_files,
                            **shifted((0, -1), (21, 2), dx, dy, 0.5)},
                      on_ranks=n % 2 + 1)
@@ -189,7 +188,7 @@ for name, settings in (
 
 # With means over cells, which are the default then.
 for method in ("GIMP", "CPDI1", "CPDI2"):
-    for nu, steps in ((0.45, 60), (0.4999, 60), (0.4999, 150)):
+    for nu, steps in ((0.4999, 60), (0.4999, 150)):
         result = run(BAR, {"Method/Method": method, **no_files,
                            **shifted((0, -1), (21, 2), 0.37, 0.7, 0.5),
                            "Materials/rubber/Poisson ratio": nu,
@@ -211,7 +210,7 @@ for n, (name, settings) in enumerate((
                           "Method/Domain update": "frozen"}),
         *((f"material point, {n} per direction",
            {"Method/Method": "material point", "Method/Points per direction": n})
-          for n in (2, 3, 4)))):
+          for n in (2, 4)))):
     torn = run(BAR, {**no_files, **settings}, expect=1, on_ranks=n % 2 + 1)
     bound(f"stretched by 4, {name}: force over exact - 1 when it is told",
           error_when_told(torn), 0.12)

@@ -76,7 +76,7 @@ for method in ("GIMP", "finite element"):
           last["moment of bearing"] / force / B, 1e-9)
 
 # A cylinder in a smooth tube, pressed to 0.8 of its length: uniaxial strain.
-CONFINED = prm("""
+scene.write_text(prm("""
 Dimension = 3
 Mesh/Lower corner = -0.86, -0.86, -0.86
 Mesh/Upper corner = 0.94, 0.94, 1.94
@@ -102,8 +102,7 @@ Boundaries/piston/Translation = 0; 0; -0.2*t
 Time/Steps = 4
 Output/Points = false
 Output/Mesh = false
-""")
-scene.write_text(CONFINED)
+"""))
 result = run(scene, on_ranks=1)
 MU, LAMBDA, STRETCH = 1000 / 2.6, 300 / 1.3 / 0.4, 0.8
 FORCE = pi / 4 * (MU * (STRETCH**2 - 1) + LAMBDA * log(STRETCH)) / STRETCH

@@ -4,44 +4,28 @@
 """Ground at rest stays so: on a base that absorbs after the ground beside was dug
 away, or before; on a base longer than the ground; between walls a cell apart."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -1, -0.2
-  set Upper corner = 6, 7.3
-  set Cell size    = 0.5
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection clay
-    set Young modulus = 20000
-    set Poisson ratio = 0.25
-    set Density       = 2
-  end
-end
-subsection Bodies
-  {bodies}
-end
-subsection Grid conditions
-  {nodes}
-end
-subsection Boundaries
-  {boundaries}
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
+SCENE = prm("""
+Mesh/Lower corner = -1, -0.2
+Mesh/Upper corner = 6, 7.3
+Mesh/Cell size = 0.5
+Method/Method = {method}
+Method/Strain = finite
+Materials/clay/Young modulus = 20000
+Materials/clay/Poisson ratio = 0.25
+Materials/clay/Density = 2
+Bodies/
+{bodies}
+Grid conditions/
+{nodes}
+Boundaries/
+{boundaries}
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Output/Points = false
+Output/Mesh = false
+/
 {more}
-"""
+""")
 BODY = prm("""
 {name}/Lower corner = {lower}
 {name}/Upper corner = {upper}

@@ -6,65 +6,35 @@ stays at rest, and one that takes over from nodes holds what they held."""
 
 
 HEIGHT, WEIGHT = 2, 20
-SCENE = """
-subsection Mesh
-  set Lower corner = 0, -0.5
-  set Upper corner = 4, 3
-  set Cell size    = 0.25
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection ground
-    set Lower corner = 0, {bottom}
-    set Upper corner = 4, {top}
-    set Initial stress = {stress}
-  end
-end
-subsection Grid conditions
-  subsection left
-    set Side       = left
-    set Components = x
-  end
-  subsection right
-    set Side       = right
-    set Components = x
-  end
-  {nodes}
-end
-subsection Boundaries
-  subsection base
-    set Body = ground
-    set Part = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-subsection Probes
-  subsection low
-    set Location   = 2.05, {low}
-    set Quantities = stress, displacement, position
-  end
-  subsection surface
-    set Location   = 2.05, {surface}
-    set Quantities = displacement, position
-  end
-end
+SCENE = prm("""
+Mesh/Lower corner = 0, -0.5
+Mesh/Upper corner = 4, 3
+Mesh/Cell size = 0.25
+Materials/soil/Young modulus = 1e4
+Materials/soil/Poisson ratio = 0.3
+Materials/soil/Density = 2
+Bodies/ground/Lower corner = 0, {bottom}
+Bodies/ground/Upper corner = 4, {top}
+Bodies/ground/Initial stress = {stress}
+Grid conditions/left/Side = left
+Grid conditions/left/Components = x
+Grid conditions/right/Side = right
+Grid conditions/right/Components = x
+Grid conditions/
+{nodes}
+Boundaries/base/Body = ground
+Boundaries/base/Part = bottom
+Loads/weight/Type = gravity
+Loads/weight/Value = 0; -10
+Output/Points = false
+Output/Mesh = false
+Probes/low/Location = 2.05, {low}
+Probes/low/Quantities = stress, displacement, position
+Probes/surface/Location = 2.05, {surface}
+Probes/surface/Quantities = displacement, position
+/
 {end}
-"""
+""")
 scene = folder / "ground.prm"
 
 
@@ -108,7 +78,7 @@ for method in ("material point", "finite element"):
 
 # Ground beside a rough wall at 15 degrees, at finite strain: pieces of the wall begin
 # with how the stress varies along them, too. Without that 0.24 % is out of balance.
-WALL = prm("""
+wall = scene_file("wall.prm", """
 Mesh/Lower corner = -1, -0.6
 Mesh/Upper corner = 4, 3.4
 Mesh/Cell size = 0.25
@@ -132,8 +102,6 @@ Loads/weight/Type = gravity
 Loads/weight/Value = 0; -10
 Time/Steps = 2
 """)
-wall = folder / "wall.prm"
-wall.write_text(WALL)
 found = run(wall, {"Output/Write": "end"})
 bound("ground beside an oblique wall: % out of balance",
       100 * found.finding("initial-imbalance")["value"], 0.1)

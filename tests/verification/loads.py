@@ -95,7 +95,7 @@ bound("half of it outside the mesh: base reaction - 240",
       half.reactions["base"][1] - 240, 1e-8)
 text("  found", half.found())
 
-ARC = prm("""
+scene = scene_file("arc.prm", """
 Mesh/Type = generator
 Mesh/Generator = hyper_shell
 Mesh/Arguments = 0, 0 : 5 : 10 : 12 : true
@@ -112,7 +112,5 @@ Loads/pull/Radius = 10
 Loads/pull/Body side = inside
 Loads/pull/Value = 1; 0
 """)
-scene = folder / "arc.prm"
-scene.write_text(ARC)
 bound("arc: reaction over its length + 1",
       run(scene).reactions["inside"][0] / 62.8319 + 1, 0.01)

@@ -4,43 +4,25 @@
 """A block pressed by a traction that goes with it through the cells stays in a
 uniform state of stress, that of elements which fit it."""
 
-BLOCK = """
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {upper}
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection soft
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = {base}
-    set Upper corner = {top}
-  end
-end
-subsection Boundaries
-{rollers}end
-subsection Loads
-  subsection pressure
-    set Type = surface traction
-    set Body = block
-    set Part = top
-    set Value = {value}
-  end
-end
-subsection Time
-  set Steps = {steps}
-end
-"""
+BLOCK = prm("""
+Dimension = {dim}
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {upper}
+Mesh/Cell size = 0.25
+Method/Method = {method}
+Method/Strain = finite
+Materials/soft/Young modulus = 1000
+Materials/soft/Poisson ratio = 0.3
+Bodies/block/Lower corner = {base}
+Bodies/block/Upper corner = {top}
+Boundaries/
+{rollers}
+Loads/pressure/Type = surface traction
+Loads/pressure/Body = block
+Loads/pressure/Part = top
+Loads/pressure/Value = {value}
+Time/Steps = {steps}
+""")
 ROLLER = prm("""
 {name}/Constraint = roller
 {name}/Body = block

@@ -33,7 +33,7 @@ bound("disc, finite element, generalised-alpha: angular momentum after a turn "
 
 # A disc turns in a hole of its own size. What turns it is of second order in
 # the step with every integrator, and the table of energies is right.
-HOLE = prm("""
+hole = scene_file("hole.prm", """
 Mesh/Lower corner = -1.5, -1.5
 Mesh/Upper corner = 1.5, 1.5
 Mesh/Cell size = 0.25
@@ -56,8 +56,6 @@ Time/End time = 6
 Time/Steps = 150
 Output/Write = end
 """)
-hole = folder / "hole.prm"
-hole.write_text(HOLE)
 for integrator in ("generalised-alpha", "Newmark", "Bathe", "energy-momentum"):
     result = run(hole, {"Time/Integrator": integrator})
     rows = result.history()
@@ -110,7 +108,7 @@ for method, settings in (("finite element", {}),
 
 # A segment of a disc that rocks in a bowl of its radius from 40 degrees: a rigid
 # pendulum. Generalised-alpha carries the forces of a step into the next.
-ROCKER = prm("""
+rocker = scene_file("rocker.prm", """
 Mesh/Lower corner = -1.2, -1.2
 Mesh/Upper corner = 1.2, 1.2
 Mesh/Cell size = 0.1
@@ -142,8 +140,6 @@ Time/End time = 1.01
 Time/Steps = 60
 Output/Write = end
 """)
-rocker = folder / "rocker.prm"
-rocker.write_text(ROCKER)
 # Weight and the height that the centre of the segment falls.
 half_angle = acos(0.6)
 area = half_angle - 0.6 * 0.8

@@ -112,7 +112,7 @@ bound("cylinder tilted by 20 degrees on a plane: error of stress beside it",
 
 # A quarter of a cylinder of clay in a triaxial cell whose plates are planes; its
 # mesh follows it, and plates no longer run along the faces of cells.
-TRIAXIAL = prm("""
+scene.write_text(prm("""
 Dimension = 3
 Mesh/Lower corner = -960, -460, 290
 Mesh/Upper corner = -910, -410, 450
@@ -153,8 +153,7 @@ Loads/cell/Radius = 35
 Loads/cell/Body side = inside
 Time/End time = 2
 Time/Steps = 10
-""")
-scene.write_text(TRIAXIAL)
+"""))
 result = run(scene, expect=None)
 force = [row["reaction_z of platen"] / (pi * 35 ** 2 / 4) for row in result.history()]
 text("triaxial: status", result.summary["status"])
@@ -165,36 +164,23 @@ bound("triaxial: axial stress at the end over the exact one - 1",
       force[-1] / -(0.2 + sqrt(3) * 0.05) - 1, 3e-2)
 
 # The force of dashpots on a body that moves as a whole is rho c v times the area.
-BAR = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 3, 6
-  set Cell size = {h}
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection rock
-    set Young modulus = 100
-    set Poisson ratio = 0
-    set Density = 0.01
-  end
-end
-subsection Bodies
-  subsection bar
-    set Lower corner = 0, {low!r}
-    set Upper corner = {right!r}, {high!r}
-    set Initial velocity = 1; 0
-  end
-end
+BAR = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 3, 6
+Mesh/Cell size = {h}
+Method/Method = {method}
+Materials/rock/Young modulus = 100
+Materials/rock/Poisson ratio = 0
+Materials/rock/Density = 0.01
+Bodies/bar/Lower corner = 0, {low!r}
+Bodies/bar/Upper corner = {right!r}, {high!r}
+Bodies/bar/Initial velocity = 1; 0
+/
 {how}
-subsection Time
-  set Integrator = Newmark
-  set End time = 1e-7
-  set Steps = 1
-end
-"""
+Time/Integrator = Newmark
+Time/End time = 1e-7
+Time/Steps = 1
+""")
 SIDE = prm("""
 Grid conditions/end/Side = right
 Grid conditions/end/Constraint = absorbing

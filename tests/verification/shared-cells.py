@@ -11,7 +11,7 @@ from math import cos, hypot, log, radians, sin
 
 # A ring of inner radius 1 and outer radius 2, shear strength 1, of which the bore
 # moves: at the limit its pressure is 2 ln 2 (Hill 1950).
-RING = prm("""
+ring = scene_file("ring.prm", """
 Mesh/Upper corner = 2.3, 2.3
 Method/Strain = small
 Method/Mesh after step = keep
@@ -46,8 +46,6 @@ Boundaries/bore/Constraint = fixed
 Boundaries/bore/Displacement = 0.03*t*x/sqrt(x^2+y^2); 0.03*t*y/sqrt(x^2+y^2)
 Time/Steps = 10
 """)
-ring = folder / "ring.prm"
-ring.write_text(RING)
 
 
 def pressure(h, offset, settings):

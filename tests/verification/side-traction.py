@@ -4,42 +4,24 @@
 its free edges lie on lines of the mesh and bulge into cells where nothing was.
 The supports must carry the traction times the block's width, no cell more."""
 
-SCENE = """
-set Dimension = {dim}
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {end}
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = {method}
-  set Strain = {strain}
-end
-subsection Materials
-  subsection clay
-    set Young modulus = 1e4
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = {lower}
-    set Upper corner = {upper}
-  end
-end
-subsection Grid conditions
-{rollers}end
-subsection Loads
-  subsection press
-    set Type = side traction
-    set Side = top
-    set Value = {value}*t
-  end
-end
-subsection Time
-  set Steps = 3
-end
-"""
+SCENE = prm("""
+Dimension = {dim}
+Mesh/Lower corner = {lower}
+Mesh/Upper corner = {end}
+Mesh/Cell size = 0.25
+Method/Method = {method}
+Method/Strain = {strain}
+Materials/clay/Young modulus = 1e4
+Materials/clay/Poisson ratio = 0.3
+Bodies/block/Lower corner = {lower}
+Bodies/block/Upper corner = {upper}
+Grid conditions/
+{rollers}
+Loads/press/Type = side traction
+Loads/press/Side = top
+Loads/press/Value = {value}*t
+Time/Steps = 3
+""")
 ROLLER = prm("""
 {side}/Side = {side}
 {side}/Components = {component}

@@ -7,54 +7,32 @@ accelerates, do not cost the second order in time."""
 
 from math import cos, exp, sin, sqrt
 
-SCENE = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 1, 1
-  set Cell size = 1
-end
-subsection Method
-  set Method = finite element
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1
-    set Poisson ratio = 0
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection b
-    set Lower corner = 0, 0
-    set Upper corner = 1, 1
-    {body}
-  end
-end
-subsection Grid conditions
-  subsection l
-    set Side = left
-    set Components = x
-    {base}
-  end
-  subsection y
-    set Side = bottom
-    set Components = y
-  end
-  subsection top
-    set Side = top
-    set Components = y
-  end
-  {condition}
-end
+SCENE = prm("""
+Mesh/Lower corner = 0, 0
+Mesh/Upper corner = 1, 1
+Mesh/Cell size = 1
+Method/Method = finite element
+Method/Mesh after step = keep
+Materials/m/Young modulus = 1
+Materials/m/Poisson ratio = 0
+Materials/m/Density = 1
+Bodies/b/Lower corner = 0, 0
+Bodies/b/Upper corner = 1, 1
+{body}
+Grid conditions/l/Side = left
+Grid conditions/l/Components = x
+{base}
+Grid conditions/y/Side = bottom
+Grid conditions/y/Components = y
+Grid conditions/top/Side = top
+Grid conditions/top/Components = y
+Grid conditions/
+{condition}
+/
 {rest}
-subsection Probes
-  subsection tip
-    set Location = 1, 0.5
-    set Kind = interpolated
-  end
-end
-"""
+Probes/tip/Location = 1, 0.5
+Probes/tip/Kind = interpolated
+""")
 
 OMEGA = sqrt(3)
 

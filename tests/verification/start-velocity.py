@@ -6,53 +6,31 @@ is refused."""
 
 from math import pi, sin
 
-SCENE = """
-subsection Mesh
-  set Lower corner = {lower}, 0
-  set Upper corner = {upper}, 1
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = finite element
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1e9
-    set Poisson ratio = 0
-    set Density = 1
-  end
-end
-subsection Bodies
-  subsection b
-    set Lower corner = 0, 0
-    set Upper corner = 4, 1
-    set Initial velocity = {velocity}; 0
-  end
-end
+SCENE = prm("""
+Mesh/Lower corner = {lower}, 0
+Mesh/Upper corner = {upper}, 1
+Mesh/Cell size = 0.5
+Method/Method = finite element
+Method/Mesh after step = keep
+Materials/m/Young modulus = 1e9
+Materials/m/Poisson ratio = 0
+Materials/m/Density = 1
+Bodies/b/Lower corner = 0, 0
+Bodies/b/Upper corner = 4, 1
+Bodies/b/Initial velocity = {velocity}; 0
+/
 {hand}
-subsection Grid conditions
-  {condition}
-  subsection low
-    set Side = bottom
-    set Components = y
-  end
-end
-subsection Time
-  set Integrator = {integrator}
-  set End time = 1
-  set Steps = 100
-end
-subsection Probes
-  subsection right
-    set Location = 4, 0.5
-    set Kind = interpolated
-  end
-end
-subsection Output
-  set Write = end
-end
-"""
+Grid conditions/
+{condition}
+Grid conditions/low/Side = bottom
+Grid conditions/low/Components = y
+Time/Integrator = {integrator}
+Time/End time = 1
+Time/Steps = 100
+Probes/right/Location = 4, 0.5
+Probes/right/Kind = interpolated
+Output/Write = end
+""")
 SIDE = prm("""
 hand/Side = left
 hand/Components = x

@@ -8,7 +8,7 @@ energy that is missing)."""
 from math import cos, hypot, radians, sin
 
 # Cantilever of length 10 and height 1, anywhere in its mesh.
-BEAM = prm("""
+scene = scene_file("beam.prm", """
 Mesh/Lower corner = -1.03, -1.03
 Mesh/Upper corner = 12.97, 12.97
 Method/Strain = small
@@ -26,8 +26,6 @@ Loads/end/Body = beam
 Loads/end/Part = right
 Probes/tip/
 """)
-scene = folder / "beam.prm"
-scene.write_text(BEAM)
 
 
 def bend(angle, method, h, degree=1):

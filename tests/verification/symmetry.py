@@ -3,7 +3,7 @@
 """What is symmetric stays so, to the last digits, whatever cells it cuts: nodes and
 cells that filled ones are equally near to follow all of these."""
 
-RING = prm("""
+scene = scene_file("ring.prm", """
 Mesh/Lower corner = -2.2, -2.2
 Mesh/Upper corner = 2.2, 2.2
 Mesh/Cell size = 0.2
@@ -21,8 +21,6 @@ Loads/pressure/Part = inner
 Loads/pressure/Value = t * x / sqrt(x^2 + y^2); t * y / sqrt(x^2 + y^2)
 Time/Steps = 1
 """)
-scene = folder / "ring.prm"
-scene.write_text(RING)
 
 
 def asymmetry(result):
