@@ -123,8 +123,10 @@ def run(scene, settings=None, command="run", extra=(), expect=0, on_ranks=None):
     folder = _folder / str(_count)
     words = [command, str(root / scene)]
     n = on_ranks or ranks
-    if _alternate and not on_ranks and command != "check":
-        n = 2 if next(_alternate) % 3 == 0 else 1
+    if _alternate is not None and not on_ranks and command != "check":
+        if command != "resume":  # which is of the run before
+            _alternate.append(2 if len(_alternate) % 3 == 0 else 1)
+        n = (_alternate or [1])[-1]
     if expect == 2 and not on_ranks:
         n = 2 if next(_refused) % 4 == 0 else 1
     if command in ("run", "study"):
@@ -211,7 +213,7 @@ def main():
     program = pathlib.Path(sys.argv[2]).resolve()
     ranks = int(sys.argv[3][0])
     if sys.argv[3] == "1-2":
-        _alternate = itertools.count()
+        _alternate = []
     _starter = Starter(program)
     _folder = pathlib.Path(tempfile.mkdtemp(prefix="moraine-"))
     try:

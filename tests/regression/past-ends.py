@@ -1,3 +1,4 @@
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Material that grows past the end of what holds it is told of: a block that spreads

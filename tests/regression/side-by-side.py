@@ -1,4 +1,4 @@
-# ranks: 1
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Runs on one process at the same time share nothing, above all no session

@@ -1,4 +1,4 @@
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What is told of where surfaces lie: that one goes on beyond its body, where that

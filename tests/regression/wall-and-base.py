@@ -1,3 +1,4 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Soil at rest between walls on a base, and a hole that is widened: the force of

@@ -1,7 +1,7 @@
 # ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Bearing capacity of a strip footing with all boundaries implicit, h = 1/16 of its
+"""Bearing capacity of a strip footing with all boundaries implicit, h = 1/8 of its
 half width, against Prandtl's."""
 
 from math import pi

@@ -1,4 +1,4 @@
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 # Contained block (Cortis et al. 2017, section 5.1, table 1) at five places

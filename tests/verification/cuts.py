@@ -12,7 +12,7 @@ from math import cos, hypot, radians, sin, sqrt
 BLOCK = "prm/hard-cases/cut-block.prm"
 H = 0.125
 # MORAINE_PLACES = 300 takes more of a sequence that is always the same.
-PLACES = int(os.environ.get("MORAINE_PLACES", 9))
+PLACES = int(os.environ.get("MORAINE_PLACES", 6))
 
 
 def at(angle, dx, dy, h=H):

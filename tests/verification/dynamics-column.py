@@ -1,8 +1,8 @@
 # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A pulse in a column against d'Alembert's solution. Every method and integrator
-is on all ranks once; what differs in the step, the load or the probes is on one."""
+"""A pulse in a column against d'Alembert's solution. What differs
+in the step, the load or the probes is on one rank."""
 
 from math import sqrt
 
@@ -35,14 +35,14 @@ def viscous_end(z, t):
 
 def compare(name, result, exact, balance=1e-10):
     rows = result.history()
+    errors = []
     for depth in (5, 10, 15):
         u = [-row[f"u_y at z{depth}"] for row in rows]
         reference = [exact(depth, row["t"]) for row in rows]
-        peak = max(map(abs, reference))
-        error = max(abs(a - b) for a, b in zip(u, reference)) / peak
-        number(f"{name}: displacement at {depth} m, largest error over the peak",
-               error, 2)
-        bound(f"{name}: at {depth} m", error, 2e-3)
+        errors.append(max(abs(a - b) for a, b in zip(u, reference))
+                      / max(map(abs, reference)))
+    number(f"{name}: displacement, largest error over the peak", max(errors), 2)
+    bound(f"{name}: displacement", max(errors), 2e-3)
     bound(f"{name}: energy out of balance",
           result.summary["energy"]["balance_error"], balance)
     for row in rows if balance == 1e-10 else []:
@@ -96,18 +96,19 @@ def compare_points(name, scene, limit, settings={}, on_ranks=None,
               for key, value in (("Kind", "nearest point"),
                                  ("Quantities", "displacement, stress, position"))}
     rows = run(scene, {**probes, **settings}, on_ranks=on_ranks).history()
+    errors = {}
     for depth in (5, 10, 15):
         z = LENGTH - rows[0][f"y at z{depth}"] + rows[0][f"u_y at z{depth}"]
-        for what, column, field, allowed in (
-                ("displacement", "u_y", exact_u, 2e-3),
-                ("stress", "sigma_yy", exact_stress, limit)):
+        for what, column, field in (("displacement", "u_y", exact_u),
+                                    ("stress", "sigma_yy", exact_stress)):
             exact = [field(z, row["t"]) for row in rows]
             error = max(abs(row[f"{column} at z{depth}"] + value)
                         for row, value in zip(rows, exact)) \
                 / max(map(abs, exact))
-            number(f"{name}: {what} at {depth} m, largest error over the peak",
-                   error, 2)
-            bound(f"{name}: {what} at {depth} m", error, allowed)
+            errors[what] = max(errors.get(what, 0), error)
+    for (what, error), allowed in zip(errors.items(), (2e-3, limit)):
+        number(f"{name}: {what}, largest error over the peak", error, 2)
+        bound(f"{name}: {what}", error, allowed)
 
 
 # Points that do not move through their cells, at the full load.
@@ -121,8 +122,6 @@ for name, scene in (("GIMP", gimp),
     if name == "FE":
         compare_points("fixed, FE, average acceleration", scene, 2.5e-2, average,
                        on_ranks=1)
-        compare_points("fixed, FE, average acceleration, half the step", scene,
-                       2e-2, {**average, "Time/Steps": 800}, on_ranks=1)
 compare_points("viscous, DM-GC", "prm/phuong-2023/column-viscous-dmgc.prm", 2e-2,
                on_ranks=1, exact_u=viscous_end, exact_stress=viscous_stress)
 # The forces of DM-GC are those of the points' own functions; with those of the

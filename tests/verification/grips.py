@@ -1,3 +1,4 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A bar is pulled into plastic flow by grid conditions on lines of nodes near its ends,

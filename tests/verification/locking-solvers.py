@@ -8,8 +8,6 @@ Schwarz method, which notices much less."""
 QUIET = {"Output/Points": "false", "Output/Mesh": "false",
          "Method/Volumetric strain": "cell mean"}
 SCENES = {
-    "Cook's membrane, FE": ("prm/hard-cases/cook-fe.prm", "panel",
-                            {"Mesh/Refinements": 6}),
     "Cook's membrane, GIMP": ("prm/hard-cases/cook-gimp.prm", "panel",
                               {"Mesh/Cell size": 0.375}),
     "block in 3D, FE": ("prm/hard-cases/punch.prm", "block",

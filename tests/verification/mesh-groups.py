@@ -1,4 +1,4 @@
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Physical groups of a mesh file as bodies: layers of slanted quadrilaterals with

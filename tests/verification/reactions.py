@@ -64,8 +64,7 @@ BASES = {"nodes": "subsection Grid conditions\n subsection base\n"
                     "  set Body = block\n  set Part = bottom\n"
                     "  set Enforcement = augmented Lagrangian\n end\nend"}
 
-for integrator, radius in (("Newmark", None), ("generalised-alpha", 1),
-                           ("generalised-alpha", 0.8), ("generalised-alpha", 0),
+for integrator, radius in (("Newmark", None), ("generalised-alpha", 0.8), ("generalised-alpha", 0),
                            ("Bathe", 0.8), ("energy-momentum", None)):
     for method, base in (("finite element", "nodes"), ("GIMP", "nodes"),
                          ("finite element", "surface"), ("GIMP", "surface")):

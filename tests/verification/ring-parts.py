@@ -1,4 +1,4 @@
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Boundaries that are parts of a body's rim do what the same surfaces do that

@@ -1,3 +1,4 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A condition whose motion starts at a speed: a body with this velocity follows

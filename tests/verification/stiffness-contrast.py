@@ -1,4 +1,4 @@
-# debug: no
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Two bodies in one mesh, one 1e9 times as stiff as the other: all linear

@@ -1,4 +1,4 @@
-# ranks: 1
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A traction on a surface that is longer than its body acts as far as the body goes:

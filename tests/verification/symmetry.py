@@ -1,3 +1,4 @@
+# ranks: 2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """What is symmetric stays so, to the last digits, whatever cells it cuts: nodes and

@@ -36,9 +36,6 @@ for refinements, mesh in ((1, "10x36"), (2, "20x72")):
         at_20[method] = torque(at[20])
         for angle in (20, 25, 35, 50, 80):
             number(f"{name}, {angle} degrees, tau", torque(at[angle]), 3)
-            number(f"{name}, {angle} degrees, f",
-                   at[angle]["force magnitude of hole"] / (2 * pi * HOLE * E),
-                   3)
         # Grid conditions hold both circles: what one gives, the other takes.
         bound(f"{name}, 80 degrees: moments balance",
               at[80]["moment of outer"] / at[80]["moment of hole"] + 1, 1e-6)

@@ -181,14 +181,18 @@ def compare(name, scene, settings, *groups):
     """Results in groups of units, within limits, with those in m, kPa and s."""
     reference, counts = results(scene, (1., 1., 1.), settings)
     text(name, f"{counts[2]} Newton iterations in {counts[0]} steps")
+    different = []
     for group, limit in groups:
+        worst = 0
         for units, factors in group.items():
             values, others = results(scene, factors, settings)
-            bound(f"  {units}", max(
+            worst = max(worst, *(
                 abs(values[key] - reference[key]) / scale_of(reference, key)
-                for key in reference), limit)
-            text("    steps, iterations, cells, points",
-                 "the same" if others == counts else f"NO: {others} {counts}")
+                for key in reference))
+            if others != counts:
+                different.append(f"NO: {units}, {others} {counts}")
+        bound(f"  {'; '.join(group)}", worst, limit)
+    text("  steps, iterations, cells, points", different or "the same")
     return reference
 
 
