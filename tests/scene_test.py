@@ -158,22 +158,23 @@ def _ended(words, n, refused):
 
 
 def prm(text):
-    """A scene of lines 'Section/Name/Key = value'; 'Section/Name/' opens a section
-    for the lines after it that are none of these, '/' closes all."""
+    """A scene of lines 'Section/Name/Key = value | Key = value'; 'Section/Name/' opens
+    a section for the lines after it that are none of these, '/' closes all."""
     opened, lines = [], []
     for line in text.strip("\n").split("\n"):
-        key, equals, value = line.partition(" =")
         if line.startswith(("set ", "subsection ", "#", " ")) or not (
-                equals or line.endswith("/")):
+                " =" in line or line.endswith("/")):
             lines.append(line)
             continue
-        *path, key = key.split("/") if line != "/" else [""]
+        path, _, key = line.partition(" =")[0].rpartition("/")
+        path = path.split("/") if path else []
         same = len(os.path.commonprefix([path, opened]))
         lines += ["end"] * (len(opened) - same)
         lines += [f"subsection {name}" for name in path[same:]]
         opened = path
         if key:
-            lines.append(f"set {key} ={value}")
+            lines += [f"set {one}" for one in
+                      line[line.index(key + " ="):].split(" | ")]
     return "\n".join(lines + ["end"] * len(opened)) + "\n"
 
 

@@ -65,29 +65,18 @@ show("the same, written at the end only", run(
 # A point without stress, all nodes of which are prescribed: their forces say nothing
 # of it. Above it is a body that moves freely, or that is prescribed as well.
 softening = scene_file("softening.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 3
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 3 | Cell size = 1
 Method/Method = finite element
-Materials/brittle/Model = von Mises
-Materials/brittle/Young modulus = 50000
-Materials/brittle/Poisson ratio = 0.3
+Materials/brittle/Model = von Mises | Young modulus = 50000 | Poisson ratio = 0.3
 Materials/brittle/Uniaxial yield stress = 0: 100, 0.001: 55, 0.01: 50
-Materials/elastic/Young modulus = 10000
-Materials/elastic/Poisson ratio = 0.3
-Bodies/low/Material = brittle
-Bodies/low/Lower corner = 0, 0
-Bodies/low/Upper corner = 1, 1
-Bodies/up/Material = elastic
-Bodies/up/Lower corner = 0, 1
-Bodies/up/Upper corner = 1, 3
+Materials/elastic/Young modulus = 10000 | Poisson ratio = 0.3
+Bodies/low/Material = brittle | Lower corner = 0, 0 | Upper corner = 1, 1
+Bodies/up/Material = elastic | Lower corner = 0, 1 | Upper corner = 1, 3
 Grid conditions/base/Side = bottom
-Grid conditions/middle/Lower corner = 0, 1
-Grid conditions/middle/Upper corner = 1, 1
+Grid conditions/middle/Lower corner = 0, 1 | Upper corner = 1, 1
 Grid conditions/middle/Displacement = 0.02*t; 0
 Strength reduction/Factor = 0.3
-Time/Steps = 2
-Time/Smallest step = 0.9
+Time/Steps = 2 | Smallest step = 0.9
 """)
 for method in ("finite element", "GIMP"):
     for up_to in (1, 3):
@@ -122,21 +111,13 @@ no_results("GIMP with one point in a cell, consistent mass", run(
 
 # Rough plates squeeze quadratic elements until one beside a corner has folded.
 squeezed = scene_file("squeezed.prm", """
-Mesh/Lower corner = -0.5, -0.25
-Mesh/Upper corner = 2.5, 1.25
-Mesh/Cell size = 0.0625
-Method/Method = finite element
-Method/Strain = finite
-Method/Degree = 2
-Materials/metal/Model = von Mises
-Materials/metal/Young modulus = 1000
-Materials/metal/Poisson ratio = 0.3
+Mesh/Lower corner = -0.5, -0.25 | Upper corner = 2.5, 1.25 | Cell size = 0.0625
+Method/Method = finite element | Strain = finite | Degree = 2
+Materials/metal/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/metal/Shear yield stress = 10
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 2, 1
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 1
 Boundaries/low/Points = -0.4 0; 2.4 0
-Boundaries/up/Points = 2.4 1; -0.4 1
-Boundaries/up/Translation = 0; -0.4*t
+Boundaries/up/Points = 2.4 1; -0.4 1 | Translation = 0; -0.4*t
 Time/Steps = 20
 """)
 result = run(squeezed, expect=1, on_ranks=1)
@@ -148,22 +129,13 @@ text("squeezed between plates: the place that is named is",
 
 # A load on a body that a later stage leaves out, and nothing beside it is left.
 staged = scene_file("staged.prm", """
-Mesh/Lower corner = -1, 0
-Mesh/Upper corner = 4, 4
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -1, 0 | Upper corner = 4, 4 | Cell size = 0.25
 Method/Method = GIMP
-Materials/clay/Young modulus = 1e5
-Materials/clay/Poisson ratio = 0.3
-Materials/clay/Density = 1
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 3, 1
-Bodies/fill/Lower corner = 0, 1
-Bodies/fill/Upper corner = 3, 2
+Materials/clay/Young modulus = 1e5 | Poisson ratio = 0.3 | Density = 1
+Bodies/ground/Lower corner = 0, 0 | Upper corner = 3, 1
+Bodies/fill/Lower corner = 0, 1 | Upper corner = 3, 2
 Grid conditions/base/Side = bottom
-Loads/surcharge/Type = surface traction
-Loads/surcharge/Body = fill
-Loads/surcharge/Part = top
-Loads/surcharge/Value = 0; -10
+Loads/surcharge/Type = surface traction | Body = fill | Part = top | Value = 0; -10
 Stages/filled/Bodies = ground, fill
 Stages/filled/Time/End time = 1
 Stages/dug/Bodies = ground

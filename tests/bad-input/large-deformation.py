@@ -54,22 +54,13 @@ refused("a mesh that moves off a held side", stretch, {
 # Sides and conditions that move alike, in stages: what holds a side in one of
 # them need not in another, and the second begins with a mesh that is longer.
 stages = scene_file("stages.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 2, 2
-Mesh/Cells = 2, 2
-Method/Method = material point
-Method/Strain = finite
-Materials/block/Young modulus = 1000
-Materials/block/Poisson ratio = 0
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 2, 2
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/base/Side = bottom
-Grid conditions/base/Components = y
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
-Grid conditions/right/Displacement = 0.8*t; 0
+Mesh/Lower corner = 0, 0 | Upper corner = 2, 2 | Cells = 2, 2
+Method/Method = material point | Strain = finite
+Materials/block/Young modulus = 1000 | Poisson ratio = 0
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 2
+Grid conditions/left/Side = left | Components = x
+Grid conditions/base/Side = bottom | Components = y
+Grid conditions/right/Side = right | Components = x | Displacement = 0.8*t; 0
 Mesh motion/Stretch between = left, right
 Stages/first/Time/End time = 1
 Stages/second/Time/End time = 2

@@ -4,22 +4,14 @@
 no numbers of base two: none of its dashpots is lost to round-off."""
 
 SCENE = prm("""
-Mesh/Lower corner = {first}, 0
-Mesh/Upper corner = {last}, 1
-Mesh/Cells = {cells}, 10
+Mesh/Lower corner = {first}, 0 | Upper corner = {last}, 1 | Cells = {cells}, 10
 Method/Method = finite element
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0.3
-Materials/rock/Density = 1
-Bodies/block/Lower corner = {first}, 0
-Bodies/block/Upper corner = {last}, 1
-Grid conditions/right/Side = right
-Grid conditions/right/Constraint = absorbing
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0.3 | Density = 1
+Bodies/block/Lower corner = {first}, 0 | Upper corner = {last}, 1
+Grid conditions/right/Side = right | Constraint = absorbing
 Grid conditions/right/Incident velocity = -0.01; 0
 {region}
-Time/Integrator = Newmark
-Time/End time = 0.02
-Time/Steps = 8
+Time/Integrator = Newmark | End time = 0.02 | Steps = 8
 Output/Write = end
 """)
 for first, last, cells in ((0, 0.6, 4), (0.2, 1.7, 5), (0, 0.9, 3), (-0.3, 0.4, 7)):

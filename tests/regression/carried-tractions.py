@@ -6,30 +6,19 @@ corner, of another body further along, nor of a stage before one in which the
 boundary did not act."""
 
 SOLID = prm("""
-Materials/elastic/Young modulus = 20
-Materials/elastic/Poisson ratio = 0.3
-Materials/elastic/Density = 1
-Output/Write = end
-Output/Mesh = false
+Materials/elastic/Young modulus = 20 | Poisson ratio = 0.3 | Density = 1
+Output/Write = end | Mesh = false
 """)
 
 # A block spreads under its weight until walls stop it: the box in one piece or
 # in three, of which the ledge is for the right one to touch something.
 SPREAD = SOLID + prm("""
-Mesh/Lower corner = -0.37, -0.33
-Mesh/Upper corner = 2.03, 2.67
-Mesh/Cell size = 0.2
-Method/Method = GIMP
-Method/Strain = finite
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 1, 2
-Bodies/ledge/Lower corner = 1.1, 2.35
-Bodies/ledge/Upper corner = 1.33, 2.6
-Grid conditions/shelf/Lower corner = 0, 2.2
-Grid conditions/shelf/Upper corner = 3, 3
-Loads/weight/Type = gravity
-Loads/weight/Bodies = block
-Loads/weight/Value = 0; -12*t
+Mesh/Lower corner = -0.37, -0.33 | Upper corner = 2.03, 2.67 | Cell size = 0.2
+Method/Method = GIMP | Strain = finite
+Bodies/block/Lower corner = 0, 0 | Upper corner = 1, 2
+Bodies/ledge/Lower corner = 1.1, 2.35 | Upper corner = 1.33, 2.6
+Grid conditions/shelf/Lower corner = 0, 2.2 | Upper corner = 3, 3
+Loads/weight/Type = gravity | Bodies = block | Value = 0; -12*t
 Time/Steps = 20
 Probes/foot/Location = 0.95, 0.05
 """)
@@ -37,8 +26,7 @@ Probes/foot/Location = 0.95, 0.05
 
 def roller(name, points):
     return prm(f"""
-Boundaries/{name}/Points = {points}
-Boundaries/{name}/Constraint = roller
+Boundaries/{name}/Points = {points} | Constraint = roller
 """)
 
 
@@ -60,28 +48,15 @@ bound("  feet differ by", abs(whole.history()[-1]["u_x at foot"]
 
 # The floor under a light block that falls holds nothing of the heavy one beside.
 LAND = SOLID + roller("floor", "-0.5 0; 4.5 0") + prm("""
-Mesh/Lower corner = -0.5, -0.3
-Mesh/Upper corner = 4.5, 1.7
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -0.5, -0.3 | Upper corner = 4.5, 1.7 | Cell size = 0.25
 Method/Method = GIMP
-Materials/heavy/Young modulus = 20
-Materials/heavy/Poisson ratio = 0.3
-Materials/heavy/Density = {density}
-Bodies/left/Material = heavy
-Bodies/left/Lower corner = 0, 0
-Bodies/left/Upper corner = 1.5, 1
-Bodies/right/Material = elastic
-Bodies/right/Lower corner = 3, 0.3
-Bodies/right/Upper corner = 4, 1.3
+Materials/heavy/Young modulus = 20 | Poisson ratio = 0.3 | Density = {density}
+Bodies/left/Material = heavy | Lower corner = 0, 0 | Upper corner = 1.5, 1
+Bodies/right/Material = elastic | Lower corner = 3, 0.3 | Upper corner = 4, 1.3
 Bodies/right/Initial velocity = 0; -0.3
-Loads/weight/Type = gravity
-Loads/weight/Bodies = left
-Loads/weight/Value = 0; -0.1
-Probes/light/Location = 3.5, 1.2
-Probes/light/Quantities = velocity
-Time/Integrator = Newmark
-Time/End time = 2
-Time/Steps = 60
+Loads/weight/Type = gravity | Bodies = left | Value = 0; -0.1
+Probes/light/Location = 3.5, 1.2 | Quantities = velocity
+Time/Integrator = Newmark | End time = 2 | Steps = 60
 """)
 light, heavy = (run(written(f"land-{d}", LAND.replace("{density}", d))).history()
                 for d in ("1", "50"))
@@ -91,24 +66,17 @@ bound("  beside a heavy one it differs by",
 
 # A boundary that pauses, and one in its place that never acted.
 PAUSE = SOLID + prm("""
-Mesh/Lower corner = -0.3, -0.3
-Mesh/Upper corner = 2.2, 2.7
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -0.3, -0.3 | Upper corner = 2.2, 2.7 | Cell size = 0.25
 Method/Method = GIMP
-Bodies/block/Lower corner = 0, 0.1
-Bodies/block/Upper corner = 1.5, 2
+Bodies/block/Lower corner = 0, 0.1 | Upper corner = 1.5, 2
 Boundaries/A/Points = 0 0.1; 1.5 0.1
 Boundaries/B/Points = 0 0.1; 1.5 0.1
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -0.2
+Loads/weight/Type = gravity | Value = 0; -0.2
 Stages/rests/Boundaries = A
 Stages/falls/Boundaries = none
-Stages/falls/Time/Integrator = Newmark
-Stages/falls/Time/End time = 1.01
+Stages/falls/Time/Integrator = Newmark | End time = 1.01
 Stages/held/Boundaries = {last}
-Stages/held/Time/Integrator = Newmark
-Stages/held/Time/End time = 1.05
-Stages/held/Time/Steps = 8
+Stages/held/Time/Integrator = Newmark | End time = 1.05 | Steps = 8
 """)
 for enforcement in "symmetric Nitsche", "penalty", "augmented Lagrangian":
     again, new = (

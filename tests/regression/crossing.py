@@ -9,22 +9,16 @@ domains carry the forces, or where a body without stress turns."""
 from math import pi
 
 scene = scene_file("beam.prm", """
-Mesh/Lower corner = -1, -4
-Mesh/Upper corner = 9, 9
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -1, -4 | Upper corner = 9, 9 | Cell size = 0.25
 Method/Strain = finite
-Materials/steel/Young modulus = 1000
-Materials/steel/Poisson ratio = 0.3
-Bodies/beam/Lower corner = 0, 0
-Bodies/beam/Upper corner = 8, 1
+Materials/steel/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/beam/Lower corner = 0, 0 | Upper corner = 8, 1
 Boundaries/left/Points = 0 1; 0 0
-Boundaries/right/Points = 8 0; 8 1
-Boundaries/right/Rotation angle = 90 * t
+Boundaries/right/Points = 8 0; 8 1 | Rotation angle = 90 * t
 Boundaries/right/Rotation centre = 8, 0.5
 Boundaries/right/Translation = if(t > 0, 8 * sin(pi/2 * t) / (pi/2 * t) - 8, 0); if(t > 0, 8 * (1 - cos(pi/2 * t)) / (pi/2 * t), 0)
 Time/Steps = 18
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 """)
 TOLD = "leave equilibrium"
 exact = 1000 / (1 - 0.3**2) / 12 * (pi / 2) / 8  # E I / (1 - nu^2) / radius

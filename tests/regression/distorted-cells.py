@@ -34,11 +34,8 @@ BOX = {"Mesh/Lower corner": "-0.5, -0.5", "Mesh/Upper corner": "6.5, 5.5",
 
 def scene_of(name, words):
     scene = scene_file(f"{name}.prm", f"""
-Materials/steel/Young modulus = 1e4
-Materials/steel/Poisson ratio = 0.3
-Output/Write = end
-Output/Points = false
-Output/Mesh = false
+Materials/steel/Young modulus = 1e4 | Poisson ratio = 0.3
+Output/Write = end | Points = false | Mesh = false
 /
 {words}
 """)
@@ -48,15 +45,10 @@ Output/Mesh = false
 def beam(angle):
     c, s = cos(radians(angle)), sin(radians(angle))
     scene = scene_of(f"beam-{angle}", prm(f"""
-Bodies/beam/Lower corner = 0, 0
-Bodies/beam/Upper corner = 5, 1
-Bodies/beam/Rotation angle = {angle}
+Bodies/beam/Lower corner = 0, 0 | Upper corner = 5, 1 | Rotation angle = {angle}
 Bodies/beam/Translation = 0.5, 0.2
-Boundaries/left/Body = beam
-Boundaries/left/Part = left
-Loads/shear/Type = surface traction
-Loads/shear/Body = beam
-Loads/shear/Part = right
+Boundaries/left/Body = beam | Part = left
+Loads/shear/Type = surface traction | Body = beam | Part = right
 Loads/shear/Value = {-s!r}; {c!r}
 Probes/tip/Location = {0.5 + 5 * c - 0.5 * s!r}, {0.2 + 5 * s + 0.5 * c!r}
 Probes/tip/Kind = interpolated
@@ -89,16 +81,11 @@ for name, angle, settings in (
     bound(f"{name}: tip over that of equal cells - 1", tip / of_box - 1, 0.05)
 
 block = scene_of("block", prm("""
-Method/Method = CPDI2
-Method/Strain = finite
-Bodies/block/Lower corner = 0.3, 0.2
-Bodies/block/Upper corner = 3.3, 0.65
-Boundaries/left/Points = 0.3 1.05; 0.3 -0.2
-Boundaries/left/Constraint = roller
-Boundaries/base/Points = -0.1 0.2; 3.7 0.2
-Boundaries/base/Constraint = roller
-Boundaries/plate/Points = 3.7 0.65; -0.1 0.65
-Boundaries/plate/Constraint = roller
+Method/Method = CPDI2 | Strain = finite
+Bodies/block/Lower corner = 0.3, 0.2 | Upper corner = 3.3, 0.65
+Boundaries/left/Points = 0.3 1.05; 0.3 -0.2 | Constraint = roller
+Boundaries/base/Points = -0.1 0.2; 3.7 0.2 | Constraint = roller
+Boundaries/plate/Points = 3.7 0.65; -0.1 0.65 | Constraint = roller
 Boundaries/plate/Translation = 0; -0.001*t
 """))
 force = run(block, DISTORTED).history()[-1]["reaction_y of plate"]

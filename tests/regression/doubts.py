@@ -73,22 +73,12 @@ text("footing above the ground", told(idle))
 # Small strain where it is none: force over area of the start is no stress where
 # points move.
 PLATE = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 3, 1.5
-Mesh/Cell size = 0.25
-Materials/steel/Young modulus = 1000
-Materials/steel/Poisson ratio = 0.3
-Bodies/plate/Shape = box
-Bodies/plate/Lower corner = 0, 0
-Bodies/plate/Upper corner = 2, 1
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/base/Side = bottom
-Grid conditions/base/Components = y
-Loads/pull/Type = surface traction
-Loads/pull/Body = plate
-Loads/pull/Part = right
-Loads/pull/Value = 100 * t; 0
+Mesh/Lower corner = 0, 0 | Upper corner = 3, 1.5 | Cell size = 0.25
+Materials/steel/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/plate/Shape = box | Lower corner = 0, 0 | Upper corner = 2, 1
+Grid conditions/left/Side = left | Components = x
+Grid conditions/base/Side = bottom | Components = y
+Loads/pull/Type = surface traction | Body = plate | Part = right | Value = 100 * t; 0
 Time/Steps = 4
 """)
 plate = folder / "plate.prm"
@@ -136,26 +126,14 @@ text("plate moved, then held: warnings", told(result))
 # A block that has fallen on a floor and rests: what stress is left in it counts,
 # though motion once had much more energy.
 landed = scene_file("landed.prm", """
-Mesh/Lower corner = -1, 0
-Mesh/Upper corner = 2, 3
-Mesh/Cell size = 0.25
-Method/Method = GIMP
-Method/Strain = finite
-Materials/block/Young modulus = 1e7
-Materials/block/Poisson ratio = 0.3
-Materials/block/Density = 2
-Bodies/block/Lower corner = 0, 1
-Bodies/block/Upper corner = 1, 2
-Bodies/block/Stiffness damping = 0.002
-Grid conditions/floor/Side = bottom
-Grid conditions/floor/Components = y
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
-Time/Integrator = Newmark
-Time/End time = 3
-Time/Steps = 1000
-Output/Points = false
-Output/Mesh = false
+Mesh/Lower corner = -1, 0 | Upper corner = 2, 3 | Cell size = 0.25
+Method/Method = GIMP | Strain = finite
+Materials/block/Young modulus = 1e7 | Poisson ratio = 0.3 | Density = 2
+Bodies/block/Lower corner = 0, 1 | Upper corner = 1, 2 | Stiffness damping = 0.002
+Grid conditions/floor/Side = bottom | Components = y
+Loads/weight/Type = gravity | Value = 0; -10
+Time/Integrator = Newmark | End time = 3 | Steps = 1000
+Output/Points = false | Mesh = false
 """)
 result = run(landed, on_ranks=1)
 text("landed", told(result) or "nothing")

@@ -58,29 +58,15 @@ for name, material in (("elastic", {}),
 # What was no cure for steps that Newton's method could not end is one for a grain
 # that comes later.
 later = scene_file("later.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 6, 12
-Mesh/Cell size = 1
-Method/Method = material point
-Method/Strain = finite
-Materials/soft/Young modulus = 100
-Materials/soft/Poisson ratio = 0
-Materials/soft/Density = 1
-Bodies/column/Lower corner = 0, 0
-Bodies/column/Upper corner = 1, 10
-Bodies/grain/Lower corner = 4.1, 0.1
-Bodies/grain/Upper corner = 4.9, 0.9
-Bodies/grain/Point grid = 1, 1
-Grid conditions/sides/Lower corner = 0, 0
-Grid conditions/sides/Upper corner = 1, 12
-Grid conditions/sides/Components = x
+Mesh/Lower corner = 0, 0 | Upper corner = 6, 12 | Cell size = 1
+Method/Method = material point | Strain = finite
+Materials/soft/Young modulus = 100 | Poisson ratio = 0 | Density = 1
+Bodies/column/Lower corner = 0, 0 | Upper corner = 1, 10
+Bodies/grain/Lower corner = 4.1, 0.1 | Upper corner = 4.9, 0.9 | Point grid = 1, 1
+Grid conditions/sides/Lower corner = 0, 0 | Upper corner = 1, 12 | Components = x
 Grid conditions/bottom/Side = bottom
-Loads/push/Type = surface traction
-Loads/push/Points = 1 10; 0 10
-Loads/push/Value = 0; -60*min(t, 0.12)
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -1
-Loads/weight/Bodies = grain
+Loads/push/Type = surface traction | Points = 1 10; 0 10 | Value = 0; -60*min(t, 0.12)
+Loads/weight/Type = gravity | Value = 0; -1 | Bodies = grain
 Solver/Maximum iterations = 3
 Stages/one/Bodies = column
 Stages/two/Bodies = column, grain

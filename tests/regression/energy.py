@@ -49,31 +49,18 @@ for name, factor, aggregate in (
           / total[0], 1e-3)
 
 COLUMN = prm("""
-Mesh/Lower corner = {0}, {0}
-Mesh/Upper corner = {1}, {1}
-Mesh/Cell size = 0.5
-Method/Method = finite element
-Method/Degree = {degree}
-Materials/soil/Young modulus = 20000
-Materials/soil/Poisson ratio = 0.25
-Materials/soil/Density = 2
-Bodies/column/Lower corner = 0, 0
-Bodies/column/Upper corner = 1, 4
-Bodies/column/Rotation angle = {angle}
-Bodies/column/Rotation centre = 0, 0
-Bodies/column/Initial velocity = {velocity}
+Mesh/Lower corner = {0}, {0} | Upper corner = {1}, {1} | Cell size = 0.5
+Method/Method = finite element | Degree = {degree}
+Materials/soil/Young modulus = 20000 | Poisson ratio = 0.25 | Density = 2
+Bodies/column/Lower corner = 0, 0 | Upper corner = 1, 4 | Rotation angle = {angle}
+Bodies/column/Rotation centre = 0, 0 | Initial velocity = {velocity}
 Boundaries/
 {boundaries}
-Time/Integrator = Newmark
-Time/End time = 4
-Time/Steps = {steps}
-Output/Points = false
-Output/Mesh = false
+Time/Integrator = Newmark | End time = 4 | Steps = {steps}
+Output/Points = false | Mesh = false
 """)
 PART = prm("""
-{part}/Body = column
-{part}/Part = {part}
-{part}/Constraint = {constraint}
+{part}/Body = column | Part = {part} | Constraint = {constraint}
 """)
 column = folder / "column.prm"
 for offset, angle, degree, steps in ((0, 0, 1, 1000), (0.13, 17, 1, 500),
@@ -92,22 +79,13 @@ for offset, angle, degree, steps in ((0, 0, 1, 1000), (0.13, 17, 1, 500),
 
 # A base that moves by a condition of nodes gives what it gives, in coarse steps too.
 moving_base = scene_file("moving-base.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 2, 0.5
-Mesh/Cell size = 0.25
+Mesh/Lower corner = 0, 0 | Upper corner = 2, 0.5 | Cell size = 0.25
 Method/Method = finite element
-Materials/bar/Young modulus = 1
-Materials/bar/Poisson ratio = 0
-Materials/bar/Density = 1
-Bodies/bar/Lower corner = 0, 0
-Bodies/bar/Upper corner = 2, 0.5
-Grid conditions/base/Side = left
-Grid conditions/base/Displacement = 0.001*sin(0.5*t)*(1-exp(-0.1*t)); 0
-Time/Integrator = Newmark
-Time/End time = 60
-Time/Steps = 400
-Output/Points = false
-Output/Mesh = false
+Materials/bar/Young modulus = 1 | Poisson ratio = 0 | Density = 1
+Bodies/bar/Lower corner = 0, 0 | Upper corner = 2, 0.5
+Grid conditions/base/Side = left | Displacement = 0.001*sin(0.5*t)*(1-exp(-0.1*t)); 0
+Time/Integrator = Newmark | End time = 60 | Steps = 400
+Output/Points = false | Mesh = false
 """)
 result = run(moving_base, on_ranks=1)
 text("moving base: energy of boundaries", [
@@ -119,29 +97,15 @@ bound("moving base: out of balance, of the largest", energy["balance_error"], 0.
 shaken = scene_file("shaken.prm", """
 Mesh/Cell size = 0.5
 Method/Method = finite element
-Materials/soil/Young modulus = 2.6
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 1
-Bodies/column/Lower corner = 0, 0
-Bodies/column/Upper corner = 2, 5
-Bodies/column/Damping ratio = 0.1
+Materials/soil/Young modulus = 2.6 | Poisson ratio = 0.3 | Density = 1
+Bodies/column/Lower corner = 0, 0 | Upper corner = 2, 5 | Damping ratio = 0.1
 Bodies/column/Damping frequencies = 0.0125, 0.15
-Boundaries/base/Body = column
-Boundaries/base/Part = bottom
-Boundaries/base/Translation = 0.01*sin(0.15708*t); 0
-Boundaries/left/Body = column
-Boundaries/left/Part = left
-Boundaries/left/Constraint = components
-Boundaries/left/Components = y
-Boundaries/right/Body = column
-Boundaries/right/Part = right
-Boundaries/right/Constraint = components
+Boundaries/base/Body = column | Part = bottom | Translation = 0.01*sin(0.15708*t); 0
+Boundaries/left/Body = column | Part = left | Constraint = components | Components = y
+Boundaries/right/Body = column | Part = right | Constraint = components
 Boundaries/right/Components = y
-Time/Integrator = Newmark
-Time/End time = 240
-Time/Steps = 240
-Output/Points = false
-Output/Mesh = false
+Time/Integrator = Newmark | End time = 240 | Steps = 240
+Output/Points = false | Mesh = false
 """)
 for lower in (0, -0.1):
     text(f"shaken column, mesh from {lower}: told", "energy-growth" in run(
@@ -150,23 +114,14 @@ for lower in (0, -0.1):
 
 # With forces in the middle of a step, walls are held by what does no work there.
 TURN = prm("""
-Mesh/Lower corner = -0.3, -0.3
-Mesh/Upper corner = 2.2, 2.7
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -0.3, -0.3 | Upper corner = 2.2, 2.7 | Cell size = 0.25
 Method/Method = {method}
-Materials/elastic/Young modulus = 100
-Materials/elastic/Poisson ratio = 0.3
-Materials/elastic/Density = 1
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 1.5, 2
+Materials/elastic/Young modulus = 100 | Poisson ratio = 0.3 | Density = 1
+Bodies/block/Lower corner = 0, 0 | Upper corner = 1.5, 2
 Bodies/block/Initial velocity = 0.02*x*y; -0.01*x*y
-Boundaries/side/Points = 0 2; 0 0
-Boundaries/side/Constraint = roller
-Boundaries/base/Points = 0 0; 1.5 0
-Boundaries/base/Constraint = roller
-Time/Integrator = energy-momentum
-Time/End time = 2
-Time/Steps = 100
+Boundaries/side/Points = 0 2; 0 0 | Constraint = roller
+Boundaries/base/Points = 0 0; 1.5 0 | Constraint = roller
+Time/Integrator = energy-momentum | End time = 2 | Steps = 100
 Output/Write = end
 """)
 for method in "finite element", "GIMP":

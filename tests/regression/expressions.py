@@ -4,18 +4,12 @@
 an expression is multiplied with, nor on where the scene lies."""
 
 LOADED = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 10, 4
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 10, 4 | Cell size = 1
 Method/Method = finite element
-Materials/soil/Young modulus = 1e4
-Materials/soil/Poisson ratio = 0.3
-Bodies/soil/Shape = expression
-Bodies/soil/Expression = {scale} * (4.5 - abs(x - 5))
+Materials/soil/Young modulus = 1e4 | Poisson ratio = 0.3
+Bodies/soil/Shape = expression | Expression = {scale} * (4.5 - abs(x - 5))
 Grid conditions/base/Side = bottom
-Loads/crest/Type = surface traction
-Loads/crest/Points = 10 3.5; 0 3.5
-Loads/crest/Value = 0; -2
+Loads/crest/Type = surface traction | Points = 10 3.5; 0 3.5 | Value = 0; -2
 """)
 for scale in 1, 1e-3, 1e-6, 1e4:
     (folder / "loaded.prm").write_text(LOADED.format(scale=scale))
@@ -25,23 +19,16 @@ for scale in 1, 1e-3, 1e-6, 1e4:
           abs(force / 18 - 1), 1e-9)
 
 ROLLER = prm("""
-Mesh/Lower corner = {x}, {y}
-Mesh/Upper corner = {x} + 4, {y} + 3
-Mesh/Cell size = 0.25
+Mesh/Lower corner = {x}, {y} | Upper corner = {x} + 4, {y} + 3 | Cell size = 0.25
 Method/Method = material point
 Method/Strain = finite
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 1
+Materials/soil/Young modulus = 1000 | Poisson ratio = 0.3 | Density = 1
 Bodies/soil/Shape = expression
 Bodies/soil/Expression = min(y - {y} - 0.6 - 0.2*sin(2*(x - {x})), {y} + 2.6 - y)
 Boundaries/bed/Surface = expression
-Boundaries/bed/Expression = y - {y} - 0.6 - 0.2*sin(2*(x - {x}))
-Boundaries/bed/Constraint = roller
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Boundaries/bed/Expression = y - {y} - 0.6 - 0.2*sin(2*(x - {x})) | Constraint = roller
+Grid conditions/left/Side = left | Components = x
+Loads/weight/Type = gravity | Value = 0; -10
 Probes/toe/Location = {x} + 3.9, {y} + 1.2
 Time/Steps = 4
 """)

@@ -14,25 +14,15 @@ for scene in ("impact", "impact-roller"):
 
 # A block of full cells is pulled until it flows.
 plateau = scene_file("plateau.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 6
-Mesh/Cell size = 0.5
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 6 | Cell size = 0.5
 Method/Method = GIMP
-Materials/clay/Model = von Mises
-Materials/clay/Young modulus = 1000
-Materials/clay/Poisson ratio = 0.3
+Materials/clay/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/clay/Uniaxial yield stress = 1
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 2, 4
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = y
-Loads/pull/Type = surface traction
-Loads/pull/Points = 2 4; 0 4
-Loads/pull/Value = 0; 1.3*t
-Time/End time = 1
-Time/Steps = 10
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 4
+Grid conditions/left/Side = left | Components = x
+Grid conditions/bottom/Side = bottom | Components = y
+Loads/pull/Type = surface traction | Points = 2 4; 0 4 | Value = 0; 1.3*t
+Time/End time = 1 | Steps = 10
 Output/Write = end
 """)
 for strain in ("small", "finite"):

@@ -3,31 +3,20 @@
 """Scenes in map coordinates: what lies on faces of cells is found as it is at the origin."""
 
 BLOCK = prm("""
-Constants/x = 0
-Constants/y = 0
-Materials/block/Young modulus = 1000
-Materials/block/Poisson ratio = 0.3
+Constants/x = 0 | y = 0
+Materials/block/Young modulus = 1000 | Poisson ratio = 0.3
 Output/Write = end
 """)
 
 stretch = scene_file("stretch.prm", BLOCK, """
-Mesh/Lower corner = $x, $y
-Mesh/Upper corner = $x + 10.3, $y + 10.3
-Mesh/Cells = 10, 10
-Method/Method = GIMP
-Method/Strain = finite
-Bodies/block/Lower corner = $x, $y
-Bodies/block/Upper corner = $x + 10.3, $y + 10.3
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = y
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
-Grid conditions/right/Displacement = 0.5*t; 0
+Mesh/Lower corner = $x, $y | Upper corner = $x + 10.3, $y + 10.3 | Cells = 10, 10
+Method/Method = GIMP | Strain = finite
+Bodies/block/Lower corner = $x, $y | Upper corner = $x + 10.3, $y + 10.3
+Grid conditions/left/Side = left | Components = x
+Grid conditions/bottom/Side = bottom | Components = y
+Grid conditions/right/Side = right | Components = x | Displacement = 0.5*t; 0
 Mesh motion/Stretch between = left, right
-Time/End time = 4
-Time/Steps = 8
+Time/End time = 4 | Steps = 8
 """)
 forces = [run(stretch, {"Constants/x": x, "Constants/y": y}
               ).history()[-1]["reaction_x of right"]
@@ -37,17 +26,11 @@ bound("  elsewhere it differs by", max(abs(force / forces[0] - 1)
                                        for force in forces), 1e-6)
 
 turns = scene_file("turns.prm", BLOCK, """
-Mesh/Lower corner = $x, $y
-Mesh/Upper corner = $x + 3, $y + 3
-Mesh/Cell size = 0.5
+Mesh/Lower corner = $x, $y | Upper corner = $x + 3, $y + 3 | Cell size = 0.5
 Method/Method = finite element
-Bodies/block/Lower corner = $x, $y
-Bodies/block/Upper corner = $x + 2, $y + 2
-Grid conditions/corner/Lower corner = $x, $y
-Grid conditions/corner/Upper corner = $x + 0.1, $y + 0.1
-Loads/push/Type = point force
-Loads/push/Location = $x + 2, $y + 2
-Loads/push/Value = -t; 0
+Bodies/block/Lower corner = $x, $y | Upper corner = $x + 2, $y + 2
+Grid conditions/corner/Lower corner = $x, $y | Upper corner = $x + 0.1, $y + 0.1
+Loads/push/Type = point force | Location = $x + 2, $y + 2 | Value = -t; 0
 """)
 for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
     refused = run(turns, {"Constants/x": x, "Constants/y": y}, expect=2)
@@ -58,31 +41,17 @@ for x, y in ((0, 0), (1e3, 1e3), (1e5, 1e5), (5e5, 4.6e6), (1e7, 1e7)):
 FAR = ((450000.3, 5300000.7), (3500123.1, 5812345.9))
 
 on_faces = scene_file("on-faces.prm", BLOCK, """
-Mesh/Lower corner = $x, $y
-Mesh/Upper corner = $x + 6, $y + 4.2
-Mesh/Cells = 20, 14
-Method/Method = finite element
-Method/Strain = small
-Bodies/block/Lower corner = $x + 0.3, $y + 0.3
-Bodies/block/Upper corner = $x + 5.7, $y + 3.3
-Boundaries/base/Body = block
-Boundaries/base/Part = bottom
-Boundaries/left/Body = block
-Boundaries/left/Part = left
-Boundaries/left/Constraint = roller
-Loads/push/Type = surface traction
-Loads/push/Body = block
-Loads/push/Part = right
-Loads/push/Value = -2; 1
+Mesh/Lower corner = $x, $y | Upper corner = $x + 6, $y + 4.2 | Cells = 20, 14
+Method/Method = finite element | Strain = small
+Bodies/block/Lower corner = $x + 0.3, $y + 0.3 | Upper corner = $x + 5.7, $y + 3.3
+Boundaries/base/Body = block | Part = bottom
+Boundaries/left/Body = block | Part = left | Constraint = roller
+Loads/push/Type = surface traction | Body = block | Part = right | Value = -2; 1
 Loads/push/Curve = t
-Loads/press/Type = surface traction
-Loads/press/Body = block
-Loads/press/Part = top
-Loads/press/Value = 0; -5
+Loads/press/Type = surface traction | Body = block | Part = top | Value = 0; -5
 Loads/press/Curve = t
 Time/Steps = 4
-Probes/corner/Location = $x + 5.7, $y + 3.3
-Probes/corner/Kind = interpolated
+Probes/corner/Location = $x + 5.7, $y + 3.3 | Kind = interpolated
 Probes/node/Location = $x + 3, $y + 1.5
 """)
 
@@ -104,20 +73,12 @@ for x, y in FAR:
               for far, near in zip(answers(x, y), at_origin)), 1e-4)
 
 held = scene_file("held.prm", BLOCK, """
-Mesh/Lower corner = $x, $y
-Mesh/Upper corner = $x + 3.3, $y + 1.5
-Mesh/Cells = 11, 5
+Mesh/Lower corner = $x, $y | Upper corner = $x + 3.3, $y + 1.5 | Cells = 11, 5
 Method/Method = finite element
-Bodies/block/Lower corner = $x, $y
-Bodies/block/Upper corner = $x + 3.3, $y + 1.5
-Grid conditions/foot/Lower corner = $x + 1.2, $y
-Grid conditions/foot/Upper corner = $x + 2.1, $y
-Loads/weight/Type = surface traction
-Loads/weight/Body = block
-Loads/weight/Part = top
-Loads/weight/Value = 1; -1
-Probes/top/Location = $x + 3.3, $y + 1.5
-Probes/top/Kind = interpolated
+Bodies/block/Lower corner = $x, $y | Upper corner = $x + 3.3, $y + 1.5
+Grid conditions/foot/Lower corner = $x + 1.2, $y | Upper corner = $x + 2.1, $y
+Loads/weight/Type = surface traction | Body = block | Part = top | Value = 1; -1
+Probes/top/Location = $x + 3.3, $y + 1.5 | Kind = interpolated
 """)
 moved = [run(held, {"Constants/x": x, "Constants/y": y}
              ).history()[-1]["u_y at top"] for x, y in ((0, 0), *FAR)]

@@ -7,33 +7,16 @@ block stays at its plates. One step that is computed wrong is not cut into other
 
 scene = scene_file("scene.prm", """
 Dimension = 3
-Mesh/Lower corner = -0.3, -0.3, -0.3
-Mesh/Upper corner = 2.7, 2.7, 2.7
-Mesh/Cell size = 0.5
-Method/Method = finite element
-Method/Strain = finite
-Method/Degree = 2
-Materials/gel/Model = neo-Hookean
-Materials/gel/Young modulus = 100
-Materials/gel/Poisson ratio = 0.3
-Bodies/block/Lower corner = 0, 0, 0
-Bodies/block/Upper corner = 2, 1, 1
-Boundaries/top/Body = block
-Boundaries/top/Part = top
-Boundaries/top/Translation = 0.4*t; 0; 0
-Boundaries/bottom/Body = block
-Boundaries/bottom/Part = bottom
-Boundaries/front/Body = block
-Boundaries/front/Part = front
-Boundaries/front/Constraint = roller
-Boundaries/back/Body = block
-Boundaries/back/Part = back
-Boundaries/back/Constraint = roller
-Output/Points = false
-Output/Mesh = false
-Time/End time = 0.7
-Time/Steps = 7
-Time/Smallest step = 0.9
+Mesh/Lower corner = -0.3, -0.3, -0.3 | Upper corner = 2.7, 2.7, 2.7 | Cell size = 0.5
+Method/Method = finite element | Strain = finite | Degree = 2
+Materials/gel/Model = neo-Hookean | Young modulus = 100 | Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 0, 0 | Upper corner = 2, 1, 1
+Boundaries/top/Body = block | Part = top | Translation = 0.4*t; 0; 0
+Boundaries/bottom/Body = block | Part = bottom
+Boundaries/front/Body = block | Part = front | Constraint = roller
+Boundaries/back/Body = block | Part = back | Constraint = roller
+Output/Points = false | Mesh = false
+Time/End time = 0.7 | Steps = 7 | Smallest step = 0.9
 """)
 result = run(scene)
 rows = result.history()

@@ -6,25 +6,16 @@ expression bears down whatever number that is multiplied with."""
 
 GROUND = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = 1
-Materials/soil/Young modulus = 30e3
-Materials/soil/Poisson ratio = 0.35
-Materials/soil/Density = 1.9
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
+Mesh/Lower corner = {lower} | Upper corner = {upper} | Cell size = 1
+Materials/soil/Young modulus = 30e3 | Poisson ratio = 0.35 | Density = 1.9
+Grid conditions/left/Side = left | Components = x
+Grid conditions/right/Side = right | Components = x
 Grid conditions/bottom/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = {gravity}
+Loads/weight/Type = gravity | Value = {gravity}
 """)
 SIDES_3D = prm("""
-Grid conditions/front/Side = front
-Grid conditions/front/Components = y
-Grid conditions/back/Side = back
-Grid conditions/back/Components = y
+Grid conditions/front/Side = front | Components = y
+Grid conditions/back/Side = back | Components = y
 """)
 
 

@@ -6,12 +6,10 @@ checkpoints and stages between, by 'Mesh motion' and with finite elements."""
 
 
 TIME = prm("""
-Time/End time = 4
-Time/Steps = 4
+Time/End time = 4 | Steps = 4
 """)
 STAGES = "subsection Stages" + "".join(prm(f"""
-{name}/Time/End time = {end}
-{name}/Time/Steps = 2
+{name}/Time/End time = {end} | Steps = 2
 """) for name, end in (("one", 2), ("two", 4))) + "\nend\n"
 
 
@@ -45,8 +43,7 @@ end
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 PULLED = prm("""
 Grid conditions/base/Side = left
-Grid conditions/pull/Lower corner = 3.9, -0.1
-Grid conditions/pull/Upper corner = 4.1, 2.1
+Grid conditions/pull/Lower corner = 3.9, -0.1 | Upper corner = 4.1, 2.1
 Grid conditions/pull/Displacement = 0.3*t; 0
 """)
 pulled = scene_of("pulled", "finite element", (8, 4), PULLED)
@@ -63,8 +60,7 @@ for name, scene, settings in (
 
 lifted = scene_of("lifted", "GIMP", (4, 4), prm("""
 Grid conditions/bottom/Side = bottom
-Grid conditions/top/Lower corner = -0.1, 1.9
-Grid conditions/top/Upper corner = 2.1, 2.1
+Grid conditions/top/Lower corner = -0.1, 1.9 | Upper corner = 2.1, 2.1
 Grid conditions/top/Translation = 0; 0.08*t
 Mesh motion/Stretch between = bottom, top
 """))
@@ -76,16 +72,10 @@ bound("box that the mesh leaves: force over that of the side",
       1e-12)
 
 stretched = scene_of("stretched", "GIMP", (4, 4), prm("""
-Grid conditions/left/Side = left
-Grid conditions/left/Displacement = 0; 0.1*t*y
-Grid conditions/right/Side = right
-Grid conditions/right/Displacement = 0; 0.1*t*y
-Grid conditions/right/Components = y
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = y
-Grid conditions/top/Side = top
-Grid conditions/top/Components = y
-Grid conditions/top/Displacement = 0; 0.2*t
+Grid conditions/left/Side = left | Displacement = 0; 0.1*t*y
+Grid conditions/right/Side = right | Displacement = 0; 0.1*t*y | Components = y
+Grid conditions/bottom/Side = bottom | Components = y
+Grid conditions/top/Side = top | Components = y | Displacement = 0; 0.2*t
 Mesh motion/Stretch between = bottom, top
 """))
 last = run(stretched, QUIET).history()[-1]

@@ -5,33 +5,23 @@ their change from then on, springs are attached where their surface is by then,
 forces are on the points that were nearest at the start."""
 
 SOLID = prm("""
-Materials/solid/Young modulus = 10000
-Materials/solid/Poisson ratio = 0.3
-Materials/solid/Density = 1
+Materials/solid/Young modulus = 10000 | Poisson ratio = 0.3 | Density = 1
 Output/Write = end
 """)
 
 # A wall beside what was pulled before: at their corner both are at rest.
 held = scene_file("held.prm", SOLID, """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 2, 2
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 2, 2 | Cell size = 1
 Method/Method = finite element
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 2, 2
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 2
 Grid conditions/base/Side = bottom
-Grid conditions/pull/Side = top
-Grid conditions/pull/Components = x
-Grid conditions/pull/Displacement = 0.01*min(t, 1); 0
-Grid conditions/wall/Side = right
-Grid conditions/wall/Components = x
+Grid conditions/pull/Side = top | Components = x | Displacement = 0.01*min(t, 1); 0
+Grid conditions/wall/Side = right | Components = x
 Stages/pulled/Grid conditions = base, pull
 Stages/pulled/Time/Steps = 2
 Stages/held/Grid conditions = base, pull, wall
-Stages/held/Time/End time = 2
-Stages/held/Time/Steps = 2
-Probes/middle/Location = 1.1, 1.1
-Probes/middle/Kind = interpolated
+Stages/held/Time/End time = 2 | Steps = 2
+Probes/middle/Location = 1.1, 1.1 | Kind = interpolated
 """)
 rows = run(held).history()
 at_least("pulled: displacement", rows[1]["u_x at middle"], 1e-3)
@@ -56,34 +46,18 @@ text("at rest: energy in the summary", "energy" in rests.summary)
 # A block flies through the mesh: up on springs, without them, on others.
 STIFFNESS = 0.4
 flies = scene_file("flies.prm", SOLID, f"""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 3, 8
-Mesh/Cell size = 0.5
-Method/Method = GIMP
-Method/Strain = finite
-Bodies/block/Lower corner = 1, 1
-Bodies/block/Upper corner = 2, 2
-Bodies/block/Initial velocity = 0; 4
-Boundaries/foot/Points = 1 1; 2 1
-Boundaries/foot/Constraint = absorbing
-Boundaries/foot/Dashpot factors = 0, 0
+Mesh/Lower corner = 0, 0 | Upper corner = 3, 8 | Cell size = 0.5
+Method/Method = GIMP | Strain = finite
+Bodies/block/Lower corner = 1, 1 | Upper corner = 2, 2 | Initial velocity = 0; 4
+Boundaries/foot/Points = 1 1; 2 1 | Constraint = absorbing | Dashpot factors = 0, 0
 Boundaries/foot/Spring stiffness = {STIFFNESS}, 0
-Loads/nail/Type = force on points
-Loads/nail/Location = 1.5, 1.5
-Loads/nail/Value = 0.3; 0
+Loads/nail/Type = force on points | Location = 1.5, 1.5 | Value = 0.3; 0
 Stages/springs/Loads = none
-Stages/springs/Time/Integrator = Newmark
-Stages/springs/Time/End time = 0.25
-Stages/springs/Time/Steps = 5
+Stages/springs/Time/Integrator = Newmark | End time = 0.25 | Steps = 5
 Stages/free/Boundaries = none
-Stages/free/Time/Integrator = Newmark
-Stages/free/Time/End time = 0.75
-Stages/free/Time/Steps = 10
-Stages/others/Boundaries = foot
-Stages/others/Loads = nail
-Stages/others/Time/Integrator = Newmark
-Stages/others/Time/End time = 1
-Stages/others/Time/Steps = 5
+Stages/free/Time/Integrator = Newmark | End time = 0.75 | Steps = 10
+Stages/others/Boundaries = foot | Loads = nail
+Stages/others/Time/Integrator = Newmark | End time = 1 | Steps = 5
 Probes/head/Location = 1.5, 1.9
 Probes/heel/Location = 1.5, 1.1
 """)
@@ -110,24 +84,16 @@ text("displacements reset before a force finds its points",
 
 # Two blocks share a nail at their interface; one goes.
 shared = scene_file("shared.prm", SOLID, """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 2
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 2 | Cell size = 1
 Method/Method = GIMP
-Bodies/left/Lower corner = 0, 0
-Bodies/left/Upper corner = 2, 1
-Bodies/right/Lower corner = 2, 0
-Bodies/right/Upper corner = 4, 1
+Bodies/left/Lower corner = 0, 0 | Upper corner = 2, 1
+Bodies/right/Lower corner = 2, 0 | Upper corner = 4, 1
 Grid conditions/base/Side = bottom
-Loads/nail/Type = force on points
-Loads/nail/Location = 2, 0.75
-Loads/nail/Value = 0; 1
+Loads/nail/Type = force on points | Location = 2, 0.75 | Value = 0; 1
 Stages/both/
-Stages/rest/Loads = none
-Stages/rest/Bodies = left
+Stages/rest/Loads = none | Bodies = left
 Stages/rest/Time/End time = 2
-Stages/again/Bodies = left
-Stages/again/Loads = nail
+Stages/again/Bodies = left | Loads = nail
 Stages/again/Time/End time = 3
 """)
 for name, settings, left in (
@@ -140,27 +106,17 @@ for name, settings, left in (
 
 # A load that pauses goes with the ground, also if a body comes as it returns.
 paused = scene_file("paused.prm", SOLID, """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 12, 3
-Mesh/Cell size = 0.5
+Mesh/Lower corner = 0, 0 | Upper corner = 12, 3 | Cell size = 0.5
 Method/Method = GIMP
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 4, 1
-Bodies/later/Lower corner = 9, 0
-Bodies/later/Upper corner = 10, 1
-Grid conditions/base/Side = bottom
-Grid conditions/base/Displacement = 1.5*min(max(t - 1, 0), 1); 0
-Loads/plate/Type = surface traction
-Loads/plate/Points = 1.9 1; 1.1 1
-Loads/plate/Value = 0; -1
+Bodies/ground/Lower corner = 0, 0 | Upper corner = 4, 1
+Bodies/later/Lower corner = 9, 0 | Upper corner = 10, 1
+Grid conditions/base/Side = bottom | Displacement = 1.5*min(max(t - 1, 0), 1); 0
+Loads/plate/Type = surface traction | Points = 1.9 1; 1.1 1 | Value = 0; -1
 Probes/under/Location = 1.5, 0.9
 Stages/first/Bodies = ground
-Stages/moves/Bodies = ground
-Stages/moves/Loads = none
-Stages/moves/Time/End time = 2
-Stages/moves/Time/Steps = 4
-Stages/again/Bodies = ground, later
-Stages/again/Loads = plate
+Stages/moves/Bodies = ground | Loads = none
+Stages/moves/Time/End time = 2 | Steps = 4
+Stages/again/Bodies = ground, later | Loads = plate
 Stages/again/Time/End time = 3
 """)
 alone, with_it = (run(paused, settings).history()[-1]["u_y at under"]
@@ -178,29 +134,16 @@ text("a load that paused, resumed", "the same history" if
 
 # A load that has sunk with a body is as drawn again when the body comes back.
 COLUMN = SOLID.replace("10000", "100").replace("0.3", "0") + prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 12
-Mesh/Cell size = 1
-Method/Method = {method}
-Method/Strain = finite
-Bodies/base/Lower corner = 0, 0
-Bodies/base/Upper corner = 1, 2
-Bodies/block/Lower corner = 0, 2
-Bodies/block/Upper corner = 1, 10
-Bodies/other/Lower corner = 3, 0
-Bodies/other/Upper corner = 4, 1
-Grid conditions/sides/Lower corner = 0, 0
-Grid conditions/sides/Upper corner = 4, 12
-Grid conditions/sides/Components = x
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 12 | Cell size = 1
+Method/Method = {method} | Strain = finite
+Bodies/base/Lower corner = 0, 0 | Upper corner = 1, 2
+Bodies/block/Lower corner = 0, 2 | Upper corner = 1, 10
+Bodies/other/Lower corner = 3, 0 | Upper corner = 4, 1
+Grid conditions/sides/Lower corner = 0, 0 | Upper corner = 4, 12 | Components = x
 Grid conditions/bottom/Side = bottom
-Loads/push/Type = surface traction
-Loads/push/Points = 1 {top}; 0 {top}
-Loads/push/Value = 0; {force}
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; {weight}
-Probes/top/Location = 0.5, {top}
-Probes/top/Body = block
-Probes/top/Quantities = displacement, stress
+Loads/push/Type = surface traction | Points = 1 {top}; 0 {top} | Value = 0; {force}
+Loads/weight/Type = gravity | Value = 0; {weight}
+Probes/top/Location = 0.5, {top} | Body = block | Quantities = displacement, stress
 """)
 STEPS = """
     subsection Time
@@ -253,27 +196,19 @@ compare("load that begins as another body comes", alone, beside)
 # A lining takes the place of what is dug out. A probe beside both follows the body
 # that it names: the stress of its one cell is that of half its weight.
 lined = scene_file("lined.prm", SOLID.replace("0.3", "0"), """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 2
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 2 | Cell size = 1
 Method/Method = finite element
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 1, 1
-Bodies/core/Lower corner = 0, 1
-Bodies/core/Upper corner = 1, 2
-Bodies/lining/Lower corner = 0, 1
-Bodies/lining/Upper corner = 1, 2
+Bodies/ground/Lower corner = 0, 0 | Upper corner = 1, 1
+Bodies/core/Lower corner = 0, 1 | Upper corner = 1, 2
+Bodies/lining/Lower corner = 0, 1 | Upper corner = 1, 2
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Loads/weight/Type = gravity | Value = 0; -10
 Stages/core/Bodies = ground, core
 Stages/dug/Bodies = ground
 Stages/dug/Time/End time = 2
 Stages/lined/Bodies = ground, lining
 Stages/lined/Time/End time = 3
-Probes/crown/Location = 0.5, 1.5
-Probes/crown/Body = lining
-Probes/crown/Quantities = stress
+Probes/crown/Location = 0.5, 1.5 | Body = lining | Quantities = stress
 """)
 result = run(lined)
 text("probe of the lining", [round(row["sigma_yy at crown"], 1) + 0.
@@ -299,31 +234,17 @@ text("quiet: all warnings", [
 # Walls that go on hold a body that comes by its own stress, not by that of the body
 # below, which is pressed until then: nu/(1 - nu) times its weight, over two walls.
 comes = scene_file("comes.prm", SOLID, """
-Mesh/Lower corner = -0.5, 0
-Mesh/Upper corner = 1.5, 3
-Mesh/Cell size = 0.25
-Method/Method = finite element
-Method/Mesh after step = keep
-Bodies/low/Lower corner = 0, 0
-Bodies/low/Upper corner = 1, 1
-Bodies/up/Lower corner = 0, 1
-Bodies/up/Upper corner = 1, 2
-Boundaries/left/Points = 0 3; 0 0
-Boundaries/left/Constraint = roller
-Boundaries/right/Points = 1 0; 1 3
-Boundaries/right/Constraint = roller
-Grid conditions/base/Side = bottom
-Grid conditions/base/Components = y
-Loads/pressure/Type = surface traction
-Loads/pressure/Body = low
-Loads/pressure/Part = top
-Loads/pressure/Value = 0; -100*t
-Loads/weight/Bodies = up
-Loads/weight/Value = 0; -10*(t-1)
-Stages/pressed/Bodies = low
-Stages/pressed/Loads = pressure
-Stages/filled/Bodies = low, up
-Stages/filled/Loads = weight
+Mesh/Lower corner = -0.5, 0 | Upper corner = 1.5, 3 | Cell size = 0.25
+Method/Method = finite element | Mesh after step = keep
+Bodies/low/Lower corner = 0, 0 | Upper corner = 1, 1
+Bodies/up/Lower corner = 0, 1 | Upper corner = 1, 2
+Boundaries/left/Points = 0 3; 0 0 | Constraint = roller
+Boundaries/right/Points = 1 0; 1 3 | Constraint = roller
+Grid conditions/base/Side = bottom | Components = y
+Loads/pressure/Type = surface traction | Body = low | Part = top | Value = 0; -100*t
+Loads/weight/Bodies = up | Value = 0; -10*(t-1)
+Stages/pressed/Bodies = low | Loads = pressure
+Stages/filled/Bodies = low, up | Loads = weight
 Stages/filled/Time/End time = 2
 """)
 THRUST = 0.3 / 0.7 * (10 / 2 + 10)  # of the body itself, and of the one below
@@ -347,23 +268,14 @@ for name, keys in (
 
 # A body that comes before one in flight is at rest, also at the nodes they share.
 joins = scene_file("joins.prm", SOLID.replace("10000", "100"), """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 12, 4
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 12, 4 | Cell size = 1
 Method/Method = finite element
-Bodies/flying/Lower corner = 1, 1
-Bodies/flying/Upper corner = 3, 3
-Bodies/flying/Initial velocity = 1; 0
-Bodies/new/Lower corner = 3, 1
-Bodies/new/Upper corner = 4, 3
+Bodies/flying/Lower corner = 1, 1 | Upper corner = 3, 3 | Initial velocity = 1; 0
+Bodies/new/Lower corner = 3, 1 | Upper corner = 4, 3
 Stages/one/Bodies = flying
-Stages/one/Time/Integrator = Newmark
-Stages/one/Time/End time = 0.1
-Stages/one/Time/Steps = 2
+Stages/one/Time/Integrator = Newmark | End time = 0.1 | Steps = 2
 Stages/two/Bodies = flying, new
-Stages/two/Time/Integrator = Newmark
-Stages/two/Time/End time = 0.2
-Stages/two/Time/Steps = 2
+Stages/two/Time/Integrator = Newmark | End time = 0.2 | Steps = 2
 """)
 for name, settings in (
         ("finite element", {"Method/Mesh after step": "keep"}),
@@ -381,28 +293,19 @@ for name, settings in (
 
 # What comes fills the cells as they are, and so does a place on it.
 filled = scene_file("filled.prm", SOLID.replace("10000", "100"), """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 8
-Mesh/Cell size = 1
-Method/Method = finite element
-Method/Strain = finite
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 4, 6
-Bodies/fill/Lower corner = 0, 6
-Bodies/fill/Upper corner = 4, 8
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 8 | Cell size = 1
+Method/Method = finite element | Strain = finite
+Bodies/ground/Lower corner = 0, 0 | Upper corner = 4, 6
+Bodies/fill/Lower corner = 0, 6 | Upper corner = 4, 8
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -5
+Loads/weight/Type = gravity | Value = 0; -5
 Stages/one/Bodies = ground
 Stages/one/Time/Steps = 2
 Stages/two/Bodies = ground, fill
-Stages/two/Time/End time = 2
-Stages/two/Time/Steps = 2
-Probes/point/Location = 0.21132486540518713, 6.2113248654051871
-Probes/point/Body = fill
+Stages/two/Time/End time = 2 | Steps = 2
+Probes/point/Location = 0.21132486540518713, 6.2113248654051871 | Body = fill
 Probes/point/Quantities = displacement, position
-Probes/place/Location = 0.21132486540518713, 6.2113248654051871
-Probes/place/Kind = interpolated
+Probes/place/Location = 0.21132486540518713, 6.2113248654051871 | Kind = interpolated
 Probes/place/Quantities = displacement, position
 """)
 row = run(filled).history()[-1]
@@ -413,22 +316,15 @@ for key in ("x", "y", "u_x", "u_y"):
 
 # A place leaves the cells; then the body of the point that it follows is gone.
 leaves = scene_file("leaves.prm", SOLID, """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 4
-Mesh/Cell size = 1
-Method/Method = material point
-Method/Strain = finite
-Bodies/left/Lower corner = 0, 0
-Bodies/left/Upper corner = 1, 2
-Bodies/right/Lower corner = 3, 0
-Bodies/right/Upper corner = 4, 2
-Grid conditions/base/Side = bottom
-Grid conditions/base/Displacement = 0; 0.1*min(t, 1)
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 4 | Cell size = 1
+Method/Method = material point | Strain = finite
+Bodies/left/Lower corner = 0, 0 | Upper corner = 1, 2
+Bodies/right/Lower corner = 3, 0 | Upper corner = 4, 2
+Grid conditions/base/Side = bottom | Displacement = 0; 0.1*min(t, 1)
 Stages/both/Time/Steps = 4
 Stages/one/Bodies = right
 Stages/one/Time/End time = 2
-Probes/top/Location = 0.5, 2
-Probes/top/Kind = interpolated
+Probes/top/Location = 0.5, 2 | Kind = interpolated
 Probes/top/Quantities = displacement, position
 """)
 result = run(leaves)

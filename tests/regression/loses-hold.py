@@ -7,41 +7,26 @@ they push material are told of, and surfaces that stay while they move it throug
 import json
 
 SCENE = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 2
-Mesh/Cell size = 0.25
-Method/Method = GIMP
-Method/Strain = finite
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
-Bodies/soil/Lower corner = 0, 0
-Bodies/soil/Upper corner = 1, 2
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
-Grid conditions/base/Side = bottom
-Grid conditions/base/Components = y
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 2 | Cell size = 0.25
+Method/Method = GIMP | Strain = finite
+Materials/soil/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/soil/Lower corner = 0, 0 | Upper corner = 1, 2
+Grid conditions/left/Side = left | Components = x
+Grid conditions/right/Side = right | Components = x
+Grid conditions/base/Side = bottom | Components = y
 Grid conditions/
 {condition}
 /
 {more}
-Output/Points = false
-Output/Mesh = false
-Output/Checkpoint every = {checkpoint}
+Output/Points = false | Mesh = false | Checkpoint every = {checkpoint}
 Time/Steps = 12
 """)
 scene = folder / "column.prm"
 PRESSED = prm("""
-top/Side = top
-top/Components = y
-top/Displacement = 0; -0.6*t
+top/Side = top | Components = y | Displacement = 0; -0.6*t
 """)
 WALL = prm("""
-Boundaries/top/Body = soil
-Boundaries/top/Part = top
-Boundaries/top/Constraint = roller
-Boundaries/top/{key} = 0; -0.6*t
+Boundaries/top/Body = soil | Part = top | Constraint = roller | {key} = 0; -0.6*t
 """)
 LOAD = prm("""
 Loads/load/Type = side traction
@@ -108,19 +93,12 @@ text("resumed: told", after.get("warnings", []) == before["warnings"])
 
 # What goes with the material and has lost it is told of: a block leaves its floor.
 scene = scene_file("leaves.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 5, 2
-Mesh/Cell size = 0.25
+Mesh/Lower corner = 0, 0 | Upper corner = 5, 2 | Cell size = 0.25
 Method/Method = GIMP
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
-Bodies/block/Lower corner = 0.5, 0.4
-Bodies/block/Upper corner = 1.5, 1.4
-Boundaries/floor/Points = 0.5 0.4; 2 0.4
-Boundaries/floor/Constraint = roller
-Boundaries/carrier/Body = block
-Boundaries/carrier/Part = top
-Boundaries/carrier/Translation = 2.5*t; 0
+Materials/soil/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/block/Lower corner = 0.5, 0.4 | Upper corner = 1.5, 1.4
+Boundaries/floor/Points = 0.5 0.4; 2 0.4 | Constraint = roller
+Boundaries/carrier/Body = block | Part = top | Translation = 2.5*t; 0
 Time/Steps = 20
 """)
 show("floor that ends", expect=0)

@@ -14,24 +14,15 @@ def table(result):
 
 # A bar whose cells or steps are halved, also in other ways than by their own numbers.
 bar = scene_file("bar.prm", """
-Mesh/Type = generator
-Mesh/Generator = hyper_rectangle
-Mesh/Arguments = 0, 0 : 1, 1 : true
+Mesh/Type = generator | Generator = hyper_rectangle | Arguments = 0, 0 : 1, 1 : true
 Mesh/Refinements = 2
-Method/Method = finite element
-Method/Mesh after step = keep
-Materials/elastic/Young modulus = 1
-Materials/elastic/Poisson ratio = 0
-Materials/elastic/Density = 1
-Bodies/bar/Lower corner = 0, 0
-Bodies/bar/Upper corner = 1, 1
-Grid conditions/held/Side = 0
-Grid conditions/held/Components = x
-Grid conditions/base/Side = 2
-Grid conditions/base/Components = y
+Method/Method = finite element | Mesh after step = keep
+Materials/elastic/Young modulus = 1 | Poisson ratio = 0 | Density = 1
+Bodies/bar/Lower corner = 0, 0 | Upper corner = 1, 1
+Grid conditions/held/Side = 0 | Components = x
+Grid conditions/base/Side = 2 | Components = y
 Constants/n = 4
-Probes/tip/Location = 1, 0.5
-Probes/tip/Kind = interpolated
+Probes/tip/Location = 1, 0.5 | Kind = interpolated
 """)
 PULLED = {"Loads/pull/Type": "body force",
           "Loads/pull/Value": "pi*pi/4*sin(pi/2*x); 0",

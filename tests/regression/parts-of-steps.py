@@ -4,20 +4,12 @@
 """The mesh file has the displacement of all of a step, also of one in two parts."""
 
 scene = scene_file("scene.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 1
-Mesh/Cell size = 0.5
-Materials/m/Young modulus = 1000
-Materials/m/Poisson ratio = 0.3
-Materials/m/Density = 1
-Bodies/b/Lower corner = 0, 0
-Bodies/b/Upper corner = 1, 1
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 1 | Cell size = 0.5
+Materials/m/Young modulus = 1000 | Poisson ratio = 0.3 | Density = 1
+Bodies/b/Lower corner = 0, 0 | Upper corner = 1, 1
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
-Probes/top/Location = 0.5, 1
-Probes/top/Kind = interpolated
-Probes/top/Quantities = displacement
+Loads/weight/Type = gravity | Value = 0; -10
+Probes/top/Location = 0.5, 1 | Kind = interpolated | Quantities = displacement
 Output/Write = end
 """)
 for method, limit in (("finite element", 1e-5), ("GIMP", 1e-2)):

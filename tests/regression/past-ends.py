@@ -8,34 +8,23 @@ others."""
 from math import log
 
 SCENE = prm("""
-Mesh/Lower corner = -1.03, -1.02
-Mesh/Upper corner = 6.97, 4.98
-Mesh/Cell size = 0.5
-Method/Method = {method}
-Method/Strain = finite
-Materials/soil/Young modulus = {modulus}
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 2
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 3, 3
+Mesh/Lower corner = -1.03, -1.02 | Upper corner = 6.97, 4.98 | Cell size = 0.5
+Method/Method = {method} | Strain = finite
+Materials/soil/Young modulus = {modulus} | Poisson ratio = 0.3 | Density = 2
+Bodies/block/Lower corner = 0, 0 | Upper corner = 3, 3
 Boundaries/low/
 {low}
 Boundaries/low/Constraint = roller
-Boundaries/left/Body = block
-Boundaries/left/Part = left
-Boundaries/left/Constraint = roller
+Boundaries/left/Body = block | Part = left | Constraint = roller
 Boundaries/
 {more}
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10*t
+Loads/weight/Type = gravity | Value = 0; -10*t
 Time/Steps = 20
 """)
 PART = "    set Body = block\n    set Part = bottom"
 LINE = "    set Points = -1 0; 6 0"
 FOOTING = prm("""
-footing/Points = 1 3; 0 3
-footing/Constraint = roller
-footing/Translation = 0; -0.4*t
+footing/Points = 1 3; 0 3 | Constraint = roller | Translation = 0; -0.4*t
 """)
 for name, low, more, modulus, methods in (
         ("on its own part", PART, "", 100, ("GIMP", "CPDI2")),
@@ -53,28 +42,16 @@ for name, low, more, modulus, methods in (
 
 # Between rollers that are its own sides; the first time to be told of, and the end.
 pressed = scene_file("pressed.prm", """
-Mesh/Lower corner = -1.3, -0.3
-Mesh/Upper corner = 3.7, 1.7
-Mesh/Cell size = 0.25
-Method/Method = finite element
-Method/Strain = finite
-Materials/gel/Model = neo-Hookean
-Materials/gel/Young modulus = 100
-Materials/gel/Poisson ratio = 0.3
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 2, 1
-Grid conditions/middle/Lower corner = 0.94, -1
-Grid conditions/middle/Upper corner = 0.96, 2
+Mesh/Lower corner = -1.3, -0.3 | Upper corner = 3.7, 1.7 | Cell size = 0.25
+Method/Method = finite element | Strain = finite
+Materials/gel/Model = neo-Hookean | Young modulus = 100 | Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 1
+Grid conditions/middle/Lower corner = 0.94, -1 | Upper corner = 0.96, 2
 Grid conditions/middle/Components = x
-Boundaries/low/Body = block
-Boundaries/low/Part = bottom
-Boundaries/low/Constraint = roller
-Boundaries/top/Body = block
-Boundaries/top/Part = top
-Boundaries/top/Constraint = roller
+Boundaries/low/Body = block | Part = bottom | Constraint = roller
+Boundaries/top/Body = block | Part = top | Constraint = roller
 Boundaries/top/Translation = 0; -0.5*t
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 """)
 for end, steps in ((0.65, 13), (0.7, 14)):
     result = run(pressed, {"Time/End time": end, "Time/Steps": steps})
@@ -115,10 +92,7 @@ for name, point, normal, motion in (
         ("bottom", "0, 0, 0.13", "0, 0, -1", ""),
         ("top", "0, 0, 2.13", "0, 0, 1", "set Translation = 0; 0; -0.6*t")):
     CUBE += prm(f"""
-{name}/Surface = plane
-{name}/Point = {point}
-{name}/Normal = {normal}
-{name}/Constraint = roller
+{name}/Surface = plane | Point = {point} | Normal = {normal} | Constraint = roller
 {motion}
 """)
 CUBE += """

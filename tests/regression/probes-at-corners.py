@@ -6,21 +6,13 @@ an interpolated probe there moves as its surroundings."""
 scene = folder / "corner.prm"
 SCENE = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {zero}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = 0.5
-Materials/m/Young modulus = 1000
-Materials/m/Poisson ratio = 0.3
-Materials/m/Density = 1
-Bodies/block/Lower corner = {zero}
-Bodies/block/Upper corner = {corner}
+Mesh/Lower corner = {zero} | Upper corner = {upper} | Cell size = 0.5
+Materials/m/Young modulus = 1000 | Poisson ratio = 0.3 | Density = 1
+Bodies/block/Lower corner = {zero} | Upper corner = {corner}
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = {force}
-Probes/corner/Location = {corner}
-Probes/corner/Kind = interpolated
-Probes/beside/Location = {beside}
-Probes/beside/Kind = interpolated
+Loads/weight/Type = gravity | Value = {force}
+Probes/corner/Location = {corner} | Kind = interpolated
+Probes/beside/Location = {beside} | Kind = interpolated
 """)
 
 

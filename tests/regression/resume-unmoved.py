@@ -4,35 +4,22 @@
 are drawn in, go on from a checkpoint as if nothing had been."""
 
 scene = scene_file("layers.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 4
-Mesh/Cell size = 0.5
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 4 | Cell size = 0.5
 Method/Mesh after step = keep
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 1
-Bodies/upper/Lower corner = 0, 2.3
-Bodies/upper/Upper corner = 4, 3.3
-Bodies/lower/Lower corner = 0, 1.2
-Bodies/lower/Upper corner = 4, 2.3
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 4, 1.2
+Materials/soil/Young modulus = 1000 | Poisson ratio = 0.3 | Density = 1
+Bodies/upper/Lower corner = 0, 2.3 | Upper corner = 4, 3.3
+Bodies/lower/Lower corner = 0, 1.2 | Upper corner = 4, 2.3
+Bodies/ground/Lower corner = 0, 0 | Upper corner = 4, 1.2
 Grid conditions/base/Side = bottom
-Grid conditions/side/Side = left
-Grid conditions/side/Components = x
-Loads/weight/Type = gravity
-Loads/weight/Value = 1; -4
+Grid conditions/side/Side = left | Components = x
+Loads/weight/Type = gravity | Value = 1; -4
 Stages/ground/Bodies = ground
 Stages/lower/Bodies = ground, lower
 Stages/lower/Time/End time = 2
 Stages/upper/Bodies = ground, lower, upper
-Stages/upper/Time/End time = 3
-Stages/upper/Time/Steps = 4
-Output/Points = false
-Output/Mesh = false
-Output/Checkpoint every = 1 step
-Probes/top/Location = 3.9, 3.2
-Probes/top/Body = upper
+Stages/upper/Time/End time = 3 | Steps = 4
+Output/Points = false | Mesh = false | Checkpoint every = 1 step
+Probes/top/Location = 3.9, 3.2 | Body = upper
 """)
 for method in "CPDI1", "CPDI2", "GIMP", "material point", "finite element":
     more = {"Method/Method": method}

@@ -6,27 +6,16 @@ where points move, and the run ends as if it had stood: it says so, at the limit
 points which stay end at. What is elastic, or stands, does not."""
 
 scene = scene_file("cut.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 16, 9
-Mesh/Cell size = 1
-Materials/clay/Model = von Mises
-Materials/clay/Young modulus = 10000
-Materials/clay/Poisson ratio = 0.3
-Materials/clay/Shear yield stress = 10
-Materials/clay/Density = 1
-Bodies/cut/Shape = polygon
-Bodies/cut/Vertices = 0 0; 16 0; 16 4; 8 4; 8 8; 0 8
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
+Mesh/Lower corner = 0, 0 | Upper corner = 16, 9 | Cell size = 1
+Materials/clay/Model = von Mises | Young modulus = 10000 | Poisson ratio = 0.3
+Materials/clay/Shear yield stress = 10 | Density = 1
+Bodies/cut/Shape = polygon | Vertices = 0 0; 16 0; 16 4; 8 4; 8 8; 0 8
+Grid conditions/left/Side = left | Components = x
+Grid conditions/right/Side = right | Components = x
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10*t/4
-Time/End time = 4.8
-Time/Steps = 12
-Output/Points = false
-Output/Mesh = false
+Loads/weight/Type = gravity | Value = 0; -10*t/4
+Time/End time = 4.8 | Steps = 12
+Output/Points = false | Mesh = false
 """)
 
 

@@ -5,26 +5,17 @@
 'check' says what acts in each stage."""
 
 scene = scene_file("stages.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 4
-Mesh/Cells = 1, 8
-Method/Method = finite element
-Method/Mesh after step = keep
-Materials/m/Young modulus = 1000
-Materials/m/Poisson ratio = 0
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 4 | Cells = 1, 8
+Method/Method = finite element | Mesh after step = keep
+Materials/m/Young modulus = 1000 | Poisson ratio = 0
 Bodies/column/Shape = mesh
-Boundaries/wall/Points = 0 4; 0 0
-Boundaries/wall/Constraint = roller
+Boundaries/wall/Points = 0 4; 0 0 | Constraint = roller
 Grid conditions/base/Side = bottom
-Grid conditions/crown/Side = top
-Grid conditions/crown/Components = x
-Loads/pull/Type = side traction
-Loads/pull/Side = top
-Loads/pull/Value = 0; 1
+Grid conditions/crown/Side = top | Components = x
+Loads/pull/Type = side traction | Side = top | Value = 0; 1
 Stages/first/
 Stages/second/Time/End time = 2
-Probes/top/Location = 0.5, 4
-Probes/top/Kind = interpolated
+Probes/top/Location = 0.5, 4 | Kind = interpolated
 """)
 
 

@@ -6,15 +6,10 @@ top of a block: the plane rests, and so does the mesh there, as between the bloc
 own bottom and top."""
 
 SCENE = prm("""
-Mesh/Lower corner = -1, 4
-Mesh/Upper corner = 2, 7
-Mesh/Cell size = 0.25
-Method/Method = CPDI1
-Method/Strain = finite
-Materials/solid/Young modulus = 1000
-Materials/solid/Poisson ratio = 0.3
-Bodies/block/Lower corner = 0, 5
-Bodies/block/Upper corner = 1, 6
+Mesh/Lower corner = -1, 4 | Upper corner = 2, 7 | Cell size = 0.25
+Method/Method = CPDI1 | Strain = finite
+Materials/solid/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 5 | Upper corner = 1, 6
 Boundaries/bottom/
 {bottom}
 Boundaries/top/

@@ -6,16 +6,11 @@ matters; that it begins inside a body; that what it lies on is gone. Nothing of
 surfaces along the rim of their body, round or not."""
 
 SCENE = prm("""
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = {h}
-Materials/ground/Young modulus = 1e5
-Materials/ground/Poisson ratio = 0.25
-Materials/ground/Density = 2
+Mesh/Lower corner = {lower} | Upper corner = {upper} | Cell size = {h}
+Materials/ground/Young modulus = 1e5 | Poisson ratio = 0.25 | Density = 2
 /
 {more}
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 """)
 scene = folder / "scene.prm"
 
@@ -35,12 +30,8 @@ def write(more, lower, upper, h):
 
 
 RING = prm("""
-Bodies/ring/Shape = ring
-Bodies/ring/Centre = 1.3, -1
-Bodies/ring/Radius = 30
-Bodies/ring/Inner radius = 12
-Boundaries/bore/Body = ring
-Boundaries/bore/Part = {part}
+Bodies/ring/Shape = ring | Centre = 1.3, -1 | Radius = 30 | Inner radius = 12
+Boundaries/bore/Body = ring | Part = {part}
 {more}
 """)
 for h, part, enforcement in (
@@ -58,12 +49,9 @@ show("circle along the rim", {**CIRCLE, "Boundaries/bore/Radius": 12})
 show("circle inside the ring", {**CIRCLE, "Boundaries/bore/Radius": 20})
 
 BLOCK = prm("""
-Bodies/block/Lower corner = 0.3, 0.2
-Bodies/block/Upper corner = 3.3, 3.2
-Grid conditions/middle/Lower corner = 1, 1
-Grid conditions/middle/Upper corner = 2, 2
-Boundaries/base/Points = 0.3 {y}; {x} {y}
-Boundaries/base/Constraint = {constraint}
+Bodies/block/Lower corner = 0.3, 0.2 | Upper corner = 3.3, 3.2
+Grid conditions/middle/Lower corner = 1, 1 | Upper corner = 2, 2
+Boundaries/base/Points = 0.3 {y}; {x} {y} | Constraint = {constraint}
 Boundaries/base/Enforcement = {enforcement}
 """)
 for x, y, constraint, enforcement in (
@@ -78,13 +66,10 @@ for x, y, constraint, enforcement in (
     show(f"base to ({x}, {y}), {constraint}, {enforcement}")
 
 STAGES = prm("""
-Bodies/a/Lower corner = 0, 0
-Bodies/a/Upper corner = 3, 4.1
-Bodies/b/Lower corner = 0, 4.1
-Bodies/b/Upper corner = 3, 4.4
+Bodies/a/Lower corner = 0, 0 | Upper corner = 3, 4.1
+Bodies/b/Lower corner = 0, 4.1 | Upper corner = 3, 4.4
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Loads/weight/Type = gravity | Value = 0; -10
 Loads/
 {loads}
 /
@@ -97,9 +82,7 @@ Stages/after/Bodies = {left}
 Stages/after/Time/End time = 2
 """)
 PLATE = prm("""
-Boundaries/plate/Body = {body}
-Boundaries/plate/Part = {part}
-Boundaries/plate/Constraint = roller
+Boundaries/plate/Body = {body} | Part = {part} | Constraint = roller
 {motion}
 """)
 
@@ -117,8 +100,7 @@ for rate in (0.1, 1.5):
            boundaries=PLATE.format(
                **TOP, motion=f"set Translation = 0; -{rate}*min(t,1)"))
 LOAD = prm("""
-load/Type = {type}
-load/Value = 0; -40
+load/Type = {type} | Value = 0; -40
 {where}
 """)
 ON_TOP = LOAD.format(type="surface traction",
@@ -132,6 +114,5 @@ for left in ("a", "a, b"):
 stages("load on b that ends", "a", loads=ON_TOP, keep="set Loads = weight")
 stages("rollers beside both", "a",
        boundaries=prm("""
-Boundaries/side/Points = 0 4.4; 0 0
-Boundaries/side/Constraint = roller
+Boundaries/side/Points = 0 4.4; 0 0 | Constraint = roller
 """))

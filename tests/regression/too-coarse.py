@@ -48,9 +48,7 @@ end
 {more}
 """
 BODY = prm("""
-{name}/Material = {material}
-{name}/Lower corner = {lower}
-{name}/Upper corner = {upper}
+{name}/Material = {material} | Lower corner = {lower} | Upper corner = {upper}
 """)
 scene = folder / "scene.prm"
 
@@ -73,9 +71,7 @@ for gap in (0, 0.05, 0.3, 0.55):
 
 
 EXPRESSION = prm("""
-{name}/Material = firm
-{name}/Shape = expression
-{name}/Expression = {expression}
+{name}/Material = firm | Shape = expression | Expression = {expression}
 """)
 
 
@@ -135,19 +131,12 @@ for title, bottom, surfaces in (
 # Of the rim of a body nothing is past the ends, also where points are those of cells
 # of degree 2.
 scene.write_text(prm("""
-Mesh/Lower corner = -6, -6
-Mesh/Upper corner = 6, 6
-Mesh/Cell size = 1
+Mesh/Lower corner = -6, -6 | Upper corner = 6, 6 | Cell size = 1
 Method/Method = finite element
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0.3
-Bodies/block/Shape = box
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 3, 4
-Bodies/block/Rotation angle = 30
-Bodies/block/Translation = 0.013, 0.027
-Boundaries/base/Body = block
-Boundaries/base/Part = bottom
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/block/Shape = box | Lower corner = 0, 0 | Upper corner = 3, 4
+Bodies/block/Rotation angle = 30 | Translation = 0.013, 0.027
+Boundaries/base/Body = block | Part = bottom
 """))
 for degree in (1, 2):
     result = run(scene, {"Method/Degree": degree}, command="check")
@@ -156,8 +145,7 @@ for degree in (1, 2):
 
 # A body as thick as the mesh and one cell, that bends, or cannot, or is thicker.
 SIDE = prm("""
-{side}/Side = {side}
-{side}/Components = {components}
+{side}/Side = {side} | Components = {components}
 """)
 for title, size, held in (
         ("beam one cell thick", 1, [("left", "x, y")]),
@@ -181,14 +169,10 @@ for title, begin, top in (("bar two cells thick, on mesh lines", 0, 1),
     scene.write_text(prm(f"""
 Dimension = 3
 Mesh/Lower corner = {begin}, {begin}, {begin}
-Mesh/Upper corner = {begin + 3}, {begin + 3}, {begin + 3}
-Mesh/Cell size = 0.5
-Materials/firm/Young modulus = 1e5
-Materials/firm/Poisson ratio = 0.3
-Bodies/bar/Lower corner = 0, 0, 0
-Bodies/bar/Upper corner = 2, 1, {top}
-Boundaries/end/Body = bar
-Boundaries/end/Part = left
+Mesh/Upper corner = {begin + 3}, {begin + 3}, {begin + 3} | Cell size = 0.5
+Materials/firm/Young modulus = 1e5 | Poisson ratio = 0.3
+Bodies/bar/Lower corner = 0, 0, 0 | Upper corner = 2, 1, {top}
+Boundaries/end/Body = bar | Part = left
 """))
     text(title + ": told", "thin-body" in run(scene, command="check").ids())
 
@@ -222,8 +206,7 @@ show("strut of a later stage", [("below", "soft", "0, 0", "3, 2"),
      command="run")
 
 PLATE = prm("""
-Boundaries/plate/Points = 3 2; 0 2
-Boundaries/plate/Constraint = roller
+Boundaries/plate/Points = 3 2; 0 2 | Constraint = roller
 Boundaries/plate/Displacement = 0; -0.001*(t-1)
 Stages/weight/Boundaries = none
 Stages/weight/Time/End time = 1

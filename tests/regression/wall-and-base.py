@@ -5,19 +5,13 @@
 nodes that two grid conditions hold is shared out, whichever of them comes first."""
 
 SOIL = prm("""
-Mesh/Lower corner = {low}
-Mesh/Upper corner = {high}
-Mesh/Cells = {cells}
-Method/Method = {method}
-Method/Degree = {degree}
-Materials/soil/Young modulus = 1e5
-Materials/soil/Poisson ratio = 0.25
-Materials/soil/Density = 2
+Mesh/Lower corner = {low} | Upper corner = {high} | Cells = {cells}
+Method/Method = {method} | Degree = {degree}
+Materials/soil/Young modulus = 1e5 | Poisson ratio = 0.25 | Density = 2
 Bodies/layer/Shape = mesh
 Grid conditions/
 {conditions}
-Loads/weight/Type = gravity
-Loads/weight/Value = {down}
+Loads/weight/Type = gravity | Value = {down}
 """)
 # At rest the walls carry K0 = nu / (1 - nu) = 1/3 of the weight above.
 H, L, GAMMA, K0 = 4, 6, 20, 1 / 3

@@ -5,24 +5,14 @@ wall that is an implicit boundary, though nodes of the base hold its lowest cell
 too. By the exact stress it is nu/(1 - nu) rho g H^2/2."""
 
 scene = scene_file("scene.prm", """
-Mesh/Lower corner = -0.5, 0
-Mesh/Upper corner = 2.5, 2.5
-Mesh/Cell size = 0.5
+Mesh/Lower corner = -0.5, 0 | Upper corner = 2.5, 2.5 | Cell size = 0.5
 Method/Method = finite element
-Materials/soil/Young modulus = 1e6
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 1
-Bodies/soil/Lower corner = 0, 0
-Bodies/soil/Upper corner = 2, 2
-Boundaries/left/Body = soil
-Boundaries/left/Part = left
-Boundaries/left/Constraint = roller
-Boundaries/right/Body = soil
-Boundaries/right/Part = right
-Boundaries/right/Constraint = roller
+Materials/soil/Young modulus = 1e6 | Poisson ratio = 0.3 | Density = 1
+Bodies/soil/Lower corner = 0, 0 | Upper corner = 2, 2
+Boundaries/left/Body = soil | Part = left | Constraint = roller
+Boundaries/right/Body = soil | Part = right | Constraint = roller
 Grid conditions/base/Side = bottom
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -9.81
+Loads/weight/Type = gravity | Value = 0; -9.81
 Output/Write = end
 """)
 EXACT = 0.3 / 0.7 * 9.81 * 2

@@ -7,19 +7,13 @@ yields, so that a stiff one is no weaker than a soft one."""
 import json
 
 scene = scene_file("sheared.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 1
-Mesh/Cells = 8, 8
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 1 | Cells = 8, 8
 Method/Mesh after step = keep
-Materials/block/Model = von Mises
-Materials/block/Young modulus = 1000
-Materials/block/Poisson ratio = 0.3
+Materials/block/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/block/Shear yield stress = 1
-Bodies/block/Lower corner = 0, 0
-Bodies/block/Upper corner = 1, 1
+Bodies/block/Lower corner = 0, 0 | Upper corner = 1, 1
 Grid conditions/bottom/Side = bottom
-Grid conditions/top/Side = top
-Grid conditions/top/Displacement = 5*$k/1000*t; 0
+Grid conditions/top/Side = top | Displacement = 5*$k/1000*t; 0
 Constants/k = 1
 Time/Steps = 10
 Output/Write = end

@@ -6,26 +6,15 @@ boundaries that cut cells, a step too long for its error, a load between steps,
 cells that are too coarse for a body, displacements and turns too large for small strain."""
 
 PAD = prm("""
-Mesh/Lower corner = 900, -400
-Mesh/Upper corner = 1300, 0
-Mesh/Cell size = 5
-Method/Method = finite element
-Method/Degree = 2
-Method/Strain = finite
-Materials/rubber/Model = neo-Hookean
-Materials/rubber/Young modulus = 3
-Materials/rubber/Poisson ratio = 0.45
-Bodies/pad/Lower corner = 0, 0
-Bodies/pad/Upper corner = 200, 100
-Bodies/pad/Rotation angle = 31
+Mesh/Lower corner = 900, -400 | Upper corner = 1300, 0 | Cell size = 5
+Method/Method = finite element | Degree = 2 | Strain = finite
+Materials/rubber/Model = neo-Hookean | Young modulus = 3 | Poisson ratio = 0.45
+Bodies/pad/Lower corner = 0, 0 | Upper corner = 200, 100 | Rotation angle = 31
 Bodies/pad/Translation = 1053.7, -287.9
-Boundaries/bottom/Body = pad
-Boundaries/bottom/Part = bottom
-Boundaries/top/Body = pad
-Boundaries/top/Part = top
+Boundaries/bottom/Body = pad | Part = bottom
+Boundaries/top/Body = pad | Part = top
 Boundaries/top/Translation = 35*t*sin(31*pi/180); -35*t*cos(31*pi/180)
-Time/End time = 0.5
-Time/Steps = 10
+Time/End time = 0.5 | Steps = 10
 """)
 
 # A pad that is squeezed until points of cut cells are: no step is accepted that
@@ -97,28 +86,18 @@ for curve, peak in (("0: 0, 0.101: 0, 0.103: 1, 0.105: 0", 0.103),
 
 # What cells are too coarse for, and what small strain is too coarse for.
 BLOCK = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 4
-Mesh/Cell size = 0.25
-Materials/soft/Young modulus = 1
-Materials/soft/Poisson ratio = 0.3
-Materials/stiff/Young modulus = {stiffness}
-Materials/stiff/Poisson ratio = 0.3
-Bodies/block/Shape = box
-Bodies/block/Lower corner = 0, {bottom}
-Bodies/block/Upper corner = {corner}
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 4 | Cell size = 0.25
+Materials/soft/Young modulus = 1 | Poisson ratio = 0.3
+Materials/stiff/Young modulus = {stiffness} | Poisson ratio = 0.3
+Bodies/block/Shape = box | Lower corner = 0, {bottom} | Upper corner = {corner}
 Bodies/block/Material = soft
 Bodies/
 {second}
 Grid conditions/left/Side = left
-Grid conditions/right/Side = right
-Grid conditions/right/Displacement = {pull}*t; 0
+Grid conditions/right/Side = right | Displacement = {pull}*t; 0
 """)
 SECOND = prm("""
-wall/Shape = box
-wall/Lower corner = {x}, 0
-wall/Upper corner = 4, 4
-wall/Material = stiff
+wall/Shape = box | Lower corner = {x}, 0 | Upper corner = 4, 4 | Material = stiff
 """)
 for name, corner, second, stiffness, pull in (
         ("a strip of 1.2 cells", "4, 1.35", "", 1, 0.1),
@@ -138,21 +117,11 @@ for name, corner, second, stiffness, pull in (
 
 # A turn is no strain, but small strain finds some in one that is prescribed.
 scene = scene_file("shaft.prm", """
-Mesh/Lower corner = -35, -35
-Mesh/Upper corner = 35, 35
-Mesh/Cell size = 5
-Materials/steel/Young modulus = 210000
-Materials/steel/Poisson ratio = 0.3
-Bodies/shaft/Shape = ring
-Bodies/shaft/Centre = 0, 0
-Bodies/shaft/Radius = 30
-Bodies/shaft/Inner radius = 12
-Boundaries/bore/Body = shaft
-Boundaries/bore/Part = inner
-Boundaries/bore/Rotation angle = 3*t
-Boundaries/bearing/Body = shaft
-Boundaries/bearing/Part = outer
-Boundaries/bearing/Constraint = roller
+Mesh/Lower corner = -35, -35 | Upper corner = 35, 35 | Cell size = 5
+Materials/steel/Young modulus = 210000 | Poisson ratio = 0.3
+Bodies/shaft/Shape = ring | Centre = 0, 0 | Radius = 30 | Inner radius = 12
+Boundaries/bore/Body = shaft | Part = inner | Rotation angle = 3*t
+Boundaries/bearing/Body = shaft | Part = outer | Constraint = roller
 Boundaries/bearing/Rotation angle = 0
 Time/Steps = 4
 """)
@@ -206,24 +175,15 @@ for grid, method in (("8, 8", "material point"), ("10, 10", "material point"),
 
 # Bodies of elements that move into each other, and through a floor with none at it.
 FLIGHT = prm("""
-Mesh/Lower corner = -3, 0
-Mesh/Upper corner = 3, 1
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -3, 0 | Upper corner = 3, 1 | Cell size = 0.25
 Method/Method = {method}
-Materials/bar/Young modulus = 100
-Materials/bar/Poisson ratio = 0
-Materials/bar/Density = 1
-Bodies/left/Lower corner = -2, 0.5
-Bodies/left/Upper corner = -1, 1
+Materials/bar/Young modulus = 100 | Poisson ratio = 0 | Density = 1
+Bodies/left/Lower corner = -2, 0.5 | Upper corner = -1, 1
 Bodies/left/Initial velocity = {velocity}
-Bodies/right/Lower corner = 0, 0.5
-Bodies/right/Upper corner = 1, 1
+Bodies/right/Lower corner = 0, 0.5 | Upper corner = 1, 1
 Grid conditions/floor/Side = bottom
-Time/Integrator = Newmark
-Time/End time = 2
-Time/Steps = 20
-Output/Points = false
-Output/Mesh = false
+Time/Integrator = Newmark | End time = 2 | Steps = 20
+Output/Points = false | Mesh = false
 """)
 flight = folder / "flight.prm"
 for method, velocity in (("finite element", "1; 0"), ("finite element", "0; -0.5"),
@@ -244,29 +204,16 @@ for grid, angle in (("8, 16", 0), ("8, 16", 90), ("8, 8", 0)):
 
 # What is filled up from the old level, above ground that has risen meanwhile.
 heave = scene_file("heave.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 14
-Mesh/Cell size = 0.5
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 14 | Cell size = 0.5
 Method/Method = GIMP
-Materials/clay/Young modulus = 500
-Materials/clay/Poisson ratio = 0.3
-Materials/clay/Density = 2
-Bodies/low/Lower corner = 0, 0
-Bodies/low/Upper corner = 1, 6
-Bodies/low/Initial stress = geostatic
-Bodies/dug/Lower corner = 0, 6
-Bodies/dug/Upper corner = 1, 9
-Bodies/dug/Initial stress = geostatic
-Bodies/fill/Lower corner = 0, 6
-Bodies/fill/Upper corner = 1, 9
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/right/Side = right
-Grid conditions/right/Components = x
-Grid conditions/base/Side = bottom
-Grid conditions/base/Components = y
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Materials/clay/Young modulus = 500 | Poisson ratio = 0.3 | Density = 2
+Bodies/low/Lower corner = 0, 0 | Upper corner = 1, 6 | Initial stress = geostatic
+Bodies/dug/Lower corner = 0, 6 | Upper corner = 1, 9 | Initial stress = geostatic
+Bodies/fill/Lower corner = 0, 6 | Upper corner = 1, 9
+Grid conditions/left/Side = left | Components = x
+Grid conditions/right/Side = right | Components = x
+Grid conditions/base/Side = bottom | Components = y
+Loads/weight/Type = gravity | Value = 0; -10
 Stages/rest/Bodies = low, dug
 Stages/rest/Time/End time = 1
 Stages/pit/Bodies = low
@@ -287,21 +234,13 @@ for name, settings in (
 # What is dug has the shape that is left: however a cylinder lies in its cells.
 BORED = prm("""
 Dimension = 3
-Mesh/Lower corner = -4, -4, -4
-Mesh/Upper corner = 4, 4, 4
-Mesh/Cell size = {h}
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0.3
-Bodies/all/Lower corner = -4, -4, -4
-Bodies/all/Upper corner = 4, 4, 4
-Bodies/hole/Shape = cylinder
-Bodies/hole/Axis start = {start}
-Bodies/hole/Axis end = {end}
+Mesh/Lower corner = -4, -4, -4 | Upper corner = 4, 4, 4 | Cell size = {h}
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/all/Lower corner = -4, -4, -4 | Upper corner = 4, 4, 4
+Bodies/hole/Shape = cylinder | Axis start = {start} | Axis end = {end}
 Bodies/hole/Radius = {radius}
-Bodies/ground/Shape = difference
-Bodies/ground/Operands = all, hole
-Bodies/core/Shape = {core}
-Bodies/core/Operands = all, hole
+Bodies/ground/Shape = difference | Operands = all, hole
+Bodies/core/Shape = {core} | Operands = all, hole
 Grid conditions/base/Side = bottom
 """)
 scene = folder / "bored.prm"
@@ -332,20 +271,13 @@ for name, settings in (
 # What one body says of its cut cells does not depend on another, far away; its
 # domains reach cells that have none of its points.
 apart = scene_file("apart.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 8, 4
-Mesh/Cell size = 1
+Mesh/Lower corner = 0, 0 | Upper corner = 8, 4 | Cell size = 1
 Method/Method = GIMP
-Materials/solid/Young modulus = 100
-Materials/solid/Poisson ratio = 0.3
-Bodies/pulled/Lower corner = 0, 0
-Bodies/pulled/Upper corner = 2, 2
-Bodies/pulled/Aggregate below = 0
-Bodies/other/Lower corner = 5, 0
-Bodies/other/Upper corner = 7, 2
+Materials/solid/Young modulus = 100 | Poisson ratio = 0.3
+Bodies/pulled/Lower corner = 0, 0 | Upper corner = 2, 2 | Aggregate below = 0
+Bodies/other/Lower corner = 5, 0 | Upper corner = 7, 2
 Grid conditions/base/Side = bottom
-Loads/pull/Value = 0; 3*t
-Loads/pull/Bodies = pulled
+Loads/pull/Value = 0; 3*t | Bodies = pulled
 Time/Steps = 4
 Probes/top/Location = 0.1, 1.9
 """)

@@ -6,30 +6,18 @@ a block at rest under gravity stays at rest, whatever has brought its base there
 also when the run goes on from the middle of it."""
 
 scene = scene_file("base.prm", """
-Mesh/Lower corner = -0.5, -0.5
-Mesh/Upper corner = 5, 3.5
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -0.5, -0.5 | Upper corner = 5, 3.5 | Cell size = 0.25
 Method/Method = GIMP
-Materials/soil/Young modulus = 10000
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 2
-Bodies/block/Lower corner = 0, 0.1
-Bodies/block/Upper corner = 4, 2.1
-Bodies/block/Rotation angle = 12
+Materials/soil/Young modulus = 10000 | Poisson ratio = 0.3 | Density = 2
+Bodies/block/Lower corner = 0, 0.1 | Upper corner = 4, 2.1 | Rotation angle = 12
 Bodies/block/Translation = 0, 0.2
-Boundaries/base/Points = 0 0.1; 4 0.1
-Boundaries/base/Rotation angle = 12
-Boundaries/base/Translation = 0; 0.2
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Boundaries/base/Points = 0 0.1; 4 0.1 | Rotation angle = 12 | Translation = 0; 0.2
+Loads/weight/Type = gravity | Value = 0; -10
 Stages/rest/Time/Steps = 2
-Stages/absorbing/Time/Integrator = Newmark
-Stages/absorbing/Time/End time = 1.5
-Stages/absorbing/Time/Steps = 20
+Stages/absorbing/Time/Integrator = Newmark | End time = 1.5 | Steps = 20
 Stages/absorbing/Absorbing = base
 Output/Write = end
-Probes/top/Location = 2.5, 2.3
-Probes/top/Kind = interpolated
+Probes/top/Location = 2.5, 2.3 | Kind = interpolated
 """)
 
 

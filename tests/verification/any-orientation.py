@@ -14,29 +14,19 @@ STRAIN = 0.01
 
 SCENE = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {low}
-Mesh/Upper corner = {high}
-Mesh/Cells = {cells}
-Method/Method = {method}
-Method/Aggregate below = {aggregate}
-Materials/e/Young modulus = 1000
-Materials/e/Poisson ratio = 0.3
-Bodies/b/Lower corner = {origin}
-Bodies/b/Upper corner = {size}
-Bodies/b/Rotation angle = {angle}
+Mesh/Lower corner = {low} | Upper corner = {high} | Cells = {cells}
+Method/Method = {method} | Aggregate below = {aggregate}
+Materials/e/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/b/Lower corner = {origin} | Upper corner = {size} | Rotation angle = {angle}
 {axis}
 Boundaries/
 {boundaries}
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 Exact solution/Displacement = {displacement}
 """)
 
 BOUNDARY = prm("""
-{part}/Body = b
-{part}/Part = {part}
-{part}/Constraint = roller
-{part}/Enforcement = {enforcement}
+{part}/Body = b | Part = {part} | Constraint = roller | Enforcement = {enforcement}
 {motion}
 """)
 

@@ -1,14 +1,15 @@
 # ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Bearing capacity of a strip footing with all boundaries implicit, h = 1/8 of its
+"""Bearing capacity of a strip footing with all boundaries implicit, h = 1/16 of its
 half width, against Prandtl's."""
 
 from math import pi
 
 for method, constraint, n in (("finite element", "roller", 2), ("GIMP", "fixed", 1)):
     result = run("prm/hard-cases/bearing-implicit.prm",
-                 {"Method/Method": method, "Time/Steps": 8,
+                 {"Method/Method": method, "Mesh/Cell size": 0.0625,
+                  "Time/Steps": 8,
                   "Boundaries/footing/Constraint": constraint}, on_ranks=n)
     force = [-row["reaction_y of footing"] for row in result.history()]
     name = f"{method}, {constraint}"

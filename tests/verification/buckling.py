@@ -10,18 +10,11 @@ E, LENGTH, HEIGHT = 120000, 10, 0.5
 EULER = math.pi**2 * E * HEIGHT**3 / 12 / (4 * LENGTH**2)
 
 scene = scene_file("column.prm", f"""
-Mesh/Lower corner = 0, -1
-Mesh/Upper corner = 11, 1.5
-Mesh/Cell size = 0.125
-Materials/steel/Young modulus = {E}
-Materials/steel/Poisson ratio = 0
-Bodies/column/Lower corner = 0, 0
-Bodies/column/Upper corner = {LENGTH}, {HEIGHT}
+Mesh/Lower corner = 0, -1 | Upper corner = 11, 1.5 | Cell size = 0.125
+Materials/steel/Young modulus = {E} | Poisson ratio = 0
+Bodies/column/Lower corner = 0, 0 | Upper corner = {LENGTH}, {HEIGHT}
 Grid conditions/foot/Side = left
-Loads/force/Type = surface traction
-Loads/force/Body = column
-Loads/force/Part = right
-Loads/force/Curve = t
+Loads/force/Type = surface traction | Body = column | Part = right | Curve = t
 Loads/force/Value = {-0.2 * EULER / HEIGHT}; 0
 Study/Kind = buckling
 """)

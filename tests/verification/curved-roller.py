@@ -28,30 +28,18 @@ for method in ("GIMP", "material point", "finite element"):
 # neither stress nor torque; pressed in, what its rim carries is that of Lame's
 # solution for u(12) = 0, u(30) = -0.03.
 SHAFT = prm("""
-Mesh/Lower corner = 67, -43
-Mesh/Upper corner = 137, 27
-Mesh/Cell size = 5
+Mesh/Lower corner = 67, -43 | Upper corner = 137, 27 | Cell size = 5
 Method/Strain = finite
-Materials/steel/Young modulus = 210000
-Materials/steel/Poisson ratio = 0.3
-Bodies/shaft/Shape = ring
-Bodies/shaft/Centre = 101.3, -7.9
-Bodies/shaft/Radius = 30
-Bodies/shaft/Inner radius = 12
-Boundaries/bore/Body = shaft
-Boundaries/bore/Part = inner
+Materials/steel/Young modulus = 210000 | Poisson ratio = 0.3
+Bodies/shaft/Shape = ring | Centre = 101.3, -7.9 | Radius = 30 | Inner radius = 12
+Boundaries/bore/Body = shaft | Part = inner
 Boundaries/bore/Rotation angle = if(t > 1, 60 * (t - 1), 0)
 Boundaries/bore/Rotation centre = 101.3, -7.9
-Boundaries/bearing/Surface = circle
-Boundaries/bearing/Centre = 101.3, -7.9
-Boundaries/bearing/Radius = 30
-Boundaries/bearing/Body side = inside
-Boundaries/bearing/Constraint = roller
-Boundaries/bearing/Rotation angle = 0
+Boundaries/bearing/Surface = circle | Centre = 101.3, -7.9 | Radius = 30
+Boundaries/bearing/Body side = inside | Constraint = roller | Rotation angle = 0
 Boundaries/bearing/Rotation centre = 101.3, -7.9
 {press}
-Time/End time = 2
-Time/Steps = 8
+Time/End time = 2 | Steps = 8
 """)
 SHRINK = """set Displacement = -0.03 * if(t > 1, 1, t) * (x - 101.3) / sqrt((x - 101.3)^2 + (y + 7.9)^2); -0.03 * if(t > 1, 1, t) * (y + 7.9) / sqrt((x - 101.3)^2 + (y + 7.9)^2)"""
 E, NU, A, B, U = 210000, 0.3, 12, 30, -0.03
@@ -78,30 +66,18 @@ for method in ("GIMP", "finite element"):
 # A cylinder in a smooth tube, pressed to 0.8 of its length: uniaxial strain.
 scene.write_text(prm("""
 Dimension = 3
-Mesh/Lower corner = -0.86, -0.86, -0.86
-Mesh/Upper corner = 0.94, 0.94, 1.94
+Mesh/Lower corner = -0.86, -0.86, -0.86 | Upper corner = 0.94, 0.94, 1.94
 Mesh/Cells = 9, 9, 14
-Method/Method = finite element
-Method/Strain = finite
-Materials/rubber/Model = neo-Hookean
-Materials/rubber/Young modulus = 1000
-Materials/rubber/Poisson ratio = 0.3
-Bodies/plug/Shape = cylinder
-Bodies/plug/Axis start = 0, 0, 0
-Bodies/plug/Axis end = 0, 0, 1
+Method/Method = finite element | Strain = finite
+Materials/rubber/Model = neo-Hookean | Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/plug/Shape = cylinder | Axis start = 0, 0, 0 | Axis end = 0, 0, 1
 Bodies/plug/Radius = 0.5
-Boundaries/tube/Body = plug
-Boundaries/tube/Part = side
-Boundaries/tube/Constraint = roller
-Boundaries/bottom/Body = plug
-Boundaries/bottom/Part = bottom
-Boundaries/piston/Body = plug
-Boundaries/piston/Part = top
-Boundaries/piston/Constraint = roller
+Boundaries/tube/Body = plug | Part = side | Constraint = roller
+Boundaries/bottom/Body = plug | Part = bottom
+Boundaries/piston/Body = plug | Part = top | Constraint = roller
 Boundaries/piston/Translation = 0; 0; -0.2*t
 Time/Steps = 4
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 """))
 result = run(scene, on_ranks=1)
 MU, LAMBDA, STRETCH = 1000 / 2.6, 300 / 1.3 / 0.4, 0.8

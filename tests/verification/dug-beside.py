@@ -5,41 +5,29 @@
 away, or before; on a base longer than the ground; between walls a cell apart."""
 
 SCENE = prm("""
-Mesh/Lower corner = -1, -0.2
-Mesh/Upper corner = 6, 7.3
-Mesh/Cell size = 0.5
-Method/Method = {method}
-Method/Strain = finite
-Materials/clay/Young modulus = 20000
-Materials/clay/Poisson ratio = 0.25
-Materials/clay/Density = 2
+Mesh/Lower corner = -1, -0.2 | Upper corner = 6, 7.3 | Cell size = 0.5
+Method/Method = {method} | Strain = finite
+Materials/clay/Young modulus = 20000 | Poisson ratio = 0.25 | Density = 2
 Bodies/
 {bodies}
 Grid conditions/
 {nodes}
 Boundaries/
 {boundaries}
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
-Output/Points = false
-Output/Mesh = false
+Loads/weight/Type = gravity | Value = 0; -10
+Output/Points = false | Mesh = false
 /
 {more}
 """)
 BODY = prm("""
-{name}/Lower corner = {lower}
-{name}/Upper corner = {upper}
-{name}/Initial stress = geostatic
+{name}/Lower corner = {lower} | Upper corner = {upper} | Initial stress = geostatic
 {more}
 """)
 BASE = prm("""
-base/Enforcement = {enforcement}
-base/Points = {points}
+base/Enforcement = {enforcement} | Points = {points}
 """)
 WALL = prm("""
-{part}/Body = ground
-{part}/Part = {part}
-{part}/Constraint = roller
+{part}/Body = ground | Part = {part} | Constraint = roller
 """)
 STAGE = prm("""
 {name}/
@@ -48,9 +36,7 @@ STAGE = prm("""
 {time}
 """)
 LEFT = prm("""
-left/Lower corner = -0.01, -1
-left/Upper corner = 0.01, 9
-left/Components = x
+left/Lower corner = -0.01, -1 | Upper corner = 0.01, 9 | Components = x
 """)
 RIGHT = LEFT.replace("left", "right").replace("-0.01", "5.99").replace("0.01,", "6.01,")
 PROBE = prm("""
@@ -58,9 +44,7 @@ Probes/top/Location = 1, 5.9
 """)
 # rho c_p is 219.09.
 PUSH = prm("""
-Loads/push/Type = surface traction
-Loads/push/Body = ground
-Loads/push/Part = top
+Loads/push/Type = surface traction | Body = ground | Part = top
 Loads/push/Value = 0; if(t > 2, 21.909, 0)
 """)
 scene = folder / "scene.prm"

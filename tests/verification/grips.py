@@ -7,27 +7,15 @@ stress is uniform, that of finite elements whose mesh ends with the bar."""
 
 SCENE = prm("""
 Dimension = 2
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = 0.25
-Method/Method = {method}
-Method/Strain = {strain}
-Method/Mesh after step = {after}
-Materials/metal/Model = von Mises
-Materials/metal/Young modulus = 1000
-Materials/metal/Poisson ratio = 0.3
+Mesh/Lower corner = {lower} | Upper corner = {upper} | Cell size = 0.25
+Method/Method = {method} | Strain = {strain} | Mesh after step = {after}
+Materials/metal/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/metal/Uniaxial yield stress = {strength}
-Bodies/bar/Lower corner = {from}, {below}
-Bodies/bar/Upper corner = {to}, 0.75
-Grid conditions/left/Lower corner = -0.1, -1
-Grid conditions/left/Upper corner = 0.1, 2
-Grid conditions/left/Components = x
-Grid conditions/right/Lower corner = 2.4, -1
-Grid conditions/right/Upper corner = 2.6, 2
-Grid conditions/right/Components = x
+Bodies/bar/Lower corner = {from}, {below} | Upper corner = {to}, 0.75
+Grid conditions/left/Lower corner = -0.1, -1 | Upper corner = 0.1, 2 | Components = x
+Grid conditions/right/Lower corner = 2.4, -1 | Upper corner = 2.6, 2 | Components = x
 Grid conditions/right/Displacement = {pull}; 0
-Grid conditions/below/Lower corner = -1, -0.1
-Grid conditions/below/Upper corner = 4,  0.1
+Grid conditions/below/Lower corner = -1, -0.1 | Upper corner = 4,  0.1
 Grid conditions/below/Components = y
 Time/Steps = 4
 Output/Mesh = false

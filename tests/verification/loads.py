@@ -96,21 +96,14 @@ bound("half of it outside the mesh: base reaction - 240",
 text("  found", half.found())
 
 scene = scene_file("arc.prm", """
-Mesh/Type = generator
-Mesh/Generator = hyper_shell
-Mesh/Arguments = 0, 0 : 5 : 10 : 12 : true
-Mesh/Refinements = 1
+Mesh/Type = generator | Generator = hyper_shell
+Mesh/Arguments = 0, 0 : 5 : 10 : 12 : true | Refinements = 1
 Method/Method = finite element
-Materials/solid/Young modulus = 1000
-Materials/solid/Poisson ratio = 0.3
+Materials/solid/Young modulus = 1000 | Poisson ratio = 0.3
 Bodies/ring/Shape = mesh
 Grid conditions/inside/Side = 0
-Loads/pull/Type = surface traction
-Loads/pull/Surface = circle
-Loads/pull/Centre = 0, 0
-Loads/pull/Radius = 10
-Loads/pull/Body side = inside
-Loads/pull/Value = 1; 0
+Loads/pull/Type = surface traction | Surface = circle | Centre = 0, 0 | Radius = 10
+Loads/pull/Body side = inside | Value = 1; 0
 """)
 bound("arc: reaction over its length + 1",
       run(scene).reactions["inside"][0] / 62.8319 + 1, 0.01)

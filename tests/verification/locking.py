@@ -111,21 +111,13 @@ for title, beside in (("", None), (" beyond 3 h of the edge", (1, 0))):
 # Domains that reach over faces of cells in a uniform strain: their parts in cells
 # are found by where those faces cross them.
 scene = scene_file("stretched.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 6, 3
-Mesh/Cell size = 0.25
+Mesh/Lower corner = 0, 0 | Upper corner = 6, 3 | Cell size = 0.25
 Method/Strain = finite
-Materials/rubber/Young modulus = 100
-Materials/rubber/Poisson ratio = 0.49
-Bodies/sheet/Lower corner = 0, 0
-Bodies/sheet/Upper corner = 4, 2
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = y
-Boundaries/right/Body = sheet
-Boundaries/right/Part = right
-Boundaries/right/Constraint = roller
+Materials/rubber/Young modulus = 100 | Poisson ratio = 0.49
+Bodies/sheet/Lower corner = 0, 0 | Upper corner = 4, 2
+Grid conditions/left/Side = left | Components = x
+Grid conditions/bottom/Side = bottom | Components = y
+Boundaries/right/Body = sheet | Part = right | Constraint = roller
 Boundaries/right/Translation = 0.04*t; 0
 Time/Steps = 8
 """)

@@ -7,25 +7,18 @@ fitted to them. Those whose motions a cell can follow keep all they hold."""
 from math import cos, radians, sin
 
 SCENE = prm("""
-Mesh/Lower corner = {mesh_low}
-Mesh/Upper corner = {mesh_high}
-Mesh/Cell size = {h}
+Mesh/Lower corner = {mesh_low} | Upper corner = {mesh_high} | Cell size = {h}
 Method/Method = {method}
-Materials/clay/Model = {model}
-Materials/clay/Young modulus = 20000
-Materials/clay/Poisson ratio = 0.49
+Materials/clay/Model = {model} | Young modulus = 20000 | Poisson ratio = 0.49
 Materials/clay/Density = 1.8
 {more}
-Bodies/soil/Lower corner = {low}
-Bodies/soil/Upper corner = {high}
-Bodies/soil/Initial stress = geostatic
+Bodies/soil/Lower corner = {low} | Upper corner = {high} | Initial stress = geostatic
 Bodies/soil/K0 = 1
 Boundaries/
 {boundaries}
 Grid conditions/
 {conditions}
-Loads/g/Type = gravity
-Loads/g/Value = 0; -10
+Loads/g/Type = gravity | Value = 0; -10
 Time/Steps = 5
 Output/Write = end
 """)

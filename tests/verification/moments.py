@@ -7,25 +7,17 @@ of a ring, which cancel."""
 from math import cos, pi, radians, sin
 
 MATERIAL = prm("""
-Materials/m/Young modulus = {E}
-Materials/m/Poisson ratio = {nu}
-Materials/m/Density = 1
+Materials/m/Young modulus = {E} | Poisson ratio = {nu} | Density = 1
 Output/Write = end
 """)
 scene = folder / "scene.prm"
 
 # Weight 40, arm 4.
 scene.write_text(MATERIAL.format(E=1e6, nu=0.3) + prm("""
-Mesh/Lower corner = -1, -1
-Mesh/Upper corner = 6, 4
-Mesh/Cell size = 0.25
-Bodies/b/Lower corner = 3, 0.1
-Bodies/b/Upper corner = 5, 2.1
-Boundaries/base/Body = b
-Boundaries/base/Part = bottom
-Boundaries/base/Rotation angle = 5*t
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Mesh/Lower corner = -1, -1 | Upper corner = 6, 4 | Cell size = 0.25
+Bodies/b/Lower corner = 3, 0.1 | Upper corner = 5, 2.1
+Boundaries/base/Body = b | Part = bottom | Rotation angle = 5*t
+Loads/weight/Type = gravity | Value = 0; -10
 """))
 KEEP = {"Method/Mesh after step": "keep"}
 for method in "material point", "GIMP", "finite element":

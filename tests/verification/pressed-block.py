@@ -6,27 +6,17 @@ uniform state of stress, that of elements which fit it."""
 
 BLOCK = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = 0.25
-Method/Method = {method}
-Method/Strain = finite
-Materials/soft/Young modulus = 1000
-Materials/soft/Poisson ratio = 0.3
-Bodies/block/Lower corner = {base}
-Bodies/block/Upper corner = {top}
+Mesh/Lower corner = {lower} | Upper corner = {upper} | Cell size = 0.25
+Method/Method = {method} | Strain = finite
+Materials/soft/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/block/Lower corner = {base} | Upper corner = {top}
 Boundaries/
 {rollers}
-Loads/pressure/Type = surface traction
-Loads/pressure/Body = block
-Loads/pressure/Part = top
-Loads/pressure/Value = {value}
+Loads/pressure/Type = surface traction | Body = block | Part = top | Value = {value}
 Time/Steps = {steps}
 """)
 ROLLER = prm("""
-{name}/Constraint = roller
-{name}/Body = block
-{name}/Part = {name}
+{name}/Constraint = roller | Body = block | Part = {name}
 """)
 
 

@@ -34,26 +34,14 @@ bound("disc, finite element, generalised-alpha: angular momentum after a turn "
 # A disc turns in a hole of its own size. What turns it is of second order in
 # the step with every integrator, and the table of energies is right.
 hole = scene_file("hole.prm", """
-Mesh/Lower corner = -1.5, -1.5
-Mesh/Upper corner = 1.5, 1.5
-Mesh/Cell size = 0.25
-Method/Method = finite element
-Method/Strain = finite
-Materials/m/Model = neo-Hookean
-Materials/m/Young modulus = 1e4
-Materials/m/Poisson ratio = 0.3
+Mesh/Lower corner = -1.5, -1.5 | Upper corner = 1.5, 1.5 | Cell size = 0.25
+Method/Method = finite element | Strain = finite
+Materials/m/Model = neo-Hookean | Young modulus = 1e4 | Poisson ratio = 0.3
 Materials/m/Density = 1
-Bodies/disc/Shape = disc
-Bodies/disc/Centre = 0, 0
-Bodies/disc/Radius = 1.1
-Bodies/disc/Initial velocity = -2*y; 2*x
-Boundaries/rim/Surface = circle
-Boundaries/rim/Centre = 0, 0
-Boundaries/rim/Radius = 1.1
-Boundaries/rim/Body side = inside
+Bodies/disc/Shape = disc | Centre = 0, 0 | Radius = 1.1 | Initial velocity = -2*y; 2*x
+Boundaries/rim/Surface = circle | Centre = 0, 0 | Radius = 1.1 | Body side = inside
 Boundaries/rim/Constraint = roller
-Time/End time = 6
-Time/Steps = 150
+Time/End time = 6 | Steps = 150
 Output/Write = end
 """)
 for integrator in ("generalised-alpha", "Newmark", "Bathe", "energy-momentum"):
@@ -109,35 +97,18 @@ for method, settings in (("finite element", {}),
 # A segment of a disc that rocks in a bowl of its radius from 40 degrees: a rigid
 # pendulum. Generalised-alpha carries the forces of a step into the next.
 rocker = scene_file("rocker.prm", """
-Mesh/Lower corner = -1.2, -1.2
-Mesh/Upper corner = 1.2, 1.2
-Mesh/Cell size = 0.1
+Mesh/Lower corner = -1.2, -1.2 | Upper corner = 1.2, 1.2 | Cell size = 0.1
 Method/Strain = finite
-Materials/rubber/Model = neo-Hookean
-Materials/rubber/Young modulus = 1e6
-Materials/rubber/Poisson ratio = 0.3
+Materials/rubber/Model = neo-Hookean | Young modulus = 1e6 | Poisson ratio = 0.3
 Materials/rubber/Density = 2
-Bodies/disc/Shape = disc
-Bodies/disc/Centre = 0.013, 0
-Bodies/disc/Radius = 1
-Bodies/half/Shape = half-space
-Bodies/half/Point = 0.013, -0.6
-Bodies/half/Normal = 0, 1
-Bodies/half/Rotation angle = 40
-Bodies/half/Rotation centre = 0.013, 0
-Bodies/segment/Shape = intersection
-Bodies/segment/Operands = disc, half
-Bodies/segment/Material = rubber
-Boundaries/bowl/Surface = circle
-Boundaries/bowl/Centre = 0.013, 0
-Boundaries/bowl/Radius = 1
-Boundaries/bowl/Body side = inside
+Bodies/disc/Shape = disc | Centre = 0.013, 0 | Radius = 1
+Bodies/half/Shape = half-space | Point = 0.013, -0.6 | Normal = 0, 1
+Bodies/half/Rotation angle = 40 | Rotation centre = 0.013, 0
+Bodies/segment/Shape = intersection | Operands = disc, half | Material = rubber
+Boundaries/bowl/Surface = circle | Centre = 0.013, 0 | Radius = 1 | Body side = inside
 Boundaries/bowl/Constraint = roller
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -9.81
-Time/Integrator = generalised-alpha
-Time/End time = 1.01
-Time/Steps = 60
+Loads/weight/Type = gravity | Value = 0; -9.81
+Time/Integrator = generalised-alpha | End time = 1.01 | Steps = 60
 Output/Write = end
 """)
 # Weight and the height that the centre of the segment falls.

@@ -26,22 +26,16 @@ def block(angle, ends, enforcement, overhang=0.):
                f"set Normal = {text_of(c * x - s * y, s * x + c * y)}"
 
     return prm(f"""
-Mesh/Lower corner = -1, -1
-Mesh/Upper corner = 2, 2
-Mesh/Cell size = 0.1
+Mesh/Lower corner = -1, -1 | Upper corner = 2, 2 | Cell size = 0.1
 Method/Method = finite element
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0.3
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0.3
 Bodies/block/Shape = polygon
 Bodies/block/Vertices = {at(0, 0)}; {at(1, 0)}; {at(1, 1)}; {at(0, 1)}
-Boundaries/base/Constraint = roller
-Boundaries/base/Enforcement = {enforcement}
+Boundaries/base/Constraint = roller | Enforcement = {enforcement}
 {surface((0, 0), (1, 0), 0, -1)}
-Boundaries/left/Constraint = roller
-Boundaries/left/Enforcement = {enforcement}
+Boundaries/left/Constraint = roller | Enforcement = {enforcement}
 {surface((0, 1), (0, 0), -1, 0)}
-Loads/top/Type = surface traction
-Loads/top/Value = {s!r}; {-c!r}
+Loads/top/Type = surface traction | Value = {s!r}; {-c!r}
 Loads/top/Points = {at(1 + overhang, 1)}; {at(-overhang, 1)}
 """)
 
@@ -77,24 +71,14 @@ for angle in 0, 20:
 
 CYLINDER = prm("""
 Dimension = 3
-Mesh/Lower corner = -1.3, -1.3, -1
-Mesh/Upper corner = 1.9, 1.9, 2.2
-Mesh/Cell size = 0.2
+Mesh/Lower corner = -1.3, -1.3, -1 | Upper corner = 1.9, 1.9, 2.2 | Cell size = 0.2
 Method/Method = finite element
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0
-Bodies/column/Shape = cylinder
-Bodies/column/Axis start = {start}
-Bodies/column/Axis end = {end}
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0
+Bodies/column/Shape = cylinder | Axis start = {start} | Axis end = {end}
 Bodies/column/Radius = 0.7
-Boundaries/base/Enforcement = augmented Lagrangian
-Boundaries/base/Surface = plane
-Boundaries/base/Point = {start}
+Boundaries/base/Enforcement = augmented Lagrangian | Surface = plane | Point = {start}
 Boundaries/base/Normal = {normal}
-Loads/top/Type = surface traction
-Loads/top/Value = {pressure}
-Loads/top/Body = column
-Loads/top/Part = top
+Loads/top/Type = surface traction | Value = {pressure} | Body = column | Part = top
 """)
 d = (0.8 * sin(radians(20)), 0.6 * sin(radians(20)), cos(radians(20)))
 start = (0.013, 0.027, 0.031)
@@ -114,45 +98,26 @@ bound("cylinder tilted by 20 degrees on a plane: error of stress beside it",
 # mesh follows it, and plates no longer run along the faces of cells.
 scene.write_text(prm("""
 Dimension = 3
-Mesh/Lower corner = -960, -460, 290
-Mesh/Upper corner = -910, -410, 450
-Mesh/Cell size = 10
+Mesh/Lower corner = -960, -460, 290 | Upper corner = -910, -410, 450 | Cell size = 10
 Method/Method = finite element
-Materials/clay/Model = von Mises
-Materials/clay/Young modulus = 20
-Materials/clay/Poisson ratio = 0.45
+Materials/clay/Model = von Mises | Young modulus = 20 | Poisson ratio = 0.45
 Materials/clay/Shear yield stress = 0.05
-Bodies/whole/Shape = cylinder
-Bodies/whole/Axis start = -960, -460, 303
-Bodies/whole/Axis end = -960, -460, 443
-Bodies/whole/Radius = 35
-Bodies/quadrant/Lower corner = -960, -460, 290
-Bodies/quadrant/Upper corner = -900, -400, 450
-Bodies/sample/Shape = intersection
-Bodies/sample/Operands = whole, quadrant
-Boundaries/base/Surface = plane
-Boundaries/base/Point = -960, -460, 303
-Boundaries/base/Normal = 0, 0, -1
+Bodies/whole/Shape = cylinder | Axis start = -960, -460, 303
+Bodies/whole/Axis end = -960, -460, 443 | Radius = 35
+Bodies/quadrant/Lower corner = -960, -460, 290 | Upper corner = -900, -400, 450
+Bodies/sample/Shape = intersection | Operands = whole, quadrant
+Boundaries/base/Surface = plane | Point = -960, -460, 303 | Normal = 0, 0, -1
 Boundaries/base/Constraint = roller
-Boundaries/platen/Surface = plane
-Boundaries/platen/Point = -960, -460, 443
-Boundaries/platen/Normal = 0, 0, 1
-Boundaries/platen/Constraint = roller
-Boundaries/platen/Translation = 0; 0; 0: 0, 1: 0, 2: -2.8
-Grid conditions/x/Side = left
-Grid conditions/x/Components = x
-Grid conditions/y/Side = front
-Grid conditions/y/Components = y
+Boundaries/platen/Surface = plane | Point = -960, -460, 443 | Normal = 0, 0, 1
+Boundaries/platen/Constraint = roller | Translation = 0; 0; 0: 0, 1: 0, 2: -2.8
+Grid conditions/x/Side = left | Components = x
+Grid conditions/y/Side = front | Components = y
 Loads/cell/Type = surface traction
 Loads/cell/Value = -0.2 * (x + 960) / 35; -0.2 * (y + 460) / 35; 0
-Loads/cell/Curve = 0: 0, 1: 1, 2: 1
-Loads/cell/Surface = cylinder
-Loads/cell/Axis start = -960, -460, 303
-Loads/cell/Axis end = -960, -460, 443
-Loads/cell/Radius = 35
+Loads/cell/Curve = 0: 0, 1: 1, 2: 1 | Surface = cylinder
+Loads/cell/Axis start = -960, -460, 303 | Axis end = -960, -460, 443 | Radius = 35
 Loads/cell/Body side = inside
-Time/End time = 2
-Time/Steps = 10
+Time/End time = 2 | Steps = 10
 """))
 result = run(scene, expect=None)
 force = [row["reaction_z of platen"] / (pi * 35 ** 2 / 4) for row in result.history()]
@@ -165,30 +130,20 @@ bound("triaxial: axial stress at the end over the exact one - 1",
 
 # The force of dashpots on a body that moves as a whole is rho c v times the area.
 BAR = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 3, 6
-Mesh/Cell size = {h}
+Mesh/Lower corner = 0, 0 | Upper corner = 3, 6 | Cell size = {h}
 Method/Method = {method}
-Materials/rock/Young modulus = 100
-Materials/rock/Poisson ratio = 0
-Materials/rock/Density = 0.01
-Bodies/bar/Lower corner = 0, {low!r}
-Bodies/bar/Upper corner = {right!r}, {high!r}
+Materials/rock/Young modulus = 100 | Poisson ratio = 0 | Density = 0.01
+Bodies/bar/Lower corner = 0, {low!r} | Upper corner = {right!r}, {high!r}
 Bodies/bar/Initial velocity = 1; 0
 /
 {how}
-Time/Integrator = Newmark
-Time/End time = 1e-7
-Time/Steps = 1
+Time/Integrator = Newmark | End time = 1e-7 | Steps = 1
 """)
 SIDE = prm("""
-Grid conditions/end/Side = right
-Grid conditions/end/Constraint = absorbing
+Grid conditions/end/Side = right | Constraint = absorbing
 """)
 LINE = prm("""
-Boundaries/end/Surface = plane
-Boundaries/end/Point = 2.3, 0
-Boundaries/end/Normal = 1, 0
+Boundaries/end/Surface = plane | Point = 2.3, 0 | Normal = 1, 0
 Boundaries/end/Constraint = absorbing
 """)
 for name, how, right, low, high in (("side", SIDE, 3., 0., 4.), ("side", SIDE, 3., 1., 5.),
@@ -226,8 +181,7 @@ subsection Bodies
 end
 subsection Grid conditions
 """ + "".join(prm(f"""
-{side}/Side = {side}
-{side}/Displacement = 0.5 * x * t; 0
+{side}/Side = {side} | Displacement = 0.5 * x * t; 0
 """) for side in ("left", "right", "bottom", "top")) + "end\n"
 scene.write_text(FIELD)
 for steps in 1, 8:

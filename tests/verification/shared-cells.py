@@ -13,36 +13,18 @@ from math import cos, hypot, log, radians, sin
 # moves: at the limit its pressure is 2 ln 2 (Hill 1950).
 ring = scene_file("ring.prm", """
 Mesh/Upper corner = 2.3, 2.3
-Method/Strain = small
-Method/Mesh after step = keep
-Materials/soil/Model = von Mises
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.49
+Method/Strain = small | Mesh after step = keep
+Materials/soil/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.49
 Materials/soil/Shear yield stress = 1
-Bodies/quarter/Shape = box
-Bodies/quarter/Lower corner = 0, 0
-Bodies/quarter/Upper corner = 3, 3
-Bodies/outer/Shape = disc
-Bodies/outer/Centre = 0, 0
-Bodies/outer/Radius = 2
-Bodies/inner/Shape = disc
-Bodies/inner/Centre = 0, 0
-Bodies/inner/Radius = 1
-Bodies/whole/Shape = intersection
-Bodies/whole/Operands = quarter, outer
-Bodies/ring/Shape = difference
-Bodies/ring/Operands = whole, inner
-Boundaries/left/Surface = plane
-Boundaries/left/Point = 0, 0
-Boundaries/left/Normal = -1, 0
-Boundaries/left/Constraint = roller
-Boundaries/bottom/Surface = plane
-Boundaries/bottom/Point = 0, 0
-Boundaries/bottom/Normal = 0, -1
+Bodies/quarter/Shape = box | Lower corner = 0, 0 | Upper corner = 3, 3
+Bodies/outer/Shape = disc | Centre = 0, 0 | Radius = 2
+Bodies/inner/Shape = disc | Centre = 0, 0 | Radius = 1
+Bodies/whole/Shape = intersection | Operands = quarter, outer
+Bodies/ring/Shape = difference | Operands = whole, inner
+Boundaries/left/Surface = plane | Point = 0, 0 | Normal = -1, 0 | Constraint = roller
+Boundaries/bottom/Surface = plane | Point = 0, 0 | Normal = 0, -1
 Boundaries/bottom/Constraint = roller
-Boundaries/bore/Body = ring
-Boundaries/bore/Part = inner
-Boundaries/bore/Constraint = fixed
+Boundaries/bore/Body = ring | Part = inner | Constraint = fixed
 Boundaries/bore/Displacement = 0.03*t*x/sqrt(x^2+y^2); 0.03*t*y/sqrt(x^2+y^2)
 Time/Steps = 10
 """)
@@ -76,18 +58,11 @@ for method, h, offset, enforcement, allowed in (
 # A square turned by 30 degrees, its rims moved so that it is stretched along its one
 # side and pressed along the other: all of it has one stress.
 SQUARE = prm("""
-Mesh/Lower corner = -1, -1
-Mesh/Upper corner = 2, 2
-Mesh/Cell size = 0.1
-Method/Strain = small
-Method/Mesh after step = keep
-Materials/soil/Model = von Mises
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
+Mesh/Lower corner = -1, -1 | Upper corner = 2, 2 | Cell size = 0.1
+Method/Strain = small | Mesh after step = keep
+Materials/soil/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/soil/Shear yield stress = 1
-Bodies/square/Shape = box
-Bodies/square/Lower corner = 0, 0
-Bodies/square/Upper corner = 1, 1
+Bodies/square/Shape = box | Lower corner = 0, 0 | Upper corner = 1, 1
 Bodies/square/Rotation angle = 30
 Boundaries/
 RIMS
@@ -113,21 +88,15 @@ for method in "GIMP", "finite element":
 # A cube that is pressed between six plates, anywhere in its mesh.
 CUBE = prm("""
 Dimension = 3
-Mesh/Lower corner = -0.07, -0.11, -0.05
-Mesh/Upper corner = 1.43, 1.39, 1.45
+Mesh/Lower corner = -0.07, -0.11, -0.05 | Upper corner = 1.43, 1.39, 1.45
 Mesh/Cell size = 0.25
 Method/Method = GIMP
-Materials/soil/Model = von Mises
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = 0.3
+Materials/soil/Model = von Mises | Young modulus = 1000 | Poisson ratio = 0.3
 Materials/soil/Shear yield stress = 1
-Bodies/cube/Shape = box
-Bodies/cube/Lower corner = 0, 0, 0
-Bodies/cube/Upper corner = 1, 1, 1
+Bodies/cube/Shape = box | Lower corner = 0, 0, 0 | Upper corner = 1, 1, 1
 Boundaries/
 RIMS
-Time/End time = 0.1
-Time/Steps = 4
+Time/End time = 0.1 | Steps = 4
 """)
 cube = folder / "cube.prm"
 cube.write_text(CUBE.replace("RIMS", "\n".join(
@@ -148,26 +117,13 @@ for side, direction, sign in (("left", 0, -1), ("right", 0, 1),
 
 # Ground between walls four cells apart, which push with nu/(1 - nu) of its weight.
 BOX = prm("""
-Mesh/Lower corner = -0.1, -0.15
-Mesh/Upper corner = 1.4, 2.35
-Mesh/Cell size = 0.25
-Materials/soil/Young modulus = 1e5
-Materials/soil/Poisson ratio = 0.3
-Materials/soil/Density = 2
-Bodies/ground/Shape = box
-Bodies/ground/Lower corner = 0, 0
-Bodies/ground/Upper corner = 1, 2
-Boundaries/left/Body = ground
-Boundaries/left/Part = left
-Boundaries/left/Constraint = roller
-Boundaries/right/Body = ground
-Boundaries/right/Part = right
-Boundaries/right/Constraint = roller
-Boundaries/base/Body = ground
-Boundaries/base/Part = bottom
-Boundaries/base/Constraint = CONSTRAINT
-Loads/weight/Type = gravity
-Loads/weight/Value = 0; -10
+Mesh/Lower corner = -0.1, -0.15 | Upper corner = 1.4, 2.35 | Cell size = 0.25
+Materials/soil/Young modulus = 1e5 | Poisson ratio = 0.3 | Density = 2
+Bodies/ground/Shape = box | Lower corner = 0, 0 | Upper corner = 1, 2
+Boundaries/left/Body = ground | Part = left | Constraint = roller
+Boundaries/right/Body = ground | Part = right | Constraint = roller
+Boundaries/base/Body = ground | Part = bottom | Constraint = CONSTRAINT
+Loads/weight/Type = gravity | Value = 0; -10
 """)
 box = folder / "box.prm"
 for constraint, allowed in ("roller", 1e-3), ("fixed", 1e-2):
@@ -185,25 +141,16 @@ for constraint, allowed in ("roller", 1e-3), ("fixed", 1e-2):
 # force is that of the stress on the block.
 PRESSED = prm("""
 Dimension = DIM
-Mesh/Lower corner = LOW
-Mesh/Upper corner = HIGH
-Mesh/Cell size = 1
-Method/Method = GIMP
-Method/Strain = finite
-Materials/rubber/Young modulus = 1000
-Materials/rubber/Poisson ratio = 0.3
-Bodies/block/Lower corner = BLOCK_LOW
-Bodies/block/Upper corner = BLOCK_HIGH
+Mesh/Lower corner = LOW | Upper corner = HIGH | Cell size = 1
+Method/Method = GIMP | Strain = finite
+Materials/rubber/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/block/Lower corner = BLOCK_LOW | Upper corner = BLOCK_HIGH
 Boundaries/
 PLANES
-Boundaries/lid/Surface = plane
-Boundaries/lid/Point = BLOCK_HIGH
-Boundaries/lid/Normal = UP
-Boundaries/lid/Constraint = roller
-Boundaries/lid/Translation = DOWN
+Boundaries/lid/Surface = plane | Point = BLOCK_HIGH | Normal = UP
+Boundaries/lid/Constraint = roller | Translation = DOWN
 Time/Steps = STEPS
-Probes/inside/Location = MIDDLE
-Probes/inside/Quantities = stress
+Probes/inside/Location = MIDDLE | Quantities = stress
 """)
 pressed = folder / "pressed.prm"
 

@@ -6,25 +6,17 @@ The supports must carry the traction times the block's width, no cell more."""
 
 SCENE = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {end}
-Mesh/Cell size = 0.25
-Method/Method = {method}
-Method/Strain = {strain}
-Materials/clay/Young modulus = 1e4
-Materials/clay/Poisson ratio = 0.3
-Bodies/block/Lower corner = {lower}
-Bodies/block/Upper corner = {upper}
+Mesh/Lower corner = {lower} | Upper corner = {end} | Cell size = 0.25
+Method/Method = {method} | Strain = {strain}
+Materials/clay/Young modulus = 1e4 | Poisson ratio = 0.3
+Bodies/block/Lower corner = {lower} | Upper corner = {upper}
 Grid conditions/
 {rollers}
-Loads/press/Type = side traction
-Loads/press/Side = top
-Loads/press/Value = {value}*t
+Loads/press/Type = side traction | Side = top | Value = {value}*t
 Time/Steps = 3
 """)
 ROLLER = prm("""
-{side}/Side = {side}
-{side}/Components = {component}
+{side}/Side = {side} | Components = {component}
 """)
 
 

@@ -10,13 +10,9 @@ from math import pi
 
 CUBE = prm("""
 Dimension = 3
-Mesh/Lower corner = -1.5, -1.5, -1.5
-Mesh/Upper corner = 1.5, 1.5, 1.5
-Mesh/Cell size = 0.5
-Materials/soil/Young modulus = 8000
-Materials/soil/Poisson ratio = 0.35
-Bodies/soil/Lower corner = -1.5, -1.5, -1.5
-Bodies/soil/Upper corner = 1.5, 1.5, 1.5
+Mesh/Lower corner = -1.5, -1.5, -1.5 | Upper corner = 1.5, 1.5, 1.5 | Cell size = 0.5
+Materials/soil/Young modulus = 8000 | Poisson ratio = 0.35
+Bodies/soil/Lower corner = -1.5, -1.5, -1.5 | Upper corner = 1.5, 1.5, 1.5
 Grid conditions/base/Side = bottom
 Loads/drag/Type = surface traction
 {surface}
@@ -25,29 +21,16 @@ Loads/drag/Value = 1; 0; 0
 # A quarter of a cylindrical hole along two planes of symmetry.
 HOLE = prm("""
 Dimension = 3
-Mesh/Lower corner = 0, 0, 0
-Mesh/Upper corner = 2, 2, 1
-Mesh/Cell size = 0.5
-Materials/soil/Young modulus = 8000
-Materials/soil/Poisson ratio = 0.35
-Bodies/block/Lower corner = 0, 0, 0
-Bodies/block/Upper corner = 2, 2, 1
-Bodies/bore/Shape = cylinder
-Bodies/bore/Axis start = 0, 0, -1
-Bodies/bore/Axis end = 0, 0, 2
+Mesh/Lower corner = 0, 0, 0 | Upper corner = 2, 2, 1 | Cell size = 0.5
+Materials/soil/Young modulus = 8000 | Poisson ratio = 0.35
+Bodies/block/Lower corner = 0, 0, 0 | Upper corner = 2, 2, 1
+Bodies/bore/Shape = cylinder | Axis start = 0, 0, -1 | Axis end = 0, 0, 2
 Bodies/bore/Radius = {radius}
-Bodies/soil/Shape = difference
-Bodies/soil/Operands = block, bore
-Bodies/soil/Material = soil
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/front/Side = front
-Grid conditions/front/Components = y
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = z
-Loads/water/Type = surface traction
-Loads/water/Body = soil
-Loads/water/Part = bore/side
+Bodies/soil/Shape = difference | Operands = block, bore | Material = soil
+Grid conditions/left/Side = left | Components = x
+Grid conditions/front/Side = front | Components = y
+Grid conditions/bottom/Side = bottom | Components = z
+Loads/water/Type = surface traction | Body = soil | Part = bore/side
 Loads/water/Value = 100 * x / {radius}; 100 * y / {radius}; 0
 """)
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}

@@ -10,25 +10,13 @@ that a probe follows ends 0.95 of the way from the origin to (3.8, 0.2)."""
 
 STRETCH = prm("""
 Dimension = 2
-Mesh/Lower corner = -12, -3
-Mesh/Upper corner = 12, 3
-Mesh/Cell size = 0.5
-Method/Method = {method}
-Method/Strain = finite
-Method/Split domains = {split}
-Materials/dust/Young modulus = 1e-6
-Materials/dust/Poisson ratio = 0
-Materials/dust/Density = 1
-Bodies/cloud/Lower corner = -2, -1
-Bodies/cloud/Upper corner = 2, 1
-Bodies/cloud/Initial velocity = 0.5*x; 0
-Probes/tip/Location = 1.9, 0.1
-Probes/tip/Quantities = velocity, position
-Time/Integrator = {integrator}
-Time/Steps = {steps}
-Time/End time = {end}
-Output/Points = false
-Output/Mesh = false
+Mesh/Lower corner = -12, -3 | Upper corner = 12, 3 | Cell size = 0.5
+Method/Method = {method} | Strain = finite | Split domains = {split}
+Materials/dust/Young modulus = 1e-6 | Poisson ratio = 0 | Density = 1
+Bodies/cloud/Lower corner = -2, -1 | Upper corner = 2, 1 | Initial velocity = 0.5*x; 0
+Probes/tip/Location = 1.9, 0.1 | Quantities = velocity, position
+Time/Integrator = {integrator} | Steps = {steps} | End time = {end}
+Output/Points = false | Mesh = false
 """)
 
 
@@ -60,33 +48,19 @@ stretch("material point", "false", "Newmark", 3, 1.5)
 # Displacements that count from a reset, of points that split later.
 BAR = prm("""
 Dimension = 2
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 4, 1
-Mesh/Cell size = 0.25
-Method/Method = {method}
-Method/Strain = finite
-Materials/soft/Young modulus = 1
-Materials/soft/Poisson ratio = 0
-Bodies/bar/Lower corner = 0, 0
-Bodies/bar/Upper corner = 2, 1
-Grid conditions/left/Side = left
-Grid conditions/left/Components = x
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = y
-Boundaries/grip/Body = bar
-Boundaries/grip/Part = right
-Boundaries/grip/Constraint = components
-Boundaries/grip/Components = x
+Mesh/Lower corner = 0, 0 | Upper corner = 4, 1 | Cell size = 0.25
+Method/Method = {method} | Strain = finite
+Materials/soft/Young modulus = 1 | Poisson ratio = 0
+Bodies/bar/Lower corner = 0, 0 | Upper corner = 2, 1
+Grid conditions/left/Side = left | Components = x
+Grid conditions/bottom/Side = bottom | Components = y
+Boundaries/grip/Body = bar | Part = right | Constraint = components | Components = x
 Boundaries/grip/Translation = 0: 0, 1: 0.8, 2: 1.2; 0
-Stages/pull/Time/End time = 1
-Stages/pull/Time/Steps = 8
+Stages/pull/Time/End time = 1 | Steps = 8
 Stages/more/Reset displacements = true
-Stages/more/Time/End time = 2
-Stages/more/Time/Steps = 4
-Probes/middle/Location = 1, 0.5
-Probes/middle/Quantities = position, displacement
-Output/Points = false
-Output/Mesh = false
+Stages/more/Time/End time = 2 | Steps = 4
+Probes/middle/Location = 1, 0.5 | Quantities = position, displacement
+Output/Points = false | Mesh = false
 """)
 for method in ("GIMP", "CPDI1"):
     scene = folder / "bar.prm"

@@ -8,30 +8,20 @@ accelerates, do not cost the second order in time."""
 from math import cos, exp, sin, sqrt
 
 SCENE = prm("""
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 1
-Mesh/Cell size = 1
-Method/Method = finite element
-Method/Mesh after step = keep
-Materials/m/Young modulus = 1
-Materials/m/Poisson ratio = 0
-Materials/m/Density = 1
-Bodies/b/Lower corner = 0, 0
-Bodies/b/Upper corner = 1, 1
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 1 | Cell size = 1
+Method/Method = finite element | Mesh after step = keep
+Materials/m/Young modulus = 1 | Poisson ratio = 0 | Density = 1
+Bodies/b/Lower corner = 0, 0 | Upper corner = 1, 1
 {body}
-Grid conditions/l/Side = left
-Grid conditions/l/Components = x
+Grid conditions/l/Side = left | Components = x
 {base}
-Grid conditions/y/Side = bottom
-Grid conditions/y/Components = y
-Grid conditions/top/Side = top
-Grid conditions/top/Components = y
+Grid conditions/y/Side = bottom | Components = y
+Grid conditions/top/Side = top | Components = y
 Grid conditions/
 {condition}
 /
 {rest}
-Probes/tip/Location = 1, 0.5
-Probes/tip/Kind = interpolated
+Probes/tip/Location = 1, 0.5 | Kind = interpolated
 """)
 
 OMEGA = sqrt(3)
@@ -39,9 +29,7 @@ OMEGA = sqrt(3)
 
 def time(integrator, end, steps):
     return prm(f"""
-Time/Integrator = {integrator}
-Time/End time = {end}
-Time/Steps = {steps}
+Time/Integrator = {integrator} | End time = {end} | Steps = {steps}
 """)
 
 
@@ -56,9 +44,7 @@ def in_one(integrator, steps):
 
 def load_begins(integrator, steps):
     return prm(f"""
-Loads/p/Type = side traction
-Loads/p/Side = right
-Loads/p/Value = 0.01; 0
+Loads/p/Type = side traction | Side = right | Value = 0.01; 0
 Stages/a/Loads = none
 {time(integrator, 1, 2)}
 Stages/b/Loads = p
@@ -78,9 +64,7 @@ Stages/free/Grid conditions = l, y, top
 
 
 held = prm("""
-r/Side = right
-r/Components = x
-r/Displacement = 0.01 * min(t, 1); 0
+r/Side = right | Components = x | Displacement = 0.01 * min(t, 1); 0
 """)
 for name, parts, rest, exact in (
         ("mass damping", {"body": "set Initial velocity = 0.01 * x; 0\n"

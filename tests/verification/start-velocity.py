@@ -8,39 +8,24 @@ is refused."""
 from math import pi, sin
 
 SCENE = prm("""
-Mesh/Lower corner = {lower}, 0
-Mesh/Upper corner = {upper}, 1
-Mesh/Cell size = 0.5
-Method/Method = finite element
-Method/Mesh after step = keep
-Materials/m/Young modulus = 1e9
-Materials/m/Poisson ratio = 0
-Materials/m/Density = 1
-Bodies/b/Lower corner = 0, 0
-Bodies/b/Upper corner = 4, 1
-Bodies/b/Initial velocity = {velocity}; 0
+Mesh/Lower corner = {lower}, 0 | Upper corner = {upper}, 1 | Cell size = 0.5
+Method/Method = finite element | Mesh after step = keep
+Materials/m/Young modulus = 1e9 | Poisson ratio = 0 | Density = 1
+Bodies/b/Lower corner = 0, 0 | Upper corner = 4, 1 | Initial velocity = {velocity}; 0
 /
 {hand}
 Grid conditions/
 {condition}
-Grid conditions/low/Side = bottom
-Grid conditions/low/Components = y
-Time/Integrator = {integrator}
-Time/End time = 1
-Time/Steps = 100
-Probes/right/Location = 4, 0.5
-Probes/right/Kind = interpolated
+Grid conditions/low/Side = bottom | Components = y
+Time/Integrator = {integrator} | End time = 1 | Steps = 100
+Probes/right/Location = 4, 0.5 | Kind = interpolated
 Output/Write = end
 """)
 SIDE = prm("""
-hand/Side = left
-hand/Components = x
-hand/Displacement = {motion}; 0
+hand/Side = left | Components = x | Displacement = {motion}; 0
 """)
 SURFACE = prm("""
-Boundaries/hand/Body = b
-Boundaries/hand/Part = left
-Boundaries/hand/Constraint = roller
+Boundaries/hand/Body = b | Part = left | Constraint = roller
 Boundaries/hand/Translation = {motion}; 0
 """)
 SINE = "sin(2*pi*t)"
@@ -79,24 +64,14 @@ text("held at rest, velocity 1",
 
 # A block that turns about its corner, held there by a hand that turns alike.
 spin = scene_file("spin.prm", """
-Mesh/Lower corner = 0, 0
-Mesh/Upper corner = 1, 1
-Mesh/Cell size = 0.25
-Method/Method = finite element
-Method/Strain = finite
-Materials/m/Young modulus = 1e7
-Materials/m/Poisson ratio = 0.3
-Materials/m/Density = 1
-Bodies/b/Shape = mesh
-Bodies/b/Initial velocity = -2*pi*y; 2*pi*x
-Grid conditions/hand/Lower corner = -0.1, -0.1
-Grid conditions/hand/Upper corner = 0.3, 0.3
+Mesh/Lower corner = 0, 0 | Upper corner = 1, 1 | Cell size = 0.25
+Method/Method = finite element | Strain = finite
+Materials/m/Young modulus = 1e7 | Poisson ratio = 0.3 | Density = 1
+Bodies/b/Shape = mesh | Initial velocity = -2*pi*y; 2*pi*x
+Grid conditions/hand/Lower corner = -0.1, -0.1 | Upper corner = 0.3, 0.3
 Grid conditions/hand/Rotation angle = 360*t
-Time/Integrator = energy-momentum
-Time/End time = 1
-Time/Steps = 100
-Probes/far/Location = 1, 1
-Probes/far/Kind = interpolated
+Time/Integrator = energy-momentum | End time = 1 | Steps = 100
+Probes/far/Location = 1, 1 | Kind = interpolated
 Output/Write = end
 """)
 result = run(spin)

@@ -57,9 +57,7 @@ subsection Bodies
 """
     for name, (lower, upper) in zip(("stiff", "soft"), bodies):
         text += prm(f"""
-{name}/Shape = box
-{name}/Lower corner = {lower}
-{name}/Upper corner = {upper}
+{name}/Shape = box | Lower corner = {lower} | Upper corner = {upper}
 {name}/Material = {name}
 """)
     file = folder / "contrast.prm"

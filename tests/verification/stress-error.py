@@ -9,21 +9,12 @@ from math import cos, hypot, radians, sin
 
 # Cantilever of length 10 and height 1, anywhere in its mesh.
 scene = scene_file("beam.prm", """
-Mesh/Lower corner = -1.03, -1.03
-Mesh/Upper corner = 12.97, 12.97
-Method/Strain = small
-Method/Mesh after step = keep
-Materials/steel/Young modulus = 1000
-Materials/steel/Poisson ratio = 0.3
-Bodies/beam/Shape = box
-Bodies/beam/Lower corner = 0, 0
-Bodies/beam/Upper corner = 10, 1
-Boundaries/wall/Body = beam
-Boundaries/wall/Part = left
-Boundaries/wall/Constraint = fixed
-Loads/end/Type = surface traction
-Loads/end/Body = beam
-Loads/end/Part = right
+Mesh/Lower corner = -1.03, -1.03 | Upper corner = 12.97, 12.97
+Method/Strain = small | Mesh after step = keep
+Materials/steel/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/beam/Shape = box | Lower corner = 0, 0 | Upper corner = 10, 1
+Boundaries/wall/Body = beam | Part = left | Constraint = fixed
+Loads/end/Type = surface traction | Body = beam | Part = right
 Probes/tip/
 """)
 

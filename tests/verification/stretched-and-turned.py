@@ -8,23 +8,14 @@ doc/topics/implicit-boundaries.md."""
 from math import hypot
 
 scene = scene_file("bar.prm", """
-Mesh/Lower corner = -2, -2
-Mesh/Upper corner = 8, 8
-Mesh/Cell size = 0.25
+Mesh/Lower corner = -2, -2 | Upper corner = 8, 8 | Cell size = 0.25
 Method/Strain = finite
-Materials/rubber/Young modulus = 1000
-Materials/rubber/Poisson ratio = 0.3
-Bodies/bar/Lower corner = 0, 0
-Bodies/bar/Upper corner = 4, 1
-Boundaries/hinge/Body = bar
-Boundaries/hinge/Part = left
-Boundaries/hinge/Rotation angle = 90*t
+Materials/rubber/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/bar/Lower corner = 0, 0 | Upper corner = 4, 1
+Boundaries/hinge/Body = bar | Part = left | Rotation angle = 90*t
 Boundaries/hinge/Rotation centre = 0, 0.5
-Boundaries/pull/Body = bar
-Boundaries/pull/Part = right
-Boundaries/pull/Constraint = roller
-Boundaries/pull/Rotation angle = 90*t
-Boundaries/pull/Rotation centre = 0, 0.5
+Boundaries/pull/Body = bar | Part = right | Constraint = roller
+Boundaries/pull/Rotation angle = 90*t | Rotation centre = 0, 0.5
 Boundaries/pull/Translation = 2*t*cos(pi*t/2); 2*t*sin(pi*t/2)
 Time/Steps = 40
 """)

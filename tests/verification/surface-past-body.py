@@ -9,21 +9,16 @@ from math import asin, cos, hypot, pi, radians, sin
 
 SCENE = prm("""
 Dimension = {dim}
-Mesh/Lower corner = {lower}
-Mesh/Upper corner = {upper}
-Mesh/Cell size = {h}
+Mesh/Lower corner = {lower} | Upper corner = {upper} | Cell size = {h}
 Method/Method = {method}
-Materials/stone/Young modulus = 1e5
-Materials/stone/Poisson ratio = 0.25
+Materials/stone/Young modulus = 1e5 | Poisson ratio = 0.25
 Bodies/
 {bodies}
-Boundaries/foot/Body = {foot}
-Boundaries/foot/Part = {part}
+Boundaries/foot/Body = {foot} | Part = {part}
 Loads/traction/Type = surface traction
 {surface}
 Loads/traction/Value = {value}
-Output/Points = false
-Output/Mesh = false
+Output/Points = false | Mesh = false
 """)
 scene = folder / "scene.prm"
 

@@ -5,20 +5,11 @@
 cells that filled ones are equally near to follow all of these."""
 
 scene = scene_file("ring.prm", """
-Mesh/Lower corner = -2.2, -2.2
-Mesh/Upper corner = 2.2, 2.2
-Mesh/Cell size = 0.2
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0.3
-Bodies/ring/Shape = ring
-Bodies/ring/Centre = 0, 0
-Bodies/ring/Radius = 2
-Bodies/ring/Inner radius = 1
-Boundaries/outer/Body = ring
-Boundaries/outer/Part = outer
-Loads/pressure/Type = surface traction
-Loads/pressure/Body = ring
-Loads/pressure/Part = inner
+Mesh/Lower corner = -2.2, -2.2 | Upper corner = 2.2, 2.2 | Cell size = 0.2
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/ring/Shape = ring | Centre = 0, 0 | Radius = 2 | Inner radius = 1
+Boundaries/outer/Body = ring | Part = outer
+Loads/pressure/Type = surface traction | Body = ring | Part = inner
 Loads/pressure/Value = t * x / sqrt(x^2 + y^2); t * y / sqrt(x^2 + y^2)
 Time/Steps = 1
 """)

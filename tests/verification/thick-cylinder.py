@@ -49,33 +49,18 @@ for title, scene in (("fitted", FITTED), ("cut", CUT)):
 
 scene = scene_file("slice.prm", """
 Dimension = 3
-Mesh/Lower corner = 0, 0, 0
-Mesh/Upper corner = 2.4, 2.4, 0.2
-Mesh/Cell size = 0.2
+Mesh/Lower corner = 0, 0, 0 | Upper corner = 2.4, 2.4, 0.2 | Cell size = 0.2
 Method/Method = finite element
-Materials/rock/Young modulus = 1000
-Materials/rock/Poisson ratio = 0
-Bodies/tube/Shape = cylinder
-Bodies/tube/Axis start = 0, 0, -1
-Bodies/tube/Axis end = 0, 0, 2
-Bodies/tube/Radius = 2
+Materials/rock/Young modulus = 1000 | Poisson ratio = 0
+Bodies/tube/Shape = cylinder | Axis start = 0, 0, -1 | Axis end = 0, 0, 2 | Radius = 2
 Bodies/tube/Inner radius = 1
-Bodies/quarter/Shape = box
-Bodies/quarter/Lower corner = 0, 0, 0
-Bodies/quarter/Upper corner = 3, 3, 0.2
-Bodies/slice/Shape = intersection
-Bodies/slice/Operands = tube, quarter
-Grid conditions/x/Side = left
-Grid conditions/x/Components = x
-Grid conditions/y/Side = front
-Grid conditions/y/Components = y
-Grid conditions/bottom/Side = bottom
-Grid conditions/bottom/Components = z
-Grid conditions/top/Side = top
-Grid conditions/top/Components = z
-Loads/pressure/Type = surface traction
-Loads/pressure/Body = slice
-Loads/pressure/Part = tube/inner
+Bodies/quarter/Shape = box | Lower corner = 0, 0, 0 | Upper corner = 3, 3, 0.2
+Bodies/slice/Shape = intersection | Operands = tube, quarter
+Grid conditions/x/Side = left | Components = x
+Grid conditions/y/Side = front | Components = y
+Grid conditions/bottom/Side = bottom | Components = z
+Grid conditions/top/Side = top | Components = z
+Loads/pressure/Type = surface traction | Body = slice | Part = tube/inner
 Loads/pressure/Value = 0.1*x/sqrt(x^2 + y^2); 0.1*y/sqrt(x^2 + y^2); 0
 Output/Mesh = false
 """)

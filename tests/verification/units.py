@@ -45,26 +45,17 @@ def plastic(L, S, T, dynamic=False):
     push = (150., -400.) if dynamic else (17., -42.)
     return prm(f"""
 Mesh/Lower corner = {text_of((-0.2, -0.1), L)}
-Mesh/Upper corner = {text_of((1.8, 1.4), L)}
-Mesh/Cells = 16, 12
-Method/Method = GIMP
-Method/Strain = finite
-Materials/clay/Model = von Mises
-Materials/clay/Young modulus = {1e3 * S!r}
-Materials/clay/Poisson ratio = 0.4
+Mesh/Upper corner = {text_of((1.8, 1.4), L)} | Cells = 16, 12
+Method/Method = GIMP | Strain = finite
+Materials/clay/Model = von Mises | Young modulus = {1e3 * S!r} | Poisson ratio = 0.4
 Materials/clay/Density = {2 * S * T**2 / L**2!r}
 Materials/clay/Shear yield stress = 0: {10 * S!r}, 0.1: {12 * S!r}
-Bodies/block/Shape = polygon
-Bodies/block/Vertices = {corners}
-Boundaries/base/Points = {base}
-Boundaries/base/Constraint = {"roller" if dynamic else "fixed"}
-Loads/push/Type = body force
-Loads/push/Value = {growing(push, S / L, T)}
-Time/End time = {(0.2 if dynamic else 1.) * T!r}
-Time/Steps = 8
+Bodies/block/Shape = polygon | Vertices = {corners}
+Boundaries/base/Points = {base} | Constraint = {"roller" if dynamic else "fixed"}
+Loads/push/Type = body force | Value = {growing(push, S / L, T)}
+Time/End time = {(0.2 if dynamic else 1.) * T!r} | Steps = 8
 {"set Integrator = Newmark" if dynamic else ""}
-Probes/corner/Location = {probe}
-Probes/corner/Kind = nearest point
+Probes/corner/Location = {probe} | Kind = nearest point
 Probes/corner/Quantities = displacement, stress
 """)
 
@@ -90,16 +81,10 @@ Dimension = {dim}
 Mesh/Lower corner = {text_of((-0.1, -0.02, -0.11)[:dim], L)}
 Mesh/Upper corner = {text_of((1.4, 1.23, 0.89)[:dim], L)}
 Mesh/Cells = {"6, 5, 4" if dim == 3 else "12, 10"}
-Method/Method = {method}
-Method/Strain = finite
-Method/Points per direction = 2
-Materials/soft/Model = neo-Hookean
-Materials/soft/Young modulus = {1e3 * S!r}
-Materials/soft/Poisson ratio = 0.3
-Bodies/block/Shape = box
-Bodies/block/Lower corner = {text_of((0,) * dim, L)}
-Bodies/block/Upper corner = {text_of(size, L)}
-Bodies/block/Rotation angle = 17
+Method/Method = {method} | Strain = finite | Points per direction = 2
+Materials/soft/Model = neo-Hookean | Young modulus = {1e3 * S!r} | Poisson ratio = 0.3
+Bodies/block/Shape = box | Lower corner = {text_of((0,) * dim, L)}
+Bodies/block/Upper corner = {text_of(size, L)} | Rotation angle = 17
 {"set Rotation axis = 0, 0, 1" if dim == 3 else ""}
 Bodies/block/Translation = {text_of((0.313, 0.107, 0.041)[:dim], L)}
 Boundaries/base/
@@ -107,13 +92,11 @@ Boundaries/base/
 Loads/press/Type = surface traction
 {top}
 Loads/press/Value = {growing((2., -5., 1.)[:dim], S)}
-Loads/drag/Type = body force
-Loads/drag/Bodies = block
+Loads/drag/Type = body force | Bodies = block
 Loads/drag/Value = {growing((1., -2., 1.)[:dim], S / L)}
 Time/Steps = 2
 Probes/corner/Location = {text_of((turned(0.95, 0.65) + (0.3,))[:dim], L)}
-Probes/corner/Kind = nearest point
-Probes/corner/Quantities = displacement, stress
+Probes/corner/Kind = nearest point | Quantities = displacement, stress
 """)
 
 
@@ -134,16 +117,13 @@ Mesh/Lower corner = {text_of((0,) * dim, L)}
 Mesh/Upper corner = {text_of((2, 1, 1)[:dim], L)}
 Mesh/Cells = {"6, 3, 3" if dim == 3 else "12, 6"}
 Method/Method = finite element
-Materials/elastic/Young modulus = {1e3 * S!r}
-Materials/elastic/Poisson ratio = 0.3
-Bodies/block/Shape = box
-Bodies/block/Lower corner = {text_of((0,) * dim, L)}
+Materials/elastic/Young modulus = {1e3 * S!r} | Poisson ratio = 0.3
+Bodies/block/Shape = box | Lower corner = {text_of((0,) * dim, L)}
 Bodies/block/Upper corner = {text_of((2, 1, 1)[:dim], L)}
 Grid conditions/left/Side = left
 Loads/force/
 {force}
-Probes/corner/Location = {text_of((2, 1, 1)[:dim], L)}
-Probes/corner/Kind = interpolated
+Probes/corner/Location = {text_of((2, 1, 1)[:dim], L)} | Kind = interpolated
 Probes/corner/Quantities = displacement
 """)
 
