@@ -8,36 +8,21 @@ checkpoints and stages between, by 'Mesh motion' and with finite elements."""
 TIME = prm("""
 Time/End time = 4 | Steps = 4
 """)
-STAGES = "subsection Stages" + "".join(prm(f"""
-{name}/Time/End time = {end} | Steps = 2
-""") for name, end in (("one", 2), ("two", 4))) + "\nend\n"
+STAGES = prm("""
+Stages/one/Time/End time = 2 | Steps = 2
+Stages/two/Time/End time = 4 | Steps = 2
+""")
 
 
 def scene_of(name, method, cells, more, time=TIME):
-    scene = folder / f"{name}.prm"
-    scene.write_text(f"""
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = {cells[0] / 2}, {cells[1] / 2}
-  set Cells        = {cells[0]}, {cells[1]}
-end
-subsection Method
-  set Method = {method}
-  set Strain = finite
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 1000
-    set Poisson ratio = {0.3 if cells[0] == 8 else 0}
-  end
-end
-subsection Bodies
-  subsection block
-    set Shape = mesh
-  end
-end
-{more}{time}""")
-    return scene
+    return scene_file(f"{name}.prm", f"""
+Mesh/Lower corner = 0, 0 | Upper corner = {cells[0] / 2}, {cells[1] / 2}
+Mesh/Cells = {cells[0]}, {cells[1]}
+Method/Method = {method} | Strain = finite
+Materials/soil/Young modulus = 1000
+Materials/soil/Poisson ratio = {0.3 if cells[0] == 8 else 0}
+Bodies/block/Shape = mesh
+""", more, time)
 
 
 QUIET = {"Output/Points": "false", "Output/Mesh": "false"}

@@ -6,47 +6,19 @@ apart that stick together, a soft layer in cells that a stiff one shares, thin b
 of any stage, a surface that ends inside cells; and one that begins away from ground
 that has settled."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = -1, 0
-  set Upper corner = 4, 4
-  set Cell size    = 0.25
-end
-subsection Method
-  set Method = GIMP
-end
-subsection Materials
-  subsection firm
-    set Young modulus = 1e5
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-  subsection soft
-    set Young modulus = 1e3
-    set Poisson ratio = 0.3
-    set Density       = 2
-  end
-end
-subsection Bodies
-  {bodies}
-end
-subsection Grid conditions
-  subsection base
-    set Side = bottom
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 0; -10
-  end
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
+SCENE = prm("""
+Mesh/Lower corner = -1, 0 | Upper corner = 4, 4 | Cell size = 0.25
+Method/Method = GIMP
+Materials/firm/Young modulus = 1e5 | Poisson ratio = 0.3 | Density = 2
+Materials/soft/Young modulus = 1e3 | Poisson ratio = 0.3 | Density = 2
+Bodies/
+{bodies}
+Grid conditions/base/Side = bottom
+Loads/weight/Type = gravity | Value = 0; -10
+Output/Points = false | Mesh = false
+/
 {more}
-"""
+""")
 BODY = prm("""
 {name}/Material = {material} | Lower corner = {lower} | Upper corner = {upper}
 """)
@@ -154,9 +126,9 @@ for title, size, held in (
         ("beam two cells thick", 0.5, [("left", "x, y")])):
     scene.write_text(SCENE.format(bodies=BODY.format(
         name="block", material="firm", lower="0, 0", upper="6, 1"), more="").replace(
-            "-1, 0\n  set Upper corner = 4, 4\n  set Cell size    = 0.25",
-            f"0, 0\n  set Upper corner = 6, 1\n  set Cell size    = {size}").replace(
-                "  subsection base\n    set Side = bottom\n  end\n", "".join(
+            "-1, 0\nset Upper corner = 4, 4\nset Cell size = 0.25",
+            f"0, 0\nset Upper corner = 6, 1\nset Cell size = {size}").replace(
+                "subsection base\nset Side = bottom\nend\n", "".join(
                     SIDE.format(side=side, components=components)
                     for side, components in held)))
     text(title + ": told", "thin-body" in run(scene, command="check").ids())
@@ -180,7 +152,7 @@ Boundaries/end/Body = bar | Part = left
 scene.write_text(SCENE.format(bodies="".join(
     BODY.format(name=name, material="firm", lower=f"-1, {y}", upper=f"4, {top}")
     for name, y, top in (("ground", 0, 3), ("fill", 3, 4))), more="").replace(
-        "set Cell size    = 0.25", "set Cell size    = 1"))
+        "set Cell size = 0.25", "set Cell size = 1"))
 text("fill one cell thick on ground: told",
      "thin-body" in run(scene, command="check").ids())
 

@@ -94,60 +94,27 @@ bound("displacement of the surface",
 
 # Gravity along x, and ground whose surface is normal to gravity, inclined, in
 # cells that it cuts; K0 = 1.
-SOIL = """set Dimension = 2
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 8, 8
-  set Cell size    = 1
-end
-subsection Method
-  set Method = finite element
-  set Mesh after step = keep
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 20e3
-    set Poisson ratio = 0.25
-    set Density       = 2
-  end
-end
-subsection Bodies
-  subsection ground
-    set Shape          = polygon
-    set Vertices       = 0 0; 8 0; 8 7; 0 3
-    set Initial stress = geostatic
-    set K0             = 1
-  end
-end
-subsection Grid conditions
-  subsection right
-    set Side = right
-  end
-  subsection base
-    set Side = bottom
-  end
-  subsection others
-    set Side = left
-    set Components = x
-  end
-end
-subsection Loads
-  subsection weight
-    set Type  = gravity
-    set Value = 5; -10
-  end
-end
-"""
+SOIL = prm("""
+Dimension = 2
+Mesh/Lower corner = 0, 0 | Upper corner = 8, 8 | Cell size = 1
+Method/Method = finite element | Mesh after step = keep
+Materials/soil/Young modulus = 20e3 | Poisson ratio = 0.25 | Density = 2
+Bodies/ground/Shape = polygon | Vertices = 0 0; 8 0; 8 7; 0 3
+Bodies/ground/Initial stress = geostatic | K0 = 1
+Grid conditions/right/Side = right
+Grid conditions/base/Side = bottom
+Grid conditions/others/Side = left | Components = x
+Loads/weight/Type = gravity | Value = 5; -10
+""")
 scene = folder / "inclined.prm"
 scene.write_text(SOIL)
 text("inclined surface", balance(run(scene)))
 text("half the cells", balance(run(scene, {"Mesh/Cell size": 0.5})))
 scene = folder / "sideways.prm"
 scene.write_text(SOIL.replace("5; -10", "10; 0").replace("8 7; 0 3", "8 8; 0 8")
-                 .replace("K0             = 1", "K0 = 0.25")
-                 .replace("Side = left\n    set Components = x",
-                          "Side = top\n    set Components = y")
-                 .replace("bottom\n", "bottom\n    set Components = y\n"))
+                 .replace("K0 = 1", "K0 = 0.25")
+                 .replace("Side = left\nset Components = x", "Side = top\nset Components = y")
+                 .replace("bottom\n", "bottom\nset Components = y\n"))
 result = run(scene, {"Exact solution/Stress": "-20*x; -5*x; -5*x; 0"})
 text("gravity along x", balance(result))
 bound("stress, relative error", result.errors["l2_sigma"], 1e-12)
@@ -155,14 +122,14 @@ bound("stress, relative error", result.errors["l2_sigma"], 1e-12)
 # A mesh that is no box, which the ground fills.
 scene = folder / "generator.prm"
 scene.write_text(SOIL.replace(
-    "  set Lower corner = 0, 0\n  set Upper corner = 8, 8\n  set Cell size    = 1\n",
-    "  set Type = generator\n  set Generator = hyper_rectangle\n"
-    "  set Arguments = 0, 0 : 8, 8 : true\n  set Refinements = 2\n"
-    "  set Side names = left: 0, right: 1, bottom: 2, top: 3\n")
+    "set Lower corner = 0, 0\nset Upper corner = 8, 8\nset Cell size = 1\n",
+    "set Type = generator\nset Generator = hyper_rectangle\n"
+    "set Arguments = 0, 0 : 8, 8 : true\nset Refinements = 2\n"
+    "set Side names = left: 0, right: 1, bottom: 2, top: 3\n")
     .replace("= polygon", "= mesh").replace("5; -10", "0; -10")
-    .replace("    set Vertices       = 0 0; 8 0; 8 7; 0 3\n", "")
-    .replace("K0             = 1", "K0 = 0.5")
-    .replace("Side = right", "Side = right\n    set Components = x"))
+    .replace("set Vertices = 0 0; 8 0; 8 7; 0 3\n", "")
+    .replace("K0 = 1", "K0 = 0.5")
+    .replace("Side = right", "Side = right\nset Components = x"))
 result = run(scene, {"Exact solution/Stress": "10*(y-8); 20*(y-8); 10*(y-8); 0"})
 text("mesh of a generator", balance(result))
 bound("stress, relative error", result.errors["l2_sigma"], 1e-12)
@@ -172,15 +139,14 @@ scene = folder / "cube.prm"
 scene.write_text(SOIL.replace("Dimension = 2", "Dimension = 3")
                  .replace("0, 0\n", "0, 0, 0\n").replace("8, 8\n", "2, 2, 4\n")
                  .replace("5; -10", "0; 0; -10").replace("= polygon", "= mesh")
-                 .replace("    set Vertices       = 0 0; 8 0; 8 7; 0 3\n", "")
-                 .replace("K0             = 1", "K0 = 0.5")
-                 .replace("Side = right", "Side = right\n    set Components = x")
+                 .replace("set Vertices = 0 0; 8 0; 8 7; 0 3\n", "")
+                 .replace("K0 = 1", "K0 = 0.5")
+                 .replace("Side = right", "Side = right\nset Components = x")
                  .replace("others", "front").replace("Side = left", "Side = front")
-                 .replace("Components = x\n  end\nend", "Components = y\n  end\n"
-                          "  subsection left\n    set Side = left\n"
-                          "    set Components = x\n  end\n"
-                          "  subsection back\n    set Side = back\n"
-                          "    set Components = y\n  end\nend"))
+                 .replace("Components = x\nend\nend", "Components = y\nend\nend\n"
+                          + prm("""
+Grid conditions/left/Side = left | Components = x
+Grid conditions/back/Side = back | Components = y""")))
 result = run(scene, {
     "Exact solution/Stress": "10*(z-4); 10*(z-4); 20*(z-4); 0; 0; 0"})
 text("three dimensions", balance(result))

@@ -43,62 +43,23 @@ def mesh(name, names=True):
     return file
 
 
-SCENE = f"""
-subsection Mesh
-  set Type = file
-  set File = {mesh("layers.msh")}
-end
-subsection Method
-  set Method = finite element
-end
-subsection Materials
-""" + "".join(f"""
-  subsection {layer}
-    set Young modulus = {E[layer]}
-    set Poisson ratio = 0
-    set Density = {DENSITY[layer]}
-  end
-""" for layer in LAYERS) + """
-end
-subsection Bodies
-""" + "".join(f"""
-  subsection {layer}
-    set Shape = mesh
-    set Group = {layer}
-    set Material = {layer}
-  end
-""" for layer in LAYERS) + """
-end
-subsection Grid conditions
-  subsection sides
-    set Side = sides
-    set Components = x
-  end
-  subsection base
-    set Side = base
-  end
-end
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -10*min(t, 1)
-  end
-end
-subsection Probes
-  subsection rock
-    set Location = 1, 2
-    set Kind = interpolated
-  end
-  subsection clay
-    set Location = 2, 3.7
-    set Kind = interpolated
-  end
-  subsection top
-    set Location = 3, 6
-    set Kind = interpolated
-  end
-end
-"""
+def layers(groups):
+    """The scene with bodies of these names and groups."""
+    return prm("\n".join((
+        f"Mesh/Type = file | File = {mesh('layers.msh')}",
+        "Method/Method = finite element",
+        *(f"Materials/{layer}/Young modulus = {E[layer]} | Poisson ratio = 0"
+          f" | Density = {DENSITY[layer]}" for layer in LAYERS),
+        *(f"Bodies/{name}/Shape = mesh | Group = {group} | Material = {name}"
+          for name, group in groups.items()),
+        "Grid conditions/sides/Side = sides | Components = x",
+        "Grid conditions/base/Side = base",
+        "Loads/weight/Type = gravity | Value = 0; -10*min(t, 1)",
+        *(f"Probes/{name}/Location = {place} | Kind = interpolated" for name, place in
+          (("rock", "1, 2"), ("clay", "2, 3.7"), ("top", "3, 6"))))))
+
+
+SCENE = layers({layer: layer for layer in LAYERS})
 scene = folder / "layers.prm"
 scene.write_text(SCENE)
 BOTTOM = {"rock": 0, "clay": 2, "fill": 3.7}
@@ -161,10 +122,7 @@ bound("dug: weight on the base - 1",
       last["reaction_y of base"] / (4 * pressure("rock", 0, ("rock", "clay"))) - 1,
       1e-10)
 two = folder / "two.prm"
-start, end = SCENE.index("  subsection clay\n    set Shape"), \
-    SCENE.index("  subsection fill\n    set Shape")
-two.write_text((SCENE[:start] + SCENE[end:]).replace(
-    "set Group = fill", "set Group = clay, fill"))
+two.write_text(layers({"rock": "rock", "fill": "clay, fill"}))
 result = run(two)
 text("two groups: volumes", " ".join(
     line.split()[-1] for line in result.output.splitlines()
