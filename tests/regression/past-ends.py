@@ -61,52 +61,20 @@ for end, steps in ((0.65, 13), (0.7, 14)):
 
 # A cube between plates: its cells can follow rollers and plates, but beside a fixed
 # wall cells let go of the upper one.
-CUBE = """
-set Dimension = 3
-subsection Mesh
-  set Lower corner = -1, -1, -1
-  set Upper corner = 3, 3, 4
-  set Cell size    = 1
-end
-subsection Method
-  set Method = GIMP
-  set Strain = finite
-end
-subsection Materials
-  subsection clay
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection cube
-    set Lower corner = 0.13, 0.13, 0.13
-    set Upper corner = 2.13, 2.13, 2.13
-  end
-end
-subsection Boundaries
-"""
-for name, point, normal, motion in (
-        ("left", "0.13, 0, 0", "-1, 0, 0", ""),
-        ("front", "0, 0.13, 0", "0, -1, 0", ""),
-        ("bottom", "0, 0, 0.13", "0, 0, -1", ""),
-        ("top", "0, 0, 2.13", "0, 0, 1", "set Translation = 0; 0; -0.6*t")):
-    CUBE += prm(f"""
-{name}/Surface = plane | Point = {point} | Normal = {normal} | Constraint = roller
-{motion}
-""")
-CUBE += """
-end
-subsection Time
-  set Steps = 10
-end
-subsection Output
-  set Points = false
-  set Mesh   = false
-end
-"""
-cube = folder / "cube.prm"
-cube.write_text(CUBE)
+cube = scene_file("cube.prm", """
+Dimension = 3
+Mesh/Lower corner = -1, -1, -1 | Upper corner = 3, 3, 4 | Cell size = 1
+Method/Method = GIMP | Strain = finite
+Materials/clay/Young modulus = 1000 | Poisson ratio = 0.3
+Bodies/cube/Lower corner = 0.13, 0.13, 0.13 | Upper corner = 2.13, 2.13, 2.13
+Boundaries/top/Surface = plane | Point = 0, 0, 2.13 | Normal = 0, 0, 1
+Boundaries/top/Constraint = roller | Translation = 0; 0; -0.6*t
+Time/Steps = 10
+Output/Points = false | Mesh = false
+""", *(f"Boundaries/{name}/Surface = plane | Point = {point} | Normal = {normal}"
+       " | Constraint = roller" for name, point, normal in (
+           ("left", "0.13, 0, 0", "-1, 0, 0"), ("front", "0, 0.13, 0", "0, -1, 0"),
+           ("bottom", "0, 0, 0.13", "0, 0, -1"))))
 exact = 1000 * log(0.7) * 4 / 0.7  # Hencky: tau A / J
 for name, h, wall, way in (("rollers", 1, "roller", 0.6), ("rollers", 0.5, "roller", 0.6),
                            ("a fixed wall", 1, "fixed", 0.36)):

@@ -33,23 +33,11 @@ at_least("pad: steps", len(pad.history()), 5)
 SLOPE = "prm/geotechnics/factor-of-safety.prm"
 words = open(root / SLOPE).read().split("subsection Grid conditions")
 below = words[1].split("subsection Loads")[1]
-turned = words[0] + """subsection Boundaries
-  subsection base
-    set Body = embankment
-    set Part = 1
-  end
-  subsection right
-    set Body = embankment
-    set Part = 2
-    set Constraint = roller
-  end
-  subsection left
-    set Body = embankment
-    set Part = 6
-    set Constraint = roller
-  end
-end
-subsection Loads""" + below
+turned = words[0] + prm("""
+Boundaries/base/Body = embankment | Part = 1
+Boundaries/right/Body = embankment | Part = 2 | Constraint = roller
+Boundaries/left/Body = embankment | Part = 6 | Constraint = roller
+""") + "subsection Loads" + below
 scene = folder / "slope.prm"
 scene.write_text(turned)
 for angle in (0, 15):

@@ -35,47 +35,20 @@ for method in "material point", "GIMP", "finite element":
               1e-3 if turned else 1e-8)
 
 # Both rims of a ring, by surfaces and by nodes.
-RIM = prm("""
-{name}/
-set {place}
-{name}/Rotation angle = {angle}
-""")
 RIMS = ("inner", "5*t"), ("outer", "0*t")
 G = 1e4 / 2.6
 EXACT = 4 * pi * G * 0.25 * 2.25 / 2 * sin(radians(5))
-SURFACES = MATERIAL.format(E=1e4, nu=0.3) + """
-subsection Mesh
-  set Lower corner = -1.63, -1.61
-  set Upper corner = 1.67, 1.69
-  set Cell size = 0.1
-end
-subsection Bodies
-  subsection b
-    set Shape = ring
-    set Centre = 0, 0
-    set Radius = 1.5
-    set Inner radius = 0.5
-  end
-end
-subsection Boundaries
-  """ + "".join(RIM.format(name=name, angle=angle, place=f"Body = b\n set Part = {name}")
-                for name, angle in RIMS) + "end\n"
-NODES = MATERIAL.format(E=1e4, nu=0.3) + """
-subsection Mesh
-  set Type = generator
-  set Generator = hyper_shell
-  set Arguments = 0,0 : 0.5 : 1.5 : 32 : true
-  set Side names = inner: 0, outer: 1
-  set Refinements = 2
-end
-subsection Bodies
-  subsection b
-    set Shape = mesh
-  end
-end
-subsection Grid conditions
-  """ + "".join(RIM.format(name=name, angle=angle, place=f"Side = {name}")
-                for name, angle in RIMS) + "end\n"
+SURFACES = MATERIAL.format(E=1e4, nu=0.3) + prm("""
+Mesh/Lower corner = -1.63, -1.61 | Upper corner = 1.67, 1.69 | Cell size = 0.1
+Bodies/b/Shape = ring | Centre = 0, 0 | Radius = 1.5 | Inner radius = 0.5
+""" + "\n".join(f"Boundaries/{name}/Body = b | Part = {name} | Rotation angle = {angle}"
+                for name, angle in RIMS))
+NODES = MATERIAL.format(E=1e4, nu=0.3) + prm("""
+Mesh/Type = generator | Generator = hyper_shell | Refinements = 2
+Mesh/Arguments = 0,0 : 0.5 : 1.5 : 32 : true | Side names = inner: 0, outer: 1
+Bodies/b/Shape = mesh
+""" + "\n".join(f"Grid conditions/{name}/Side = {name} | Rotation angle = {angle}"
+                for name, angle in RIMS))
 for name, words, settings in (
         ("surfaces, points move", SURFACES, {}),
         ("surfaces, points move in five steps", SURFACES, {"Time/Steps": 5}),

@@ -5,72 +5,34 @@
 by every integrator, and a base that absorbs from then on holds it. One integrator
 without and one with parts of steps are on all ranks."""
 
-SCENE = """
-subsection Mesh
-  set Lower corner = 20, 50
-  set Upper corner = 22, 54
-  set Cell size = 0.5
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection soil
-    set Young modulus = 50000
-    set Poisson ratio = 0.3
-    set Density = 2
-  end
-end
-subsection Bodies
-  subsection block
-    set Lower corner = 20, 50
-    set Upper corner = 22, 53.5
-    set Mass damping = 60
-  end
-end
+SCENE = prm("""
+Mesh/Lower corner = 20, 50 | Upper corner = 22, 54 | Cell size = 0.5
+Method/Method = {method}
+Materials/soil/Young modulus = 50000 | Poisson ratio = 0.3 | Density = 2
+Bodies/block/Lower corner = 20, 50 | Upper corner = 22, 53.5 | Mass damping = 60
+/
 {base}
-subsection Loads
-  subsection weight
-    set Type = gravity
-    set Value = 0; -9.81
-    set Curve = 0: 0, 0.2: 1
-  end
-end
-subsection Stages
-  subsection settle
-    {time} set Steps = 100
-    end
-  end
-  subsection rest
-    set Absorbing = base
-    set Reset displacements = true
-    {time} set Steps = 50
-    set End time = 1.5
-    end
-  end
-end
-subsection Probes
-  subsection top
-    set Location = 21, 53.5
-    set Kind = interpolated
-    set Quantities = displacement, velocity
-  end
-end
-"""
+Loads/weight/Type = gravity | Value = 0; -9.81 | Curve = 0: 0, 0.2: 1
+Stages/settle/Time/Steps = 100
+{time}
+Stages/rest/Absorbing = base | Reset displacements = true
+Stages/rest/Time/Steps = 50 | End time = 1.5
+{time}
+Probes/top/Location = 21, 53.5 | Kind = interpolated
+Probes/top/Quantities = displacement, velocity
+""")
 WEIGHT = 2 * 3.5 * 2 * 9.81
-BASES = {"nodes": "subsection Grid conditions\n subsection base\n"
-                  "  set Side = bottom\n end\nend",
-         "surface": "subsection Boundaries\n subsection base\n"
-                    "  set Body = block\n  set Part = bottom\n"
-                    "  set Enforcement = augmented Lagrangian\n end\nend"}
+BASES = {"nodes": prm("Grid conditions/base/Side = bottom"),
+         "surface": prm("Boundaries/base/Body = block | Part = bottom"
+                        " | Enforcement = augmented Lagrangian")}
 
 for integrator, radius in (("Newmark", None), ("generalised-alpha", 0.8), ("generalised-alpha", 0),
                            ("Bathe", 0.8), ("energy-momentum", None)):
     for method, base in (("finite element", "nodes"), ("GIMP", "nodes"),
                          ("finite element", "surface"), ("GIMP", "surface")):
-        time = f"subsection Time\n set Integrator = {integrator}\n"
+        time = f"set Integrator = {integrator}"
         if radius is not None:
-            time += f" set Spectral radius = {radius}\n"
+            time += f"\nset Spectral radius = {radius}"
         scene = folder / "scene.prm"
         scene.write_text(SCENE.format(method=method, base=BASES[base], time=time))
         rows = run(scene, {"Output/Write": "end"},

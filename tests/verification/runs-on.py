@@ -158,32 +158,13 @@ for name, how, right, low, high in (("side", SIDE, 3., 0., 4.), ("side", SIDE, 3
               "right one - 1", force / (high - low) - 1, 0.03)
 
 # Only what is prescribed along the material is a uniform strain.
-FIELD = """
-subsection Mesh
-  set Lower corner = 0, 0
-  set Upper corner = 2, 1
-  set Cell size = 0.25
-end
-subsection Method
-  set Method = finite element
-  set Strain = finite
-end
-subsection Materials
-  subsection rubber
-    set Young modulus = 1000
-    set Poisson ratio = 0
-  end
-end
-subsection Bodies
-  subsection sheet
-    set Shape = mesh
-  end
-end
-subsection Grid conditions
-""" + "".join(prm(f"""
-{side}/Side = {side} | Displacement = 0.5 * x * t; 0
-""") for side in ("left", "right", "bottom", "top")) + "end\n"
-scene.write_text(FIELD)
+scene.write_text(prm("""
+Mesh/Lower corner = 0, 0 | Upper corner = 2, 1 | Cell size = 0.25
+Method/Method = finite element | Strain = finite
+Materials/rubber/Young modulus = 1000 | Poisson ratio = 0
+Bodies/sheet/Shape = mesh
+""" + "\n".join(f"Grid conditions/{side}/Side = {side} | Displacement = 0.5 * x * t; 0"
+                for side in ("left", "right", "bottom", "top"))))
 for steps in 1, 8:
     stress = [s[0] for (s,) in run(scene, {"Time/Steps": steps}).points("stress")]
     number(f"sheet stretched by 'Displacement = 0.5 x t' in {steps} steps: least stress",

@@ -10,59 +10,22 @@ STACKED = (("0, 0.03", "2, 1"), ("0, 1", "2, 2.03"))
 
 
 def scene(bodies, method, enforcement):
-    text = f"""
-set Dimension = 2
-subsection Mesh
-  set Lower corner = -0.25, -0.25
-  set Upper corner = 2.25, 2.25
-  set Cells = 60, 60
-end
-subsection Method
-  set Method = {method}
-end
-subsection Materials
-  subsection stiff
-    set Young modulus = 1e9
-    set Poisson ratio = 0.3
-  end
-  subsection soft
-    set Young modulus = 1
-    set Poisson ratio = 0.3
-  end
-end
-subsection Boundaries
-  subsection base
-    set Points = -1 0.03; 3 0.03
-    set Constraint = fixed
-    set Enforcement = {enforcement}
-  end
-  subsection top
-    set Points = 3 2.03; -1 2.03
-    set Constraint = fixed
-    set Translation = 0.01*t; -0.02*t
-    set Enforcement = {enforcement}
-  end
-end
-subsection Time
-  set Steps = 1
-end
-subsection Probes
-  subsection inside
-    set Location = 1.4, 1.4
-    set Kind = nearest point
-    set Quantities = displacement, stress
-  end
-end
-subsection Bodies
-"""
-    for name, (lower, upper) in zip(("stiff", "soft"), bodies):
-        text += prm(f"""
-{name}/Shape = box | Lower corner = {lower} | Upper corner = {upper}
-{name}/Material = {name}
-""")
-    file = folder / "contrast.prm"
-    file.write_text(text + "end\n")
-    return file
+    return scene_file("contrast.prm", f"""
+Dimension = 2
+Mesh/Lower corner = -0.25, -0.25 | Upper corner = 2.25, 2.25 | Cells = 60, 60
+Method/Method = {method}
+Materials/stiff/Young modulus = 1e9 | Poisson ratio = 0.3
+Materials/soft/Young modulus = 1 | Poisson ratio = 0.3
+Boundaries/base/Points = -1 0.03; 3 0.03 | Constraint = fixed
+Boundaries/base/Enforcement = {enforcement}
+Boundaries/top/Points = 3 2.03; -1 2.03 | Constraint = fixed
+Boundaries/top/Translation = 0.01*t; -0.02*t | Enforcement = {enforcement}
+Time/Steps = 1
+Probes/inside/Location = 1.4, 1.4 | Kind = nearest point
+Probes/inside/Quantities = displacement, stress
+""", *(f"Bodies/{name}/Shape = box | Lower corner = {lower} | Upper corner = {upper}"
+       f" | Material = {name}"
+       for name, (lower, upper) in zip(("stiff", "soft"), bodies)))
 
 
 def worst(found, exact):
