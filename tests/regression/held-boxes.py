@@ -19,8 +19,7 @@ def scene_of(name, method, cells, more, time=TIME):
 Mesh/Lower corner = 0, 0 | Upper corner = {cells[0] / 2}, {cells[1] / 2}
 Mesh/Cells = {cells[0]}, {cells[1]}
 Method/Method = {method} | Strain = finite
-Materials/soil/Young modulus = 1000
-Materials/soil/Poisson ratio = {0.3 if cells[0] == 8 else 0}
+Materials/soil/Young modulus = 1000 | Poisson ratio = {0.3 if cells[0] == 8 else 0}
 Bodies/block/Shape = mesh
 """, more, time)
 

@@ -131,11 +131,7 @@ end
 
 
 
-#ifdef DEBUG
     constexpr unsigned int n_places = 10;
-#else
-    constexpr unsigned int n_places = 200;
-#endif
 
 
 
