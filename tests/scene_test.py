@@ -39,6 +39,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 program = None
 ranks = 1
 printed = []
+QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 _folder = None
 _starter = None
 _count = 0
@@ -85,6 +86,11 @@ class Run:
                 {key.split(" [")[0]: float(value) for key, value in row.items()}
                 for row in csv.DictReader(file)
             ]
+
+    def study_rows(self):
+        """Of study.csv."""
+        with open(self.folder / "study.csv") as file:
+            return list(csv.DictReader(file))
 
     def points(self, *names):
         """Fields of the points in the last VTU file, a tuple for each point;
@@ -220,7 +226,7 @@ def main():
     try:
         names = {n: globals()[n] for n in
                  ("run", "prm", "scene_file", "plain", "text", "bound", "at_least",
-                  "number", "root")}
+                  "number", "root", "QUIET")}
         names["ranks"] = ranks
         names["program"] = program
         names["start"] = _starter.start

@@ -55,8 +55,7 @@ text("the message names its stage",
 study = run("tests/bad-input/base.prm",
             {"Mesh/Cell size": "{{2|1|0.5}}",
              "Study/Error": "reaction_y of left"}, command="study")
-with open(study.folder / "study.csv") as file:
-    rows = list(csv.DictReader(file))
+rows = study.study_rows()
 value = [float(row["value"]) for row in rows]
 for row, v, finer in zip(rows, value, value[1:]):
     bound("error of " + row["Mesh/Cell size"],

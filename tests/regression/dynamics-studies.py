@@ -3,15 +3,13 @@
 # Copyright (C) 2026 by the Moraine authors
 """Studies of dynamics and of double mapping, shortened: what their pages say."""
 
-import csv
 from math import sqrt
 
 
 def study(scene, settings):
     result = run(scene, {**settings, "Study/Group by": "Series"},
                  command="study")
-    with open(result.folder / "study.csv") as file:
-        rows = list(csv.DictReader(file))
+    rows = result.study_rows()
     text(scene, " ".join(sorted({row["status"] for row in rows})))
     error = {row["Series"]: float(row["error"]) for row in rows}
     for name, value in error.items():

@@ -24,7 +24,6 @@ Bodies/block/Shape = mesh
 """, more, time)
 
 
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 PULLED = prm("""
 Grid conditions/base/Side = left
 Grid conditions/pull/Lower corner = 3.9, -0.1 | Upper corner = 4.1, 2.1

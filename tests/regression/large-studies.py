@@ -3,14 +3,12 @@
 # Copyright (C) 2026 by the Moraine authors
 """Studies of large deformation, shortened: what their page says of methods."""
 
-import csv
 
 
 def errors(scene, settings, on_ranks=2):
     result = run(scene, {**settings, "Study/Group by": "Series"},
                  command="study", on_ranks=on_ranks)
-    with open(result.folder / "study.csv") as file:
-        rows = list(csv.DictReader(file))
+    rows = result.study_rows()
     text(scene, " ".join(sorted({row["status"] for row in rows})))
     return {row["Series"]: float(row["error"]) for row in rows}
 

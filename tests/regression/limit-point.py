@@ -5,8 +5,6 @@
 although multipliers take more iterations in each than an easy step has."""
 
 SCENE = "prm/large-deformation/arch.prm"
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-
 for name, settings in (("augmented Lagrangian", {}),
                        ("skew Nitsche",
                         {"Boundaries/left/Enforcement": "skew Nitsche",

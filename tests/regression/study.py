@@ -3,14 +3,12 @@
 # Copyright (C) 2026 by the Moraine authors
 """Studies, shortened: rows, errors, the table, the plot and what fails."""
 
-import csv
 
 
 def study(scene, settings, expect=0, on_ranks=1):
     result = run(scene, settings, command="study", expect=expect,
                  on_ranks=on_ranks)
-    with open(result.folder / "study.csv") as file:
-        result.rows = list(csv.DictReader(file))
+    result.rows = result.study_rows()
     return result
 
 

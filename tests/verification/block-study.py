@@ -5,13 +5,11 @@
 # of the weighted basis is that of its band width, all that carry a multiplier
 # have round-off only. Independent calculation gave the penalty of bands at 30
 # degrees the condition numbers 3e7, 3e9 and 3e12 at bands of 0.1, 1e-3 and 1e-6.
-import csv
 
 result = run("prm/cortis-2017/block-study.prm",
              {"Constants/angle": "{{0|30}}", "Mesh/Cell size": 10},
              command="study")
-with open(result.folder / "study.csv") as file:
-    rows = list(csv.DictReader(file))
+rows = result.study_rows()
 text("rows", len(rows))
 text("all ended well", all(row["status"] == "ok" for row in rows))
 for row in rows:

@@ -8,11 +8,9 @@ from math import cos, log2, radians, sin
 scenes = {0: "prm/cortis-2017/cantilever-0.prm",
           45: "prm/cortis-2017/cantilever-45.prm",
           90: "prm/cortis-2017/cantilever-90.prm"}
-quiet = {"Output/Points": "false", "Output/Mesh": "false"}
-
 
 def deflection(angle, settings, expect_steps):
-    result = run(scenes[angle], {**quiet, **settings})
+    result = run(scenes[angle], {**QUIET, **settings})
     steps = result.history()
     assert len(steps) == expect_steps
     a = radians(angle)

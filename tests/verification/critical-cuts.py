@@ -168,7 +168,6 @@ def force_error(result, nu=0.3):
                for row in result.history() if row["t"] > 0)
 
 
-no_files = {"Output/Points": "false", "Output/Mesh": "false"}
 for name, settings in (
         ("GIMP, corners", {"Method/Method": "GIMP"}),
         ("GIMP, stretch", {"Method/Method": "GIMP",
@@ -178,7 +177,7 @@ for name, settings in (
         ("finite element", {"Method/Method": "finite element"})):
     worst = told = 0
     for n, (dx, dy) in enumerate(((0.37, 0.7), (1e-3, 1e-6))):
-        result = run(BAR, {**settings, **no_files,
+        result = run(BAR, {**settings, **QUIET,
                            **shifted((0, -1), (21, 2), dx, dy, 0.5)},
                      on_ranks=n % 2 + 1)
         worst = max(worst, force_error(result))
@@ -189,7 +188,7 @@ for name, settings in (
 # With means over cells, which are the default then.
 for method in ("GIMP", "CPDI1", "CPDI2"):
     for nu, steps in ((0.4999, 60), (0.4999, 150)):
-        result = run(BAR, {"Method/Method": method, **no_files,
+        result = run(BAR, {"Method/Method": method, **QUIET,
                            **shifted((0, -1), (21, 2), 0.37, 0.7, 0.5),
                            "Materials/rubber/Poisson ratio": nu,
                            "Time/Steps": steps},
@@ -211,7 +210,7 @@ for n, (name, settings) in enumerate((
         *((f"material point, {n} per direction",
            {"Method/Method": "material point", "Method/Points per direction": n})
           for n in (2, 4)))):
-    torn = run(BAR, {**no_files, **settings}, expect=1, on_ranks=n % 2 + 1)
+    torn = run(BAR, {**QUIET, **settings}, expect=1, on_ranks=n % 2 + 1)
     bound(f"stretched by 4, {name}: force over exact - 1 when it is told",
           error_when_told(torn), 0.12)
     text("  says that it tears", "came apart" in torn.summary["message"])

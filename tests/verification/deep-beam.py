@@ -3,7 +3,6 @@
 # Copyright (C) 2026 by the Moraine authors
 # Deep beam (Cortis et al. 2017, section 5.2, tables 2 and 3): u_y at the right
 # corner against finite elements on the same mesh.
-quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 default = {"Boundaries/support/Enforcement": "skew Nitsche"}
 paper = {"Boundaries/support/Enforcement": "weighted",
          "Boundaries/support/Band width": 1e-6}
@@ -12,7 +11,7 @@ implicit = "prm/cortis-2017/deep-beam.prm"
 
 
 def u_y(scene, h, settings):
-    result = run(scene, quiet | {"Mesh/Cell size": h} | settings)
+    result = run(scene, QUIET | {"Mesh/Cell size": h} | settings)
     return result.probes["u_y at A"]
 
 

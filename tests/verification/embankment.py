@@ -10,8 +10,6 @@ from math import pi, sqrt
 
 WEIGHT = 2 * 9.81 * 12 * (44 + 8) / 2
 C_S = sqrt(100e3 / 2.6 / 2)
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-
 
 def frequency_of_shear_beam():
     """Of a wedge cut off at its crest on a rigid base: (z w')' + k^2 z w = 0 from

@@ -10,8 +10,6 @@ from math import pi
 SLOPE, PILE = "prm/geotechnics/slope.prm", "prm/geotechnics/pile.prm"
 TUNNEL = "prm/geotechnics/tunnel.prm"
 SIDEWAYS = "prm/geotechnics/pile-sideways.prm"
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-
 
 def slope(**settings):
     return run(SLOPE, {"Mesh/Cell size": 1, **QUIET,

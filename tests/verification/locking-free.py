@@ -4,7 +4,6 @@
 """What the mean change of volume of each cell changes where nothing locks: next to
 nothing on cells that stay full, more in bending by points that leave them."""
 
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 ELASTIC = {"Materials/clay/Model": "linear elastic",
            "Materials/clay/Shear yield stress": ""}
 FE, GIMP = ({"Method/Method": name} for name in ("finite element", "GIMP"))

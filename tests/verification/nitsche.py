@@ -9,8 +9,6 @@ from math import cos, log2, radians, sin
 
 RING = "prm/hard-cases/ring-incompressible.prm"
 LAYERS = "prm/hard-cases/contrast.prm"
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-
 
 def ring(title, method, nu, largest_stress, **boundaries):
     """20 and 40 cells: errors, and the order of the displacement's."""

@@ -4,8 +4,6 @@
 """Square punch on a von Mises block in 3D: a plateau, which falls with the cell
 size, with the mean change of volume of each cell; without, no plateau."""
 
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
-
 
 def forces(method, how, h):
     room = {} if method == "finite element" else \

@@ -4,13 +4,12 @@
 # Simple shear across partly filled cells (Cortis et al. 2017, section 5.3,
 # figure 16) at 13 places against the mesh. The paper's setting is on the ranks of
 # the test where a sliver is cut off, and in the middle; else on one.
-quiet = {"Output/Points": "false", "Output/Mesh": "false"}
 paper = {"Boundaries/*/Enforcement": "weighted",
          "Boundaries/*/Band width": 1e-6}
 
 for x_A in ("0", "1e-6", "1e-3", "0.1", "1", "10", "25", "50", "75", "90",
             "99.9", "99.999", "100"):
-    keys = quiet | {"Constants/x_A": x_A}
+    keys = QUIET | {"Constants/x_A": x_A}
     result = run("prm/cortis-2017/simple-shear.prm", keys)
     text("x_A", x_A)
     number("points", result.summary["points"], 3)

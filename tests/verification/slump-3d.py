@@ -4,7 +4,6 @@
 carries the weight, direct and multigrid solutions are one."""
 
 SCENE = "prm/large-deformation/slump-3d.prm"
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 TOP = {"Probes/top/Location": "0.5, 0.5, 0.9"}
 WEIGHT = 1000 * 10
 

@@ -33,7 +33,6 @@ Grid conditions/bottom/Side = bottom | Components = z
 Loads/water/Type = surface traction | Body = soil | Part = bore/side
 Loads/water/Value = 100 * x / {radius}; 100 * y / {radius}; 0
 """)
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 CYLINDER = ("set Surface = cylinder\n set Axis start = {0}\n"
             " set Axis end = {1}\n set Radius = {2}\n set Body side = outside")
 SPHERE = ("set Surface = sphere\n set Centre = {0}\n set Radius = {1}\n"

@@ -9,7 +9,6 @@ from math import pi
 from re import sub
 
 E, HOLE = 1e6, 5
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 CONTINUED = {"Solver/Limit points": "pseudo-transient", "Method/Return tolerance": 0.3}
 SCENES = {"fe": "prm/wang-2018/twist-80-fe.prm",
           "mpm": "prm/wang-2018/twist-80-mpm.prm",

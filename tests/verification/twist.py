@@ -12,7 +12,6 @@ from math import atan2, degrees, hypot, log2, pi
 from statistics import mean
 
 E, HOLE = 1e6, 5
-QUIET = {"Output/Points": "false", "Output/Mesh": "false"}
 NODES = range(550, 1000, 50)
 
 with open(root / "tests/verification/twist.csv") as file:
