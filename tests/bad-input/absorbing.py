@@ -15,7 +15,6 @@ def refused(name, settings, scene=base):
 
 
 B = "Boundaries/base/"
-S = "Grid conditions/base/"
 side = "prm/phuong-2023/column-viscous-fe.prm"
 refused("quasi-static", {"Time/Integrator": "quasi-static"})
 refused("a side in a quasi-static scene", {"Time/Integrator": "quasi-static"},

@@ -20,7 +20,6 @@ Boundaries/right/Translation = if(t > 0, 8 * sin(pi/2 * t) / (pi/2 * t) - 8, 0);
 Time/Steps = 18
 Output/Points = false | Mesh = false
 """)
-TOLD = "leave equilibrium"
 exact = 1000 / (1 - 0.3**2) / 12 * (pi / 2) / 8  # E I / (1 - nu^2) / radius
 for method in ("finite element", "GIMP", "material point"):
     result = run(scene, {"Method/Method": method})

@@ -4,7 +4,6 @@
 """A pulse in a column whose base absorbs it, against d'Alembert's solution:
 errors over the peak at all times, at depths of 5, 10 and 15 m."""
 
-from bisect import bisect
 from math import sqrt
 
 E, nu, rho, L = 20e3, 0.25, 1.5, 20
