@@ -509,7 +509,7 @@ namespace moraine
          ++q)
       states[q].place = boundary.points()[q].x;
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
-    held_places.clear();
+    holding_points.clear();
     for (unsigned int q = 0; q < tractions.size(); ++q)
       {
         const auto          &point = boundary.points()[q];
@@ -520,23 +520,23 @@ namespace moraine
         prepared.violation =
           std::max(prepared.violation, states[q].violation.norm());
         violations.push_back(states[q].violation);
-        held_places.push_back({point.cell,
-                               q,
-                               states[q].place,
-                               force,
-                               states[q].normal,
-                               states[q].M,
-                               point.body_area});
+        holding_points.push_back({point.cell,
+                                  q,
+                                  states[q].place,
+                                  force,
+                                  states[q].normal,
+                                  states[q].M,
+                                  point.body_area});
       }
     prepared.force_magnitude =
-      force_magnitude(context.state.grid(), held_places);
-    held_places.erase(
-      std::remove_if(held_places.begin(),
-                     held_places.end(),
-                     [this](const HeldPlace &place) {
+      force_magnitude(context.state.grid(), holding_points);
+    holding_points.erase(
+      std::remove_if(holding_points.begin(),
+                     holding_points.end(),
+                     [this](const HoldingPoint &place) {
                        return !boundary.points()[place.number].holds;
                      }),
-      held_places.end());
+      holding_points.end());
     const auto of_slopes = prepare_slopes(context, states);
     sum_over_ranks(prepared, communicator);
     prepared.violation = Utilities::MPI::max(prepared.violation, communicator);

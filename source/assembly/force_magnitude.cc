@@ -28,8 +28,9 @@ namespace moraine
 
   template <int dim>
   double
-  BoundaryTerm<dim>::force_magnitude(const GridSpace<dim>         &space,
-                                     const std::vector<HeldPlace> &places) const
+  BoundaryTerm<dim>::force_magnitude(
+    const GridSpace<dim>            &space,
+    const std::vector<HoldingPoint> &places) const
   {
     // Further apart normals are those of two sides of a body.
     constexpr double cosine_of_one_side = 0.87;
@@ -37,7 +38,7 @@ namespace moraine
     const unsigned int n            = space.nodes_per_cell();
     const auto         sum_at_nodes = [&](const auto &value) {
       std::vector<Tensor<1, dim>> sums(space.n_nodes());
-      for (const HeldPlace &place : places)
+      for (const HoldingPoint &place : places)
         for (unsigned int a = 0; a < n; ++a)
           {
             const unsigned int node = space.cell_nodes(place.cell)[a];
@@ -47,15 +48,16 @@ namespace moraine
       return sums;
     };
     const auto normals =
-      sum_at_nodes([&](const HeldPlace &place, const unsigned int) {
+      sum_at_nodes([&](const HoldingPoint &place, const unsigned int) {
         return boundary.points()[place.number].JxW * place.normal;
       });
-    const auto is_apart = [&](const HeldPlace &place, const unsigned int node) {
+    const auto is_apart = [&](const HoldingPoint &place,
+                              const unsigned int  node) {
       return normals[node] * place.normal <=
              cosine_of_one_side * normals[node].norm();
     };
     const auto forces =
-      sum_at_nodes([&](const HeldPlace &place, const unsigned int node) {
+      sum_at_nodes([&](const HoldingPoint &place, const unsigned int node) {
         return is_apart(place, node) ?
                  Tensor<1, dim>() :
                  turned<dim>(place.force,
@@ -66,7 +68,7 @@ namespace moraine
     for (unsigned int node = 0; node < forces.size(); ++node)
       if (space.locally_owned().is_element(space.node_dof(node)))
         magnitude += forces[node].norm();
-    for (const HeldPlace &place : places)
+    for (const HoldingPoint &place : places)
       for (unsigned int a = 0; a < n; ++a)
         if (is_apart(place, space.cell_nodes(place.cell)[a]))
           magnitude += std::abs(functions(place)[a]) * place.force.norm();
@@ -77,8 +79,8 @@ namespace moraine
 
   template double
   BoundaryTerm<2>::force_magnitude(const GridSpace<2> &,
-                                   const std::vector<HeldPlace> &) const;
+                                   const std::vector<HoldingPoint> &) const;
   template double
   BoundaryTerm<3>::force_magnitude(const GridSpace<3> &,
-                                   const std::vector<HeldPlace> &) const;
+                                   const std::vector<HoldingPoint> &) const;
 } // namespace moraine

@@ -31,7 +31,7 @@ namespace moraine
     template <int dim>
     std::vector<unsigned int>
     count_in_cells(
-      const std::vector<std::vector<typename BoundaryTerm<dim>::HeldPlace>>
+      const std::vector<std::vector<typename BoundaryTerm<dim>::HoldingPoint>>
                            &held,
       const GridSpace<dim> &space)
     {
@@ -147,8 +147,8 @@ namespace moraine
      * its cell. */
     template <int dim>
     Tensor<1, dim>
-    traction_of_stress(const PointSet<dim>                         &points,
-                       const typename BoundaryTerm<dim>::HeldPlace &place)
+    traction_of_stress(const PointSet<dim>                            &points,
+                       const typename BoundaryTerm<dim>::HoldingPoint &place)
     {
       const auto sigma = stress_in_cell(points, place.cell);
       return sigma ? place.M * (*sigma * place.normal) :

@@ -31,9 +31,7 @@ namespace moraine
 
     template <class List>
     std::string
-    named(const List        &list,
-          const Units       &units,
-          const std::string &otherwise)
+    named(const List &list, const Units &units, const std::string &otherwise)
     {
       for (const Named &unit : list)
         if (units.force == unit.force && units.length == unit.length)

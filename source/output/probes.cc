@@ -272,9 +272,9 @@ namespace moraine
 
   template <int dim>
   void
-  Probes<dim>::tell_of_absent(const PointSet<dim>            &points,
-                              const std::vector<std::string> &body_names,
-                              std::vector<std::string>       &notes) const
+  Probes<dim>::report_absent(const PointSet<dim>            &points,
+                             const std::vector<std::string> &body_names,
+                             std::vector<std::string>       &notes) const
   {
     for (const Probe &probe : probes)
       if (probe.follows_point() && !is_there(probe.body, points))

@@ -25,7 +25,7 @@ namespace moraine
     }
 
     Json
-    list_of(const std::vector<Finding> &findings)
+    json_of(const std::vector<Finding> &findings)
     {
       Json list = Json::array();
       for (const Finding &finding : findings)
@@ -81,9 +81,9 @@ namespace moraine
       json["effects"]         = summary.effects;
       json["linear_solvers"]  = summary.linear.solvers;
       if (!summary.found.warnings.empty())
-        json["warnings"] = list_of(summary.found.warnings);
+        json["warnings"] = json_of(summary.found.warnings);
       if (!summary.found.hints.empty())
-        json["hints"] = list_of(summary.found.hints);
+        json["hints"] = json_of(summary.found.hints);
       for (const auto &[name, value] : summary.errors)
         json["errors"][name] = value ? Json(*value) : Json();
       if (!summary.energy.empty())

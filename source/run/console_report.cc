@@ -458,7 +458,7 @@ namespace moraine
       });
     console << line_of(step, scene.output.residuals) << std::endl;
     in_detail([this]() {
-      for (const std::string &text : model.probes->news())
+      for (const std::string &text : model.probes->changes())
         note(text);
     });
   }

@@ -135,7 +135,7 @@ namespace moraine
               const std::vector<BoundaryReport<dim>> &acting)
   {
     std::vector<NamedValue> row;
-    const bool in_seconds =
+    const bool              in_seconds =
       scene.is_dynamic() && !scene.output.units.time.empty();
     row.push_back({"t", in_seconds ? "time" : "-", time.time()});
     if (scene.stages.back().second.time.follows_path())
@@ -181,12 +181,12 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                              \
-  template std::vector<NamedValue> history_row(       \
-    const Scene<dim> &,                               \
-    const Model<dim> &,                               \
-    const NamedTranslations<dim> &,                   \
-    const TimeControl &,                              \
+#define INSTANTIATE(dim)                        \
+  template std::vector<NamedValue> history_row( \
+    const Scene<dim> &,                         \
+    const Model<dim> &,                         \
+    const NamedTranslations<dim> &,             \
+    const TimeControl &,                        \
     const std::vector<BoundaryReport<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

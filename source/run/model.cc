@@ -6,7 +6,7 @@
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/aggregation.h>
 #include <moraine/assembly/load_terms.h>
-#include <moraine/assembly/meeting_term.h>
+#include <moraine/assembly/conflict_term.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/ranges.h>
@@ -191,9 +191,9 @@ namespace moraine
     /** Of all that holds in a stage. */
     template <int dim>
     std::unique_ptr<Term<dim>>
-    make_meeting_term(const StageParameters                 &stage,
-                      std::vector<ImplicitBoundary<dim>>    &boundaries,
-                      const std::vector<GridCondition<dim>> &conditions)
+    make_conflict_term(const StageParameters                 &stage,
+                       std::vector<ImplicitBoundary<dim>>    &boundaries,
+                       const std::vector<GridCondition<dim>> &conditions)
     {
       constexpr unsigned int               most_spans = 8;
       std::vector<ImplicitBoundary<dim> *> acting;
@@ -209,7 +209,7 @@ namespace moraine
         times.push_back(time.start_time +
                         std::pow(double(k) / n, n < most_spans ? 1. : 1.3) *
                           (time.end_time - time.start_time));
-      return std::make_unique<MeetingTerm<dim>>(
+      return std::make_unique<ConflictTerm<dim>>(
         acting, acting_conditions(conditions, stage), times);
     }
   } // namespace
@@ -340,7 +340,7 @@ namespace moraine
       else if (absorbs_around(stage.time.start_time, scene, boundary))
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
-    terms.push_back(make_meeting_term(stage, boundaries, grid_conditions));
+    terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
     return terms;
   }
 

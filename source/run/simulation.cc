@@ -302,7 +302,7 @@ namespace moraine
               Checkpoints<dim>                      *checkpoints)
     {
       const auto in_stage = [&](const std::string &what) {
-        const std::string &name = scene.stages[driver.time().stage()].first;
+        const std::string &name  = scene.stages[driver.time().stage()].first;
         const std::string  stage = "stage '" + name + "'";
         const bool         says_so =
           name.empty() || what.find(stage) != std::string::npos;
@@ -488,9 +488,9 @@ namespace moraine
            const MPI_Comm  &communicator,
            Console         &console)
   {
-    RunTimes         times;
-    const Scene<dim> scene(input);
-    Model<dim>       model(scene, communicator, times.parts);
+    RunTimes           times;
+    const Scene<dim>   scene(input);
+    Model<dim>         model(scene, communicator, times.parts);
     RunOptions         options;
     ConsoleReport<dim> report(scene, model, options, console);
     Diagnostics<dim>   diagnostics(model.objects(scene));

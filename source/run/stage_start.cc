@@ -183,7 +183,7 @@ namespace moraine
     report_absent_probes(const Model<dim> &model, Diagnostics<dim> &diagnostics)
     {
       std::vector<std::string> sentences;
-      model.probes->tell_of_absent(*model.points, model.body_names, sentences);
+      model.probes->report_absent(*model.points, model.body_names, sentences);
       if (!sentences.empty())
         diagnostics.report({"absent-probe", "", 1, 0, sentences.front()});
     }

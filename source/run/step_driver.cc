@@ -114,7 +114,7 @@ namespace moraine
   bool
   StepDriver<dim>::run(const std::function<void()> &after_step)
   {
-    newton.watch(tell_of_iteration());
+    newton.watch(report_iteration());
     for (RunObserver<dim> *observer : observers)
       if (time_control.n_accepted() == 0)
         observer->run_begins();
@@ -178,7 +178,7 @@ namespace moraine
 
   template <int dim>
   Newton::Watcher
-  StepDriver<dim>::tell_of_iteration() const
+  StepDriver<dim>::report_iteration() const
   {
     return [this](const NewtonIteration &iteration) {
       for (RunObserver<dim> *observer : observers)
@@ -300,7 +300,7 @@ namespace moraine
                                                    *model.linear_solver,
                                                    step,
                                                    x,
-                                                   tell_of_iteration());
+                                                   report_iteration());
     if (!report.parameter_acts)
       throw InputError(
         "section '" + time_section(scene.stages[stage].first) +
@@ -408,7 +408,7 @@ namespace moraine
         ++sums.n_pseudo_transient;
         distance = motion.of_nodes;
       }
-    tell_of_step(
+    report_step(
       {time_control, t_start, report, last_reports, increments, distance});
     const std::string failure = diagnostics.failure();
     if (!failure.empty())
@@ -419,7 +419,7 @@ namespace moraine
 
   template <int dim>
   void
-  StepDriver<dim>::tell_of_step(AcceptedStep<dim> step)
+  StepDriver<dim>::report_step(AcceptedStep<dim> step)
   {
     if (time_control.between_parts())
       {

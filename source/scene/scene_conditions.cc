@@ -372,8 +372,7 @@ namespace moraine
   {
     using Place                   = typename CarriedLoad<dim>::Place;
     const NamedShapes<dim> shapes = body_shapes(scene);
-    const bool             through_mesh =
-      scene.method.after_step() == MeshAfterStep::reset;
+    const bool through_mesh = scene.method.after_step() == MeshAfterStep::reset;
     // Finer than functions need, as an expression may jump inside of a face.
     const QIterated<dim - 1> face_quadrature(QGauss<1>(scene.method.degree + 1),
                                              (dim == 2 ? 4 : 2) *

@@ -61,12 +61,12 @@ namespace moraine
                                                   dim))
           curves.push_back({name, Kind::translation, at_nodes, curve, stages});
       if (!motion.rotation_angle.empty())
-        curves.push_back({name,
-                          Kind::angle,
-                          at_nodes,
-                          TimeCurve(motion.rotation_angle,
-                                    place(section, "Rotation angle")),
-                          stages});
+        curves.push_back(
+          {name,
+           Kind::angle,
+           at_nodes,
+           TimeCurve(motion.rotation_angle, place(section, "Rotation angle")),
+           stages});
     }
 
 
@@ -88,13 +88,13 @@ namespace moraine
       for (const auto &[name, boundary] : scene.boundaries)
         {
           if (!boundary.absorbing.incident_curve.empty())
-            curves.push_back({name,
-                              Kind::wave,
-                              false,
-                              TimeCurve(boundary.absorbing.incident_curve,
-                                        place("Boundaries/" + name,
-                                              "Incident curve")),
-                              &StageParameters::boundaries});
+            curves.push_back(
+              {name,
+               Kind::wave,
+               false,
+               TimeCurve(boundary.absorbing.incident_curve,
+                         place("Boundaries/" + name, "Incident curve")),
+               &StageParameters::boundaries});
           add_motion("Boundaries",
                      name,
                      boundary.motion,
@@ -246,7 +246,7 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                           \
+#define INSTANTIATE(dim)                                             \
   template std::vector<double>      asked_times(const Scene<dim> &); \
   template std::vector<std::string> idle_curves(const Scene<dim> &);
   INSTANTIATE(2)

@@ -4,7 +4,7 @@
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/assembly/internal_force.h>
 #include <moraine/assembly/mechanics_system.h>
-#include <moraine/assembly/meeting_term.h>
+#include <moraine/assembly/conflict_term.h>
 #include <moraine/geometry/shapes.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/solver/linear_solver.h>
@@ -467,7 +467,7 @@ namespace
       0.);
   }
 
-  TEST(MeetingTerm, SlopesHoldAgainWhereTheOtherHasGone)
+  TEST(ConflictTerm, SlopesHoldAgainWhereTheOtherHasGone)
   {
     SmallScene<2> scene;
     State<2>      state(scene.space,
@@ -480,9 +480,9 @@ namespace
       rising_line("door", {{0.3, 0.9}, {2.3, 1.4}}, 1.);
     ImplicitBoundary<2> base =
       rising_line("base", {{2.3, 1.4}, {3.4, 1.7}}, 0.);
-    MeetingTerm<2> term({&door, &base}, {}, {0., 1.});
-    StepContext<2> context(state);
-    const auto     n_slopes_of_base = [&](const double t, const bool all) {
+    ConflictTerm<2> term({&door, &base}, {}, {0., 1.});
+    StepContext<2>  context(state);
+    const auto      n_slopes_of_base = [&](const double t, const bool all) {
       for (auto *boundary : {&door, &base})
         boundary->begin_step(scene.space,
                              t,
@@ -507,7 +507,7 @@ namespace
     EXPECT_EQ(base.n_searches(), 1u);
   }
 
-  TEST(MeetingTerm, PiecesThatAreFoundAnewLetGoAgain)
+  TEST(ConflictTerm, PiecesThatAreFoundAnewLetGoAgain)
   {
     SmallScene<2> scene;
     State<2>      state(scene.space,
@@ -532,9 +532,9 @@ namespace
     };
     ImplicitBoundary<2> door = make("door", {{0.3, 0.6}, {2.3, 0.6}}, -0.1),
                         base = make("base", {{2.3, 0.6}, {3.4, 0.6}}, 0.);
-    MeetingTerm<2> term({&door, &base}, {}, {0., 1.});
-    StepContext<2> context(state);
-    const auto     n_let_go = [&](const bool door_is_found_anew) {
+    ConflictTerm<2> term({&door, &base}, {}, {0., 1.});
+    StepContext<2>  context(state);
+    const auto      n_let_go = [&](const bool door_is_found_anew) {
       context.cells_moved = false;
       door.begin_step(
         scene.space, 0, 0.5, true, StrainMeasure::small, door_is_found_anew);

@@ -189,14 +189,14 @@ namespace moraine
         // from there on it goes with the point nearest to it.
         carried.try_step(field, points);
         carried.keep_step();
-        EXPECT_TRUE(carried.news().empty());
+        EXPECT_TRUE(carried.changes().empty());
         const auto there = carried.values(points);
         EXPECT_GT(there[2].value, 3.);
         carried.try_step(field, points);
         EXPECT_EQ(carried.values(points)[0].value, there[0].value);
         carried.keep_step();
-        ASSERT_EQ(carried.news().size(), 1u);
-        EXPECT_EQ(carried.news()[0].rfind("probe 'P' has left the cells", 0),
+        ASSERT_EQ(carried.changes().size(), 1u);
+        EXPECT_EQ(carried.changes()[0].rfind("probe 'P' has left the cells", 0),
                   0u);
         for (unsigned int i = 0; i < there.size(); ++i)
           EXPECT_NEAR(carried.values(points)[i].value, there[i].value, 1e-14);
@@ -206,7 +206,7 @@ namespace moraine
             points.values(p)[points.displacement_offset() + d] += u[d];
         carried.try_step(field, points);
         carried.keep_step();
-        EXPECT_TRUE(carried.news().empty());
+        EXPECT_TRUE(carried.changes().empty());
         for (unsigned int i = 0; i < there.size(); ++i)
           EXPECT_NEAR(carried.values(points)[i].value,
                       there[i].value + u[i % 2],

@@ -19,7 +19,7 @@ namespace moraine
   {
   public:
     /** A force that held a place at the end of the last step. */
-    struct HeldPlace
+    struct HoldingPoint
     {
       unsigned int                    cell;   ///< active_cell_index()
       unsigned int                    number; ///< of the boundary's points
@@ -141,10 +141,10 @@ namespace moraine
            const dealii::Tensor<1, dim> &force) const;
 
     /** Of this rank, cell by cell; places that let go are not among them. */
-    const std::vector<HeldPlace> &
+    const std::vector<HoldingPoint> &
     held() const
     {
-      return held_places;
+      return holding_points;
     }
 
     /**
@@ -154,12 +154,12 @@ namespace moraine
      * node; this rank's part. Collective.
      */
     double
-    force_magnitude(const GridSpace<dim>         &space,
-                    const std::vector<HeldPlace> &places) const;
+    force_magnitude(const GridSpace<dim>            &space,
+                    const std::vector<HoldingPoint> &places) const;
 
     /** Of the nodes of the cell, at such a place. */
     const double *
-    functions(const HeldPlace &place) const
+    functions(const HoldingPoint &place) const
     {
       return boundary.N(place.number);
     }
@@ -240,10 +240,10 @@ namespace moraine
     deepest_point(const StepContext<dim>                    &context,
                   const std::vector<dealii::Tensor<1, dim>> &moves) const;
 
-    ImplicitBoundary<dim> &boundary;
-    ShapesOfBodies<dim>    shapes;
-    BoundaryReport<dim>    prepared;
-    std::vector<HeldPlace> held_places;
+    ImplicitBoundary<dim>    &boundary;
+    ShapesOfBodies<dim>       shapes;
+    BoundaryReport<dim>       prepared;
+    std::vector<HoldingPoint> holding_points;
     /** Of points, then of slopes; none if the work of a step has none of them.
      */
     std::vector<dealii::Tensor<1, dim>> forces_at_start;

@@ -56,7 +56,7 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
-    using Held = std::vector<typename BoundaryTerm<dim>::HeldPlace>;
+    using Held = std::vector<typename BoundaryTerm<dim>::HoldingPoint>;
 
     /** Leave to the nodes that grid conditions prescribe what they hold in the
      * cells of the places @p held, by boundary.

@@ -6,7 +6,7 @@
 
 #include <moraine/boundary/body_behind.h>
 #include <moraine/boundary/enforcement.h>
-#include <moraine/boundary/meeting_pieces.h>
+#include <moraine/boundary/conflicting_pieces.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/geometry/placement.h>
 #include <moraine/geometry/shape.h>

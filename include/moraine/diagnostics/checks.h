@@ -45,8 +45,7 @@ namespace moraine
       with(const std::string &sentence)
       {
         text = sentence;
-        return object.empty() ? std::nullopt :
-                                std::optional<Finding>(*this);
+        return object.empty() ? std::nullopt : std::optional<Finding>(*this);
       }
     };
 
@@ -98,8 +97,8 @@ namespace moraine
 
 #undef MORAINE_CHECK
 
-#define MORAINE_INSTANTIATE_CHECK(name)                         \
-  template std::optional<Finding> name(Facts<2> &, Ledger &);   \
+#define MORAINE_INSTANTIATE_CHECK(name)                       \
+  template std::optional<Finding> name(Facts<2> &, Ledger &); \
   template std::optional<Finding> name(Facts<3> &, Ledger &);
   } // namespace checks
 } // namespace moraine

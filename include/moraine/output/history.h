@@ -23,7 +23,8 @@ namespace moraine
   /**
    * history.csv: one row for each accepted step, written and flushed at once.
    * The first row fixes the columns; the header gives names and units as
-   * "u_y at A [length]", or [m] if the scene has units; a unit "-" is left out. Numbers have 15 digits.
+   * "u_y at A [length]", or [m] if the scene has units; a unit "-" is left out.
+   * Numbers have 15 digits.
    */
   class History : public StatePart
   {

@@ -49,8 +49,9 @@ namespace moraine
    * *interpolated* stands on the material: the increments of the mesh
    * displacement at its place add up to its displacement and carry it along.
    * Where an interpolated probe leaves the active cells it follows the point
-   * that is nearest to it from then on, and news() says so. It waits where it
-   * is as long as it has not stood on a body, or while that body is not there.
+   * that is nearest to it from then on, and changes() says so. It waits where
+   * it is as long as it has not stood on a body, or while that body is not
+   * there.
    */
   template <int dim>
   class Probes : public StatePart
@@ -89,9 +90,9 @@ namespace moraine
      * @param body_names by number
      * @param notes what is told */
     void
-    tell_of_absent(const PointSet<dim>            &points,
-                   const std::vector<std::string> &body_names,
-                   std::vector<std::string>       &notes) const;
+    report_absent(const PointSet<dim>            &points,
+                  const std::vector<std::string> &body_names,
+                  std::vector<std::string>       &notes) const;
 
     /** Whether there are interpolated probes, which try_step() moves. */
     bool
@@ -127,7 +128,7 @@ namespace moraine
 
     /** What the last keep_step() changed for the user, sentence by sentence. */
     const std::vector<std::string> &
-    news() const
+    changes() const
     {
       return sentences;
     }

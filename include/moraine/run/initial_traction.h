@@ -29,8 +29,8 @@ namespace moraine
   template <int dim>
   void
   set_initial_tractions(const StageParameters          &stage,
-                       const std::vector<std::string> &before,
-                       Model<dim>                     &model);
+                        const std::vector<std::string> &before,
+                        Model<dim>                     &model);
 
   /**
    * Let boundaries that go on hold bodies that come in @p stage by the stress
@@ -41,8 +41,8 @@ namespace moraine
   template <int dim>
   void
   set_tractions_of_new_bodies(const StageParameters &stage,
-                           const StageParameters &before,
-                           Model<dim>            &model);
+                              const StageParameters &before,
+                              Model<dim>            &model);
 } // namespace moraine
 
 #endif

@@ -16,9 +16,9 @@ namespace moraine
    */
   template <int dim>
   void
-  begin_first_step(const Scene<dim>  &scene,
-                   Model<dim>        &model,
-                   Diagnostics<dim>  &diagnostics);
+  begin_first_step(const Scene<dim> &scene,
+                   Model<dim>       &model,
+                   Diagnostics<dim> &diagnostics);
 
   /**
    * The same for stage @p k, in a step that has begun after the last one of the
@@ -26,10 +26,10 @@ namespace moraine
    */
   template <int dim>
   void
-  begin_stage(const Scene<dim>   &scene,
-              const unsigned int  k,
-              Model<dim>         &model,
-              Diagnostics<dim>   &diagnostics);
+  begin_stage(const Scene<dim>  &scene,
+              const unsigned int k,
+              Model<dim>        &model,
+              Diagnostics<dim>  &diagnostics);
 } // namespace moraine
 
 #endif

@@ -126,7 +126,7 @@ namespace moraine
     /** Of Newton's method, for the observers; ends a step that the user gives
      * up. */
     Newton::Watcher
-    tell_of_iteration() const;
+    report_iteration() const;
 
     /** Give empty parts of cells @p fraction of the material's stiffness.
      * @return false if @p if_needed and there are none. */
@@ -241,7 +241,7 @@ namespace moraine
     /** Let observers know of the step that @p step, all of it or its second
      * part, ends; of a first part they do not. Collective. */
     void
-    tell_of_step(AcceptedStep<dim> step);
+    report_step(AcceptedStep<dim> step);
 
     struct LargestMotion
     {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_boundary_meeting_pieces_h
-#define moraine_boundary_meeting_pieces_h
+#ifndef moraine_boundary_conflicting_pieces_h
+#define moraine_boundary_conflicting_pieces_h
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -18,7 +18,7 @@ namespace moraine
    * cell: @f$M \sum_a N_a u_a = M g@f$ at some places.
    */
   template <int dim>
-  struct MeetingPiece
+  struct ConflictingPiece
   {
     struct Place
     {
@@ -61,7 +61,7 @@ namespace moraine
       const dealii::Point<dim> &)>;
 
   /** What becomes of each piece. */
-  struct MeetingDecisions
+  struct ConflictDecisions
   {
     /** The owner it lets go for; its own if it holds. */
     std::vector<unsigned int> given_way;
@@ -84,9 +84,9 @@ namespace moraine
    * @param increments of owners
    */
   template <int dim>
-  MeetingDecisions
-  decide_meetings(const std::vector<MeetingPiece<dim>>         &pieces,
-                  const std::vector<PrescribedIncrements<dim>> &increments);
+  ConflictDecisions
+  resolve_conflicts(const std::vector<ConflictingPiece<dim>>     &pieces,
+                    const std::vector<PrescribedIncrements<dim>> &increments);
 } // namespace moraine
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_assembly_meeting_term_h
-#define moraine_assembly_meeting_term_h
+#ifndef moraine_assembly_conflict_term_h
+#define moraine_assembly_conflict_term_h
 
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/grid_condition.h>
@@ -16,17 +16,17 @@ namespace moraine
   /**
    * Lets pieces of implicit boundaries go where these meet each other, or grid
    * conditions, that move differently in the cells around; see
-   * decide_meetings(). Stands after the terms of what meets.
+   * resolve_conflicts(). Stands after the terms of what meets.
    */
   template <int dim>
-  class MeetingTerm : public Term<dim>
+  class ConflictTerm : public Term<dim>
   {
   public:
     /** Of those that act together from the first of @p times to the last; in
      * between they tell how motions go. */
-    MeetingTerm(const std::vector<ImplicitBoundary<dim> *> &boundaries,
-                const std::vector<GridCondition<dim>>      &conditions,
-                const std::vector<double>                  &times);
+    ConflictTerm(const std::vector<ImplicitBoundary<dim> *> &boundaries,
+                 const std::vector<GridCondition<dim>>      &conditions,
+                 const std::vector<double>                  &times);
 
     /** A note for each two that meet. */
     std::vector<Effect>
@@ -38,10 +38,10 @@ namespace moraine
     begin_step(const StepContext<dim> &context) override;
 
   private:
-    using Piece = MeetingPiece<dim>;
+    using Piece = ConflictingPiece<dim>;
 
     /** Two that meet. */
-    struct Meeting
+    struct Conflict
     {
       unsigned int           first;
       unsigned int           second;
@@ -59,8 +59,8 @@ namespace moraine
     increments(const double now) const;
 
     void
-    take_meetings(const std::vector<Piece> &pieces,
-                  const MeetingDecisions   &decisions);
+    take_conflicts(const std::vector<Piece> &pieces,
+                   const ConflictDecisions  &decisions);
 
     void
     check_that_all_hold(const StepContext<dim> &context) const;
@@ -76,9 +76,9 @@ namespace moraine
     const std::vector<ImplicitBoundary<dim> *> boundaries;
     const std::vector<GridCondition<dim>>      conditions;
     const std::vector<double>                  times;
-    /** ImplicitBoundary::n_searches() by which meetings were found last. */
+    /** ImplicitBoundary::n_searches() by which conflicts were found last. */
     std::vector<unsigned int> searches;
-    std::vector<Meeting>      meetings;
+    std::vector<Conflict>     conflicts;
   };
 } // namespace moraine
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/assembly/meeting_term.h>
+#include <moraine/assembly/conflict_term.h>
 
 #include <moraine/core/exceptions.h>
 
@@ -68,7 +68,7 @@ namespace moraine
     template <int dim>
     struct LocalPiece
     {
-      MeetingPiece<dim>         piece;
+      ConflictingPiece<dim>     piece;
       std::vector<unsigned int> nodes;
     };
 
@@ -141,7 +141,7 @@ namespace moraine
      * is not a number. */
     template <int dim>
     void
-    check_own_values(const std::vector<MeetingPiece<dim>>         &pieces,
+    check_own_values(const std::vector<ConflictingPiece<dim>>     &pieces,
                      const std::vector<PrescribedIncrements<dim>> &increments)
     {
       for (const auto &piece : pieces)
@@ -185,7 +185,7 @@ namespace moraine
 
 
   template <int dim>
-  MeetingTerm<dim>::MeetingTerm(
+  ConflictTerm<dim>::ConflictTerm(
     const std::vector<ImplicitBoundary<dim> *> &boundaries,
     const std::vector<GridCondition<dim>>      &conditions,
     const std::vector<double>                  &times)
@@ -198,17 +198,17 @@ namespace moraine
 
   template <int dim>
   std::vector<Effect>
-  MeetingTerm<dim>::effects(const StepContext<dim> &) const
+  ConflictTerm<dim>::effects(const StepContext<dim> &) const
   {
     std::vector<Effect> notes;
-    for (const Meeting &meeting : meetings)
+    for (const Conflict &conflict : conflicts)
       {
         const std::string two =
-          name(meeting.first) + " and " + name(meeting.second);
+          name(conflict.first) + " and " + name(conflict.second);
         std::ostringstream text;
-        text << "they move differently in a cell at (" << meeting.x << ")";
-        if (meeting.cells.size() > 1)
-          text << " and " << meeting.cells.size() - 1 << " more";
+        text << "they move differently in a cell at (" << conflict.x << ")";
+        if (conflict.cells.size() > 1)
+          text << " and " << conflict.cells.size() - 1 << " more";
         text << ", which cannot follow both; smaller cells narrow the gap";
         notes.push_back({two, "note", text.str()});
       }
@@ -218,8 +218,8 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<MeetingPiece<dim>>
-  MeetingTerm<dim>::find_pieces(const StepContext<dim> &context) const
+  std::vector<ConflictingPiece<dim>>
+  ConflictTerm<dim>::find_pieces(const StepContext<dim> &context) const
   {
     const GridSpace<dim>      &space = context.state.grid();
     const PrescribedNodes<dim> prescribed =
@@ -266,7 +266,7 @@ namespace moraine
 
   template <int dim>
   bool
-  MeetingTerm<dim>::begin_step(const StepContext<dim> &context)
+  ConflictTerm<dim>::begin_step(const StepContext<dim> &context)
   {
     std::vector<unsigned int> now;
     for (const auto *boundary : boundaries)
@@ -301,7 +301,7 @@ namespace moraine
     check_own_values(pieces, of_owners);
     for (auto &of_owner : of_owners)
       of_owner = if_defined<dim>(of_owner);
-    take_meetings(pieces, decide_meetings(pieces, of_owners));
+    take_conflicts(pieces, resolve_conflicts(pieces, of_owners));
     check_that_all_hold(context);
     searches = std::move(now);
     return false;
@@ -311,7 +311,7 @@ namespace moraine
 
   template <int dim>
   std::vector<PrescribedIncrements<dim>>
-  MeetingTerm<dim>::increments(const double now) const
+  ConflictTerm<dim>::increments(const double now) const
   {
     std::vector<PrescribedIncrements<dim>> of_owners;
     for (const auto *boundary : boundaries)
@@ -335,10 +335,10 @@ namespace moraine
 
   template <int dim>
   void
-  MeetingTerm<dim>::take_meetings(const std::vector<Piece> &pieces,
-                                  const MeetingDecisions   &decisions)
+  ConflictTerm<dim>::take_conflicts(const std::vector<Piece> &pieces,
+                                    const ConflictDecisions  &decisions)
   {
-    meetings.clear();
+    conflicts.clear();
     const std::vector<unsigned int>    &given_way = decisions.given_way;
     std::vector<std::set<unsigned int>> let_go(boundaries.size()),
       shared(let_go);
@@ -351,14 +351,15 @@ namespace moraine
         let_go[pieces[p].owner].insert(pieces[p].cell);
         const unsigned int first  = std::min(pieces[p].owner, given_way[p]),
                            second = std::max(pieces[p].owner, given_way[p]);
-        auto meeting =
-          std::find_if(meetings.begin(), meetings.end(), [&](const auto &m) {
+        auto conflict =
+          std::find_if(conflicts.begin(), conflicts.end(), [&](const auto &m) {
             return m.first == first && m.second == second;
           });
-        if (meeting == meetings.end())
-          meeting = meetings.insert(meetings.end(),
-                                    {first, second, pieces[p].places[0].x, {}});
-        meeting->cells.insert(pieces[p].cell);
+        if (conflict == conflicts.end())
+          conflict =
+            conflicts.insert(conflicts.end(),
+                             {first, second, pieces[p].places[0].x, {}});
+        conflict->cells.insert(pieces[p].cell);
       }
     const auto all_but = [](const std::set<unsigned int> &cells) {
       return [&cells](const unsigned int c) { return cells.count(c) == 0; };
@@ -375,11 +376,11 @@ namespace moraine
 
   template <int dim>
   void
-  MeetingTerm<dim>::check_that_all_hold(const StepContext<dim> &context) const
+  ConflictTerm<dim>::check_that_all_hold(const StepContext<dim> &context) const
   {
     const MPI_Comm communicator = context.state.grid().communicator();
-    for (const Meeting &meeting : meetings)
-      for (const unsigned int owner : {meeting.first, meeting.second})
+    for (const Conflict &conflict : conflicts)
+      for (const unsigned int owner : {conflict.first, conflict.second})
         {
           if (owner >= boundaries.size())
             continue;
@@ -391,9 +392,9 @@ namespace moraine
           if (!Utilities::MPI::logical_or(holds, communicator))
             {
               std::ostringstream message;
-              message << "'" << name(meeting.first) << "' and '"
-                      << name(meeting.second)
-                      << "' prescribe different motions at (" << meeting.x
+              message << "'" << name(conflict.first) << "' and '"
+                      << name(conflict.second)
+                      << "' prescribe different motions at (" << conflict.x
                       << "), in all cells that '" << name(owner)
                       << "' cuts, allowed: smaller cells, or surfaces that "
                          "end a cell apart";
@@ -404,6 +405,6 @@ namespace moraine
 
 
 
-  template class MeetingTerm<2>;
-  template class MeetingTerm<3>;
+  template class ConflictTerm<2>;
+  template class ConflictTerm<3>;
 } // namespace moraine

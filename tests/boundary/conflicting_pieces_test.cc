@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/boundary/meeting_pieces.h>
+#include <moraine/boundary/conflicting_pieces.h>
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@ namespace
 {
   /** What @p owner holds from @p begin to @p end in a cell of size 1 of a row
    * on a line; node k is at x = k. */
-  MeetingPiece<2>
+  ConflictingPiece<2>
   piece(const unsigned int           owner,
         const unsigned int           cell,
         const double                 begin,
         const double                 end,
         const SymmetricTensor<2, 2> &M = dealii::unit_symmetric_tensor<2>())
   {
-    MeetingPiece<2> of;
+    ConflictingPiece<2> of;
     of.owner = owner;
     of.cell  = cell;
     of.area  = end - begin;
@@ -38,10 +38,10 @@ namespace
   }
 
   /** Two owners, the first of which ends at @p x in a row of four cells. */
-  std::vector<MeetingPiece<2>>
+  std::vector<ConflictingPiece<2>>
   row(const double x)
   {
-    std::vector<MeetingPiece<2>> pieces;
+    std::vector<ConflictingPiece<2>> pieces;
     for (unsigned int cell = 0; cell < 4; ++cell)
       {
         if (cell < x)
@@ -68,32 +68,32 @@ namespace
   using Owners = std::vector<unsigned int>;
 } // namespace
 
-TEST(MeetingPieces, ACellInWhichTwoMoveDifferentlyFollowsNeither)
+TEST(ConflictingPieces, ACellInWhichTwoMoveDifferentlyFollowsNeither)
 {
   for (const double x : {2.02, 2.3, 2.98})
-    EXPECT_EQ(decide_meetings<2>(row(x), {sinks, rests}).given_way,
+    EXPECT_EQ(resolve_conflicts<2>(row(x), {sinks, rests}).given_way,
               (Owners{0, 0, 1, 0, 1}))
       << x;
 }
 
-TEST(MeetingPieces, AtANodeTheSecondLetsGo)
+TEST(ConflictingPieces, AtANodeTheSecondLetsGo)
 {
-  EXPECT_EQ(decide_meetings<2>(row(2.), {sinks, rests}).given_way,
+  EXPECT_EQ(resolve_conflicts<2>(row(2.), {sinks, rests}).given_way,
             (Owners{0, 0, 0, 1}));
 }
 
-TEST(MeetingPieces, ThoseThatMoveTogetherHold)
+TEST(ConflictingPieces, ThoseThatMoveTogetherHold)
 {
   const Owners all = {0, 0, 0, 1, 1};
-  EXPECT_EQ(decide_meetings<2>(row(2.3), {rests, rests}).given_way, all);
-  EXPECT_EQ(decide_meetings<2>(row(2.3), {sinks, sinks}).given_way, all);
+  EXPECT_EQ(resolve_conflicts<2>(row(2.3), {rests, rests}).given_way, all);
+  EXPECT_EQ(resolve_conflicts<2>(row(2.3), {sinks, sinks}).given_way, all);
   const auto turns = motion([](const Point<2> &x) {
     return 0.1 * Tensor<1, 2>({-x[1], x[0] - 1e5});
   });
-  EXPECT_EQ(decide_meetings<2>(row(2.3), {turns, turns}).given_way, all);
+  EXPECT_EQ(resolve_conflicts<2>(row(2.3), {turns, turns}).given_way, all);
 }
 
-TEST(MeetingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
+TEST(ConflictingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
 {
   // One cell cannot bend at 2.3; at a node it does.
   const auto turns = [](const double at) {
@@ -101,46 +101,47 @@ TEST(MeetingPieces, ATurnAboutWhereTheyMeetIsFollowedByNodesOnly)
       return 0.1 * Tensor<1, 2>({0., x[0] - at});
     });
   };
-  EXPECT_EQ(decide_meetings<2>(row(2.), {turns(2.), rests}).given_way,
+  EXPECT_EQ(resolve_conflicts<2>(row(2.), {turns(2.), rests}).given_way,
             (Owners{0, 0, 1, 1}));
-  EXPECT_NE(decide_meetings<2>(row(2.3), {turns(2.3), rests}).given_way,
+  EXPECT_NE(resolve_conflicts<2>(row(2.3), {turns(2.3), rests}).given_way,
             (Owners{0, 0, 0, 1, 1}));
 }
 
-TEST(MeetingPieces, RollersOfOtherComponentsHold)
+TEST(ConflictingPieces, RollersOfOtherComponentsHold)
 {
-  std::vector<MeetingPiece<2>> pieces = row(2.3);
+  std::vector<ConflictingPiece<2>> pieces = row(2.3);
   for (auto &of : pieces)
     for (auto &place : of.places)
       {
         place.M                             = SymmetricTensor<2, 2>();
         place.M[1 - of.owner][1 - of.owner] = 1;
       }
-  const MeetingDecisions decisions = decide_meetings<2>(pieces, {sinks, rests});
+  const ConflictDecisions decisions =
+    resolve_conflicts<2>(pieces, {sinks, rests});
   EXPECT_EQ(decisions.given_way, (Owners{0, 0, 0, 1, 1}));
   EXPECT_EQ(decisions.sees_another, std::vector<bool>(5, false));
 }
 
-TEST(MeetingPieces, ThoseThatShareNodesSeeEachOther)
+TEST(ConflictingPieces, ThoseThatShareNodesSeeEachOther)
 {
   // All nodes of the last cell of one are of the first of the other, and one of
   // the cells beside them.
-  EXPECT_EQ(decide_meetings<2>(row(2.3), {sinks, rests}).sees_another,
+  EXPECT_EQ(resolve_conflicts<2>(row(2.3), {sinks, rests}).sees_another,
             (std::vector<bool>{false, true, true, true, true}));
-  EXPECT_EQ(decide_meetings<2>(row(2.3), {rests, rests}).sees_another,
+  EXPECT_EQ(resolve_conflicts<2>(row(2.3), {rests, rests}).sees_another,
             std::vector<bool>(5, false));
 }
 
-TEST(MeetingPieces, NodesThatArePrescribedStay)
+TEST(ConflictingPieces, NodesThatArePrescribedStay)
 {
-  std::vector<MeetingPiece<2>> pieces = {piece(0, 0, 0., 1.),
-                                         piece(0, 1, 1., 2.)};
-  MeetingPiece<2>              node;
+  std::vector<ConflictingPiece<2>> pieces = {piece(0, 0, 0., 1.),
+                                             piece(0, 1, 1., 2.)};
+  ConflictingPiece<2>              node;
   node.owner     = 1;
   node.must_hold = true;
   node.nodes     = {0};
   node.places.push_back({{0., 0.}, dealii::unit_symmetric_tensor<2>(), {1.}});
   pieces.push_back(node);
-  EXPECT_EQ(decide_meetings<2>(pieces, {sinks, rests}).given_way,
+  EXPECT_EQ(resolve_conflicts<2>(pieces, {sinks, rests}).given_way,
             (Owners{1, 0, 1}));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/boundary/meeting_pieces.h>
+#include <moraine/boundary/conflicting_pieces.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -67,7 +67,7 @@ namespace moraine
     class Conflicts
     {
     public:
-      Conflicts(const std::vector<MeetingPiece<dim>>         &pieces,
+      Conflicts(const std::vector<ConflictingPiece<dim>>     &pieces,
                 const std::vector<PrescribedIncrements<dim>> &increments)
         : pieces(pieces)
         , increments(increments)
@@ -139,8 +139,8 @@ namespace moraine
           largest = std::max(largest, piece.area);
         for (unsigned int p = 0; p < pieces.size(); ++p)
           {
-            const MeetingPiece<dim> &piece = pieces[p];
-            double                   share = 0;
+            const ConflictingPiece<dim> &piece = pieces[p];
+            double                       share = 0;
             for (unsigned int a = 0; a < piece.nodes.size(); ++a)
               if (std::any_of(owners[piece.nodes[a]].begin(),
                               owners[piece.nodes[a]].end(),
@@ -423,7 +423,7 @@ namespace moraine
         return true;
       }
 
-      const std::vector<MeetingPiece<dim>>         &pieces;
+      const std::vector<ConflictingPiece<dim>>     &pieces;
       const std::vector<PrescribedIncrements<dim>> &increments;
       const unsigned int                            n_owners;
       unsigned int                                  n_spans = 0;
@@ -437,11 +437,11 @@ namespace moraine
 
 
   template <int dim>
-  MeetingDecisions
-  decide_meetings(const std::vector<MeetingPiece<dim>>         &pieces,
-                  const std::vector<PrescribedIncrements<dim>> &increments)
+  ConflictDecisions
+  resolve_conflicts(const std::vector<ConflictingPiece<dim>>     &pieces,
+                    const std::vector<PrescribedIncrements<dim>> &increments)
   {
-    MeetingDecisions decisions;
+    ConflictDecisions decisions;
     for (const auto &piece : pieces)
       decisions.given_way.push_back(piece.owner);
     decisions.sees_another.assign(pieces.size(), false);
@@ -481,6 +481,6 @@ namespace moraine
 
 
 
-  template decltype(decide_meetings<2>) decide_meetings<2>;
-  template decltype(decide_meetings<3>) decide_meetings<3>;
+  template decltype(resolve_conflicts<2>) resolve_conflicts<2>;
+  template decltype(resolve_conflicts<3>) resolve_conflicts<3>;
 } // namespace moraine
