@@ -120,8 +120,7 @@ for line in moving.output.splitlines():
         text("  said", line.strip())
 
 for name, settings in (
-        ("lower fails", {"Strength reduction/Lower factor": 1.4,
-                         "Mesh/Cell size": 2}),
+        ("lower fails", {"Strength reduction/Lower factor": 1.4}),
         ("upper stands", {"Strength reduction/Upper factor": 1.2,
                           "Mesh/Cell size": 2}),
         # A path that has not come to the end of time says nothing.
