@@ -44,7 +44,8 @@ namespace moraine
   void
   AtomicFile::commit(const std::function<void(const std::string &)> &verify)
   {
-    errno = 0;
+    if (file) // else it says why a write failed
+      errno = 0;
     file.close(); // flushes, and fails if an earlier write did
     if (!file)
       fail();
