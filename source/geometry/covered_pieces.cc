@@ -51,28 +51,6 @@ namespace moraine
           }
       return parts;
     }
-
-
-
-    template <int dim>
-    void
-    add_halved(const Surface<dim>                                   &surface,
-               const CellVertices<dim>                              &cell,
-               const unsigned int                                    n_gauss,
-               const unsigned int                                    n_halvings,
-               const std::function<bool(const SurfacePoint<dim> &)> &keep,
-               std::vector<SurfacePoint<dim>>                       &points)
-    {
-      std::vector<SurfacePoint<dim>> all, kept;
-      surface.pieces(cell, n_gauss, all);
-      std::copy_if(all.begin(), all.end(), std::back_inserter(kept), keep);
-      if (n_halvings == 0 || kept.empty() || kept.size() == all.size())
-        points.insert(points.end(), kept.begin(), kept.end());
-      else
-        for (const CellVertices<dim> &part : halves<dim>(cell))
-          add_halved(
-            surface, part, n_gauss_in_parts, n_halvings - 1, keep, points);
-    }
   } // namespace
 
 
@@ -172,7 +150,15 @@ namespace moraine
                   std::vector<SurfacePoint<dim>>                       &points,
                   const unsigned int n_halvings)
   {
-    add_halved(surface, cell, n_gauss, n_halvings, keep, points);
+    std::vector<SurfacePoint<dim>> all, kept;
+    surface.pieces(cell, n_gauss, all);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(kept), keep);
+    if (n_halvings == 0 || kept.empty() || kept.size() == all.size())
+      points.insert(points.end(), kept.begin(), kept.end());
+    else
+      for (const CellVertices<dim> &part : halves<dim>(cell))
+        add_kept_pieces(
+          surface, part, n_gauss_in_parts, keep, points, n_halvings - 1);
   }
 
 

@@ -364,6 +364,11 @@ namespace moraine
           const PlaneFrame frame(piece[0], normal);
           PlanePolygon     polygon;
           SignedPieces<2>  flat;
+          const auto       add = [&](const auto &part) {
+            parts.emplace_back();
+            for (const Point<2> &p : part)
+              parts.back().push_back(frame.to_space(p));
+          };
           for (const auto &x : piece)
             polygon.push_back(frame.to_plane(x));
           if (is_cut_exactly(extent, frame, normal, polygon, tolerance))
@@ -375,11 +380,7 @@ namespace moraine
                                 polygon,
                                 round_off,
                                 std::max(tolerance, round_off)))
-                {
-                  parts.emplace_back();
-                  for (const auto &p : part)
-                    parts.back().push_back(frame.to_space(p));
-                }
+                add(part);
               return parts;
             }
           add_curved_pieces<2>(
@@ -391,11 +392,7 @@ namespace moraine
             1.,
             flat);
           for (const auto &part : flat)
-            {
-              parts.emplace_back();
-              for (const auto &p : part.polytope.vertices())
-                parts.back().push_back(frame.to_space(p));
-            }
+            add(part.polytope.vertices());
         }
       return parts;
     }

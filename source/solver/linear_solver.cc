@@ -79,11 +79,40 @@ namespace moraine
     {}
 
     Method
-    choose(const bool symmetric);
+    choose(const bool symmetric)
+    {
+      if (parameters.solver == "direct" ||
+          (parameters.solver == "auto" && choice.directly(matrix->m())))
+        return Method::direct;
+      fall_back_reason.clear();
+      if (parameters.solver == "schwarz")
+        return Method::schwarz;
+      if (parameters.solver == "amg-cg" ||
+          (parameters.solver == "auto" && symmetric))
+        return Method::amg_cg;
+      return Method::gmres;
+    }
 
     /** Write down what solves from now on, unless it is what did. */
     void
-    note_choice();
+    note_choice()
+    {
+      std::ostringstream text;
+      text << method_name();
+      if (!choices.empty() &&
+          choices.back().substr(0, text.str().size()) == text.str())
+        return;
+      text << " from linear system " << n_set_ups << " on, " << matrix->m()
+           << " unknowns";
+      if (method == Method::direct && !choices.empty())
+        text << ": "
+             << (fall_back_reason.empty() ?
+                   "cheaper than the iterations so far" :
+                   fall_back_reason);
+      if (!choices.empty())
+        unsaid = text.str();
+      choices.push_back(text.str());
+    }
 
     /** What solves, as a word of the input. */
     std::string
@@ -97,7 +126,22 @@ namespace moraine
 
     /** Build the preconditioner, or renew it. */
     void
-    set_up_iterative(const std::vector<LA::Vector> &near_null_space);
+    set_up_iterative(const std::vector<LA::Vector> &near_null_space)
+    {
+      if (!iterative)
+        iterative.emplace(*matrix,
+                          IterativeSolver::Options{
+                            method == Method::amg_cg ||
+                              (method == Method::schwarz && is_symmetric),
+                            method == Method::schwarz,
+                            is_symmetric,
+                            dim,
+                            parameters.relative_tolerance},
+                          near_null_space);
+      else if (!iterative->renew(near_null_space))
+        return;
+      choice.spend(SolverChoice::hierarchy_cost);
+    }
 
     /** Iterate, counting for the choice of auto; what an old hierarchy does not
      * do, a new one may. */
@@ -105,98 +149,32 @@ namespace moraine
     iterate(LA::Vector       &x,
             const LA::Vector &b,
             const double      enough,
-            const LA::Vector *weights);
-  };
-
-
-
-  LinearSolver::Implementation::Method
-  LinearSolver::Implementation::choose(const bool symmetric)
-  {
-    if (parameters.solver == "direct" ||
-        (parameters.solver == "auto" && choice.directly(matrix->m())))
-      return Method::direct;
-    fall_back_reason.clear();
-    if (parameters.solver == "schwarz")
-      return Method::schwarz;
-    if (parameters.solver == "amg-cg" ||
-        (parameters.solver == "auto" && symmetric))
-      return Method::amg_cg;
-    return Method::gmres;
-  }
-
-
-
-  void
-  LinearSolver::Implementation::note_choice()
-  {
-    std::ostringstream text;
-    text << method_name();
-    if (!choices.empty() &&
-        choices.back().substr(0, text.str().size()) == text.str())
-      return;
-    text << " from linear system " << n_set_ups << " on, " << matrix->m()
-         << " unknowns";
-    if (method == Method::direct && !choices.empty())
-      text << ": "
-           << (fall_back_reason.empty() ? "cheaper than the iterations so far" :
-                                          fall_back_reason);
-    if (!choices.empty())
-      unsaid = text.str();
-    choices.push_back(text.str());
-  }
-
-
-
-  void
-  LinearSolver::Implementation::set_up_iterative(
-    const std::vector<LA::Vector> &near_null_space)
-  {
-    if (!iterative)
-      iterative.emplace(*matrix,
-                        IterativeSolver::Options{method == Method::amg_cg ||
-                                                   (method == Method::schwarz &&
-                                                    is_symmetric),
-                                                 method == Method::schwarz,
-                                                 is_symmetric,
-                                                 dim,
-                                                 parameters.relative_tolerance},
-                        near_null_space);
-    else if (!iterative->renew(near_null_space))
-      return;
-    choice.spend(SolverChoice::hierarchy_cost);
-  }
-
-
-
-  LinearReport
-  LinearSolver::Implementation::iterate(LA::Vector       &x,
-                                        const LA::Vector &b,
-                                        const double      enough,
-                                        const LA::Vector *weights)
-  {
-    const auto attempt = [&]() {
-      const unsigned int most =
-        parameters.solver == "auto" ?
-          std::min(parameters.maximum_iterations, choice.allowed_iterations()) :
-          parameters.maximum_iterations;
-      const LinearReport report = iterative->solve(x, b, enough, weights, most);
-      choice.spend(report.iterations);
+            const LA::Vector *weights)
+    {
+      const auto attempt = [&]() {
+        const unsigned int most = parameters.solver == "auto" ?
+                                    std::min(parameters.maximum_iterations,
+                                             choice.allowed_iterations()) :
+                                    parameters.maximum_iterations;
+        const LinearReport report =
+          iterative->solve(x, b, enough, weights, most);
+        choice.spend(report.iterations);
+        return report;
+      };
+      LinearReport report  = attempt();
+      unsigned int in_vain = 0;
+      if (!report.converged && !iterative->hierarchy_is_new())
+        {
+          in_vain = report.iterations;
+          iterative->make_hierarchy();
+          choice.spend(SolverChoice::hierarchy_cost);
+          report = attempt();
+        }
+      iterative->watch(report);
+      report.iterations += in_vain;
       return report;
-    };
-    LinearReport report  = attempt();
-    unsigned int in_vain = 0;
-    if (!report.converged && !iterative->hierarchy_is_new())
-      {
-        in_vain = report.iterations;
-        iterative->make_hierarchy();
-        choice.spend(SolverChoice::hierarchy_cost);
-        report = attempt();
-      }
-    iterative->watch(report);
-    report.iterations += in_vain;
-    return report;
-  }
+    }
+  };
 
 
 

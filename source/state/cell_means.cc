@@ -148,31 +148,27 @@ namespace moraine
                                          numbers::invalid_unsigned_int)
         append(messages[cell->subdomain_id()], cell->active_cell_index());
     const auto received = Utilities::MPI::some_to_some(communicator, messages);
-    for (const auto &[rank, message] : received)
-      for (unsigned int i = 0; i < message.first.size(); ++i)
-        {
-          const unsigned int k      = number_of(message.first[i]);
-          const double      *values = &message.second[n * i];
-          volumes[k] += values[0];
-          for (unsigned int a = 0; a < n_corners; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              gradients[k * n_corners + a][d] += values[1 + dim * a + d];
-        }
+    const auto take     = [&](const auto &of_ranks, const double share_of_own) {
+      for (const auto &[rank, message] : of_ranks)
+        for (unsigned int i = 0; i < message.first.size(); ++i)
+          {
+            const unsigned int k      = number_of(message.first[i]);
+            const double      *values = &message.second[n * i];
+            volumes[k]                = share_of_own * volumes[k] + *values++;
+            for (unsigned int a = 0; a < n_corners; ++a)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  double &entry = gradients[k * n_corners + a][d];
+                  entry         = share_of_own * entry + *values++;
+                }
+          }
+    };
+    take(received, 1.);
     messages.clear();
     for (const auto &[rank, message] : received)
       for (const unsigned int cell : message.first)
         append(messages[rank], cell);
-    for (const auto &[rank, message] :
-         Utilities::MPI::some_to_some(communicator, messages))
-      for (unsigned int i = 0; i < message.first.size(); ++i)
-        {
-          const unsigned int k      = numbers_of[message.first[i]];
-          const double      *values = &message.second[n * i];
-          volumes[k]                = values[0];
-          for (unsigned int a = 0; a < n_corners; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              gradients[k * n_corners + a][d] = values[1 + dim * a + d];
-        }
+    take(Utilities::MPI::some_to_some(communicator, messages), 0.);
   }
 
 
