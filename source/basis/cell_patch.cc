@@ -74,10 +74,8 @@ namespace moraine
 
 
 
-    /**
-     * The functions of a cell at @p x, which has the reference position
-     * @p xi, continued linearly if that is outside the unit cell.
-     */
+    /** The functions of a cell at @p x, which has the reference position @p xi,
+     * continued linearly if that is outside the unit cell. */
     template <int dim>
     void
     functions_at(const CellVertices<dim> &X,

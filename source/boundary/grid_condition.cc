@@ -60,10 +60,8 @@ namespace moraine
 
 
 
-    /**
-     * The part of a cell in which node @p a lies: its corners share with it the
-     * coordinates that are not in the middle.
-     */
+    /** The part of a cell in which node @p a lies: its corners share with it
+     * the coordinates that are not in the middle. */
     template <int dim>
     std::vector<unsigned int>
     corners_of_node(const typename GridSpace<dim>::CellIterator &cell,

@@ -28,6 +28,27 @@ namespace moraine
 
 
   template <int dim>
+  ImplicitBoundary<dim>::ImplicitBoundary(
+    const std::string                  &name,
+    std::shared_ptr<const Surface<dim>> surface,
+    const RigidMotion<dim>             &motion,
+    const Displacement                 &displacement,
+    const Constraint<dim>              &constraint,
+    const Enforcement                  &enforcement,
+    const double                        penetration_limit)
+    : boundary_name(name)
+    , at_start(surface)
+    , at_end(surface)
+    , motion(motion)
+    , displacement(displacement)
+    , constraint(constraint)
+    , how(enforcement)
+    , limit(penetration_limit)
+  {}
+
+
+
+  template <int dim>
   void
   ImplicitBoundary<dim>::begin_step(
     const GridSpace<dim>                   &space,

@@ -276,10 +276,8 @@ namespace moraine
             add(p + .5 * (q - p), area / 3.);
       }
 
-      /**
-       * Between the chord from a to b and its arc of twice the angle @p half;
-       * R (cos f - cos(half)) high where f is seen from the centre.
-       */
+      /** Between the chord from a to b and its arc of twice the angle @p half;
+       * R (cos f - cos(half)) high where f is seen from the centre. */
       void
       add_segment(const Point<3> &a, const Point<3> &b, const double half) const
       {

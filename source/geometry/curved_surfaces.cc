@@ -21,10 +21,8 @@ namespace moraine
 
   namespace
   {
-    /**
-     * φ of a smooth shape, or of what is around it, composed with the map of a
-     * cell and lowered by a shift.
-     */
+    /** φ of a smooth shape, or of what is around it, composed with the map of a
+     * cell and lowered by a shift. */
     template <int dim>
     class ReferenceLevelSet : public Function<dim>
     {
@@ -165,10 +163,8 @@ namespace moraine
         return std::abs(shape.nearest(middle, radius).level) > 2. * radius;
       }
 
-      /**
-       * Cut a box down to the part within a limit. False where none is left;
-       * @p exact is cleared where the limit runs across the box.
-       */
+      /** Cut a box down to the part within a limit. False where none is left;
+       * @p exact is cleared where the limit runs across the box. */
       bool
       trim(const typename Extent<dim>::Limit &limit,
            BoundingBox<dim>                  &box,

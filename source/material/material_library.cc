@@ -69,10 +69,8 @@ namespace moraine
 
 
 
-    /**
-     * The key that gives the yield stress.
-     * @throw InputError if it is not exactly one.
-     */
+    /** The key that gives the yield stress. @throw InputError if it is not
+     * exactly one. */
     const YieldKey &
     given_yield_key(const MaterialParameters &parameters,
                     const std::string        &section)

@@ -124,10 +124,8 @@ namespace moraine
 
 
 
-    /**
-     * Numbers of cells are whole, not negative and not so many that the cells
-     * fit nowhere; generators look at none of this.
-     */
+    /** Numbers of cells are whole, not negative and not so many that the cells
+     * fit nowhere; generators look at none of this. */
     template <int dim>
     void
     check_counts(const MeshSource  &source,
@@ -277,10 +275,8 @@ namespace moraine
 
 
 
-    /**
-     * Join cells of generators that touch with vertices of their own. Those of
-     * files are refused, but where a physical id says that a slit is meant.
-     */
+    /** Join cells of generators that touch with vertices of their own. Those of
+     * files are refused, but where a physical id says that a slit is meant. */
     template <int dim>
     void
     close_cracks(const MeshSource &source, Triangulation<dim> &cells)

@@ -205,10 +205,8 @@ namespace moraine
 
 
 
-    /**
-     * Refuse a point that is given twice, be it in one file or in those of two
-     * bodies that are there at the same time.
-     */
+    /** Refuse a point that is given twice, be it in one file or in those of two
+     * bodies that are there at the same time. */
     template <int dim>
     void
     refuse_repeated_points(const std::vector<Body<dim>> &bodies,
@@ -313,10 +311,8 @@ namespace moraine
 
 
 
-    /**
-     * Refuse points that do not fit into the memory, or have more ids than
-     * there are.
-     */
+    /** Refuse points that do not fit into the memory, or have more ids than
+     * there are. */
     template <int dim>
     void
     check_number_of_points(const std::vector<Body<dim>> &bodies,

@@ -94,10 +94,8 @@ namespace moraine
 
 
 
-    /**
-     * Weights >= 0 of the columns with which they sum up to b in the sense of
-     * least squares; at most as many as b has entries are not zero.
-     */
+    /** Weights >= 0 of the columns with which they sum up to b in the sense of
+     * least squares; at most as many as b has entries are not zero. */
     class NonnegativeLeastSquares
     {
     public:

@@ -26,23 +26,17 @@ namespace moraine
 
   namespace
   {
-    /**
-     * Refinement stops when the residual is this small relative to b, or no
-     * longer falls.
-     */
+    /** Refinement stops when the residual is this small relative to b, or no
+     * longer falls. */
     constexpr double       refinement_goal     = 1e-14;
     constexpr unsigned int maximum_refinements = 3;
 
-    /**
-     * The backward error |b - A x| / (|A| |x| + |b|) that a stable
-     * factorisation keeps far below.
-     */
+    /** The backward error |b - A x| / (|A| |x| + |b|) that a stable
+     * factorisation keeps far below. */
     constexpr double backward_error_limit = 1e-11;
 
-    /**
-     * A matrix is singular to working precision if rounding changes a solution
-     * by this much relative to itself, up to sqrt(n).
-     */
+    /** A matrix is singular to working precision if rounding changes a solution
+     * by this much relative to itself, up to sqrt(n). */
     constexpr double singular_change = 0.01;
 
     /**
@@ -64,10 +58,8 @@ namespace moraine
 
 
 
-    /**
-     * The largest singular value of an operator, by power iteration: apply(y,
-     * x) is y = A^T A x.
-     */
+    /** The largest singular value of an operator, by power iteration: apply(y,
+     * x) is y = A^T A x. */
     template <typename Apply>
     double
     largest_singular_value(LA::Vector x, const Apply &apply)

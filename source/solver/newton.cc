@@ -20,9 +20,7 @@ namespace moraine
   {
     constexpr unsigned int maximum_halvings = 8;
 
-    /**
-     * A step of length s must reduce the residual by this times s (Armijo).
-     */
+    /** A step of length s must reduce the residual by this times s (Armijo). */
     constexpr double sufficient_decrease = 1e-4;
 
     /**
@@ -32,10 +30,8 @@ namespace moraine
      */
     constexpr double sufficient_shortening = 0.25;
 
-    /**
-     * With a kept tangent, a pass that leaves more than this part of the
-     * residual calls for a new one.
-     */
+    /** With a kept tangent, a pass that leaves more than this part of the
+     * residual calls for a new one. */
     constexpr double slow_pass = 0.1;
 
     /** A correction that leaves less of the residual is no play of rounding. */
@@ -52,15 +48,11 @@ namespace moraine
     /** ... but no further than to this part of what Newton's method needs. */
     constexpr double goal_of_linear_solver = 0.1;
 
-    /**
-     * Residuals below this say more about round-off than about order.
-     */
+    /** Residuals below this say more about round-off than about order. */
     constexpr double share_of_round_off = 1e-11;
 
-    /**
-     * Where this part of the first residual is left, Newton's method shows the
-     * order with which it ends.
-     */
+    /** Where this part of the first residual is left, Newton's method shows the
+     * order with which it ends. */
     constexpr double already_near = 0.1;
 
 
@@ -80,9 +72,7 @@ namespace moraine
 
 
 
-    /**
-     * One solve under way.
-     */
+    /** One solve under way. */
     class Iteration
     {
     public:
@@ -218,10 +208,8 @@ namespace moraine
                       "the residual is not a number at the start of the step"));
       }
 
-      /**
-       * Solve for a correction with the factorisation at hand and take it.
-       * @p enough: the distance that the linear equations may leave.
-       */
+      /** Solve for a correction with the factorisation at hand and take it. @p
+       * enough: the distance that the linear equations may leave. */
       bool
       correct(const bool   line_search,
               const double enough = goal_of_linear_solver)
@@ -257,10 +245,8 @@ namespace moraine
         return taken;
       }
 
-      /**
-       * Add dx if that reduces the residual or the next correction, else half
-       * of it, a quarter, ..., the first that reduces the residual.
-       */
+      /** Add dx if that reduces the residual or the next correction, else half
+       * of it, a quarter, ..., the first that reduces the residual. */
       bool
       take_step(const LA::Vector &dx, const bool line_search)
       {
@@ -358,10 +344,8 @@ namespace moraine
           }
       }
 
-      /**
-       * At least one correction with the factorisation at hand, more while they
-       * help, then Newton's own if still needed.
-       */
+      /** At least one correction with the factorisation at hand, more while
+       * they help, then Newton's own if still needed. */
       bool
       iterate_with_kept_tangent()
       {

@@ -17,10 +17,8 @@ namespace moraine
 
   namespace
   {
-    /**
-     * What round-off leaves of the forces at the start of a step, which cancel
-     * altogether where a step ends without stress.
-     */
+    /** What round-off leaves of the forces at the start of a step, which cancel
+     * altogether where a step ends without stress. */
     constexpr double cancelled = 1e-14;
 
     /** Rounding errors of a residual, over those of its largest products. */

@@ -18,15 +18,11 @@ namespace moraine
 
   namespace
   {
-    /**
-     * Times closer than this part of a step are the same time.
-     */
+    /** Times closer than this part of a step are the same time. */
     constexpr double same_time = 1e-9;
 
-    /**
-     * Multipliers take more iterations than an easy step has, whatever the
-     * size: what forced a cut is behind after that many steps without one.
-     */
+    /** Multipliers take more iterations than an easy step has, whatever the
+     * size: what forced a cut is behind after that many steps without one. */
     constexpr unsigned int enough_in_a_row = 5;
 
 

@@ -97,10 +97,8 @@ namespace moraine
     virtual void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const = 0;
 
-    /**
-     * The parts of the points of a batch in each of its cells. @p block is that
-     * of evaluate(). Here each point lies in the cell of its batch.
-     */
+    /** The parts of the points of a batch in each of its cells. @p block is
+     * that of evaluate(). Here each point lies in the cell of its batch. */
     virtual void
     evaluate_parts(const unsigned int       batch,
                    const StencilBlock<dim> &block,
@@ -136,10 +134,8 @@ namespace moraine
       return *this;
     }
 
-    /**
-     * Why the step that moves nodes by @p nodal_increments cannot be accepted,
-     * naming the point of this rank (a domain that turns inside out), or "".
-     */
+    /** Why the step that moves nodes by @p nodal_increments cannot be accepted,
+     * naming the point of this rank (a domain that turns inside out), or "". */
     virtual std::string
     failure_of([[maybe_unused]] const std::vector<dealii::Tensor<1, dim>>
                  &nodal_increments) const
@@ -179,10 +175,8 @@ namespace moraine
       return false;
     }
 
-    /**
-     * Number of points of this rank whose domains reach beyond the cells that
-     * touch the point's, as of the last mark_cells().
-     */
+    /** Number of points of this rank whose domains reach beyond the cells that
+     * touch the point's, as of the last mark_cells(). */
     virtual unsigned int
     n_far_domains() const
     {

@@ -20,10 +20,8 @@ namespace moraine
 
 
 
-  /**
-   * Which cells touch which: a list of the cells at each vertex, or of the
-   * cells of a box by their place in it.
-   */
+  /** Which cells touch which: a list of the cells at each vertex, or of the
+   * cells of a box by their place in it. */
   template <int dim>
   class CellNeighbours
   {
@@ -62,10 +60,8 @@ namespace moraine
       return cell_of_box[box_number(ijk)];
     }
 
-    /**
-     * A cell that holds @p x, looked for from @p start on; the end of the mesh
-     * if it is outside.
-     */
+    /** A cell that holds @p x, looked for from @p start on; the end of the mesh
+     * if it is outside. */
     CellIterator
     cell_around(const CellIterator &start, const dealii::Point<dim> &x) const;
 

@@ -91,10 +91,8 @@ namespace moraine
     std::vector<Patch>         patches;      ///< of batches
   };
 
-  /**
-   * A @p PointBasis whose points recover their strain by composite functions:
-   * DM-C with CellBasis, DM-GC with GimpBasis.
-   */
+  /** A @p PointBasis whose points recover their strain by composite functions:
+   * DM-C with CellBasis, DM-GC with GimpBasis. */
   template <int dim, class PointBasis>
   class WithCompositeStrain : public PointBasis
   {

@@ -6,6 +6,8 @@
 
 #include <moraine/basis/cpdi_basis.h>
 
+#include <algorithm>
+
 namespace moraine
 {
   /**

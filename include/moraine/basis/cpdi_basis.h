@@ -9,6 +9,7 @@
 #include <moraine/basis/domain_tools.h>
 #include <moraine/points/bodies.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <tuple>

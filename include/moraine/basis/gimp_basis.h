@@ -52,10 +52,8 @@ namespace moraine
       "half_length",
       "length"};
 
-    /**
-     * Ask for what the basis stores with a point: `half_length`, and
-     * `initial_half_length` if boxes are stretched.
-     */
+    /** Ask for what the basis stores with a point: `half_length`, and
+     * `initial_half_length` if boxes are stretched. */
     static void
     request_fields(PointFields       &fields,
                    const DomainUpdate update = DomainUpdate::frozen)

@@ -118,10 +118,8 @@ namespace moraine
   void
   require_box_mesh(const GridSpace<dim> &space, const std::string &method);
 
-  /**
-   * The extent of a box in one direction, in cells: from @f$x - l@f$ to
-   * @f$x + l@f$, cut at 0 and the number of cells.
-   */
+  /** The extent of a box in one direction, in cells: from @f$x - l@f$ to @f$x +
+   * l@f$, cut at 0 and the number of cells. */
   class LineOfBox
   {
   public:

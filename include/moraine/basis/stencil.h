@@ -10,10 +10,8 @@
 
 namespace moraine
 {
-  /**
-   * The cells that a batch of points touches, and what is the same for all
-   * that is in a cell.
-   */
+  /** The cells that a batch of points touches, and what is the same for all
+   * that is in a cell. */
   template <int dim>
   struct CellMeanBlock
   {

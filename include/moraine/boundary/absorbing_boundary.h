@@ -8,11 +8,13 @@
 #include <moraine/geometry/carried_places.h>
 #include <moraine/material/material.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine

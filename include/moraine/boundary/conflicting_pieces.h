@@ -13,10 +13,8 @@
 
 namespace moraine
 {
-  /**
-   * What one owner, an implicit boundary or a grid condition, holds in one
-   * cell: @f$M \sum_a N_a u_a = M g@f$ at some places.
-   */
+  /** What one owner, an implicit boundary or a grid condition, holds in one
+   * cell: @f$M \sum_a N_a u_a = M g@f$ at some places. */
   template <int dim>
   struct ConflictingPiece
   {

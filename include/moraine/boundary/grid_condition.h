@@ -16,10 +16,8 @@
 
 namespace moraine
 {
-  /**
-   * Displacements prescribed at nodes of the mesh: on one of its sides or in a
-   * region, some or all components, to a value u(x, t).
-   */
+  /** Displacements prescribed at nodes of the mesh: on one of its sides or in a
+   * region, some or all components, to a value u(x, t). */
   template <int dim>
   struct GridCondition
   {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -41,10 +42,8 @@ namespace moraine
     projection(const dealii::Tensor<1, dim> &normal) const;
   };
 
-  /**
-   * A place of a cut surface in a step. The values and gradients of the shape
-   * functions stand beside it in the boundary's arrays.
-   */
+  /** A place of a cut surface in a step. The values and gradients of the shape
+   * functions stand beside it in the boundary's arrays. */
   template <int dim>
   struct BoundaryPoint
   {
@@ -68,10 +67,8 @@ namespace moraine
     bool holds = true;
   };
 
-  /**
-   * A point's constraint in the trial state: projection, violation of the step
-   * and the normal they refer to.
-   */
+  /** A point's constraint in the trial state: projection, violation of the step
+   * and the normal they refer to. */
   template <int dim>
   struct ConstraintState
   {
@@ -179,16 +176,7 @@ namespace moraine
                      const Displacement                 &displacement,
                      const Constraint<dim>              &constraint,
                      const Enforcement                  &enforcement,
-                     const double                        penetration_limit)
-      : boundary_name(name)
-      , at_start(surface)
-      , at_end(surface)
-      , motion(motion)
-      , displacement(displacement)
-      , constraint(constraint)
-      , how(enforcement)
-      , limit(penetration_limit)
-    {}
+                     const double                        penetration_limit);
 
     /**
      * Place the surface at time @p t and find its pieces. Those outside active
@@ -272,11 +260,13 @@ namespace moraine
     PrescribedIncrements<dim>
     increments_between(const std::vector<double> &times) const;
 
+    /** Of an active_cell_index(). */
+    using AnswerForCell = std::function<bool(const unsigned int)>;
+
     /** Let the points in each cell hold or not, until pieces are found again.
      */
     void
-    hold_in_cells(
-      const std::function<bool(const unsigned int active_cell_index)> &holds)
+    hold_in_cells(const AnswerForCell &holds)
     {
       for (auto &point : boundary_points)
         point.holds = holds(point.cell);
@@ -284,8 +274,7 @@ namespace moraine
 
     /** The same for slopes, which do not hold where the points do not. */
     void
-    hold_slopes_in_cells(
-      const std::function<bool(const unsigned int active_cell_index)> &holds)
+    hold_slopes_in_cells(const AnswerForCell &holds)
     {
       for (auto &slope : held_slopes.all)
         slope.holds = holds(boundary_points[slope.point].cell);

@@ -11,6 +11,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -40,10 +41,8 @@ namespace moraine
   std::pair<unsigned int, unsigned int>
   first_crossing(const Polygon &polygon);
 
-  /**
-   * Of a plane polygon in space, as a container of points: its normal, twice
-   * the area long. Seen against it the vertices run counter-clockwise.
-   */
+  /** Of a plane polygon in space, as a container of points: its normal, twice
+   * the area long. Seen against it the vertices run counter-clockwise. */
   template <typename Vertices>
   dealii::Tensor<1, 3>
   twice_area(const Vertices &vertices)
@@ -92,10 +91,8 @@ namespace moraine
     return vertices;
   }
 
-  /**
-   * Volume (area in 2D) and first moment int (x - r) dV of a region about a
-   * reference point r that the caller keeps.
-   */
+  /** Volume (area in 2D) and first moment int (x - r) dV of a region about a
+   * reference point r that the caller keeps. */
   template <int dim>
   struct VolumeMoments
   {
@@ -173,10 +170,8 @@ namespace moraine
       return corner.empty() ? 0. : std::max(0., moments(corner[0]).volume);
     }
 
-    /**
-     * Centre of mass; the mean of the vertices if the volume vanishes. The
-     * polytope must not be empty.
-     */
+    /** Centre of mass; the mean of the vertices if the volume vanishes. The
+     * polytope must not be empty. */
     dealii::Point<dim>
     centroid() const;
 
@@ -212,10 +207,8 @@ namespace moraine
       return dealii::BoundingBox<dim>(corner);
     }
 
-    /**
-     * Call @p action(loop) for each face, a PointList counter-clockwise seen
-     * from outside (2D: once, with all vertices).
-     */
+    /** Call @p action(loop) for each face, a PointList counter-clockwise seen
+     * from outside (2D: once, with all vertices). */
     template <typename Action>
     void
     for_each_face(const Action &action) const;
@@ -225,10 +218,8 @@ namespace moraine
     void
     transform(const Map &map);
 
-    /**
-     * The nearest point on the way from @p point to the centroid that lies in
-     * the polytope; @p point itself if it is inside.
-     */
+    /** The nearest point on the way from @p point to the centroid that lies in
+     * the polytope; @p point itself if it is inside. */
     dealii::Point<dim>
     pull_inside(const dealii::Point<dim> &point) const;
 

@@ -41,9 +41,7 @@ namespace moraine
   bool
   is_finite(const dealii::BoundingBox<dim> &box);
 
-  /**
-   * A rigid placement x = c + t + R (X − c) of a reference point X.
-   */
+  /** A rigid placement x = c + t + R (X − c) of a reference point X. */
   template <int dim>
   class Placement
   {
@@ -139,10 +137,8 @@ namespace moraine
       return static_cast<bool>(angle);
     }
 
-    /**
-     * The moment of a force @p f at @p x about the axis of rotation where @p
-     * pose puts it [force length].
-     */
+    /** The moment of a force @p f at @p x about the axis of rotation where @p
+     * pose puts it [force length]. */
     double
     moment(const dealii::Point<dim>     &x,
            const dealii::Tensor<1, dim> &f,

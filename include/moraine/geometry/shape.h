@@ -24,10 +24,8 @@ namespace moraine
   template <int dim>
   struct Extent;
 
-  /**
-   * A quadrature point on a surface: its place, the unit normal pointing out of
-   * the body (−∇φ), and its weight (length in 2D, area in 3D).
-   */
+  /** A quadrature point on a surface: its place, the unit normal pointing out
+   * of the body (−∇φ), and its weight (length in 2D, area in 3D). */
   template <int dim>
   struct SurfacePoint
   {
@@ -174,10 +172,8 @@ namespace moraine
   /** Part of a curve: from one value of its parameter to a larger one. */
   using Stretch = std::pair<double, double>;
 
-  /**
-   * Where shapes end a surface that goes on beyond them: it keeps what is on
-   * one side of each.
-   */
+  /** Where shapes end a surface that goes on beyond them: it keeps what is on
+   * one side of each. */
   template <int dim>
   struct Extent
   {
@@ -243,10 +239,8 @@ namespace moraine
     dealii::BoundingBox<dim> box = unlimited_box<dim>();
   };
 
-  /**
-   * A surface in its present place. Answers in present coordinates by asking
-   * the reference surface in its own frame.
-   */
+  /** A surface in its present place. Answers in present coordinates by asking
+   * the reference surface in its own frame. */
   template <int dim>
   class MovedSurface : public Surface<dim>
   {
@@ -297,9 +291,7 @@ namespace moraine
   SurfacePointer<dim>
   join(const std::vector<SurfacePointer<dim>> &members);
 
-  /**
-   * What a shape covers of a polytope, to the shape's accuracy.
-   */
+  /** What a shape covers of a polytope, to the shape's accuracy. */
   template <int dim>
   struct ClippedVolume
   {
@@ -307,9 +299,7 @@ namespace moraine
     dealii::Point<dim> centroid;
   };
 
-  /**
-   * One term of a signed sum of polytopes: sign is +1 or -1.
-   */
+  /** One term of a signed sum of polytopes: sign is +1 or -1. */
   template <int dim>
   struct SignedPiece
   {
@@ -320,9 +310,7 @@ namespace moraine
   template <int dim>
   using SignedPieces = std::vector<SignedPiece<dim>>;
 
-  /**
-   * How a polytope lies to a shape; `part` is also said when unsure.
-   */
+  /** How a polytope lies to a shape; `part` is also said when unsure. */
   enum class Overlap
   {
     none,
@@ -346,10 +334,8 @@ namespace moraine
   public:
     virtual ~Shape() = default;
 
-    /**
-     * Positive inside, zero on the boundary. For all shapes but expressions
-     * the size never exceeds the distance to the boundary.
-     */
+    /** Positive inside, zero on the boundary. For all shapes but expressions
+     * the size never exceeds the distance to the boundary. */
     virtual double
     level(const dealii::Point<dim> &p) const = 0;
 
@@ -385,10 +371,8 @@ namespace moraine
       return level(p) > 0.;
     }
 
-    /**
-     * A box the shape fits in; without limits if the shape has none, or if
-     * nothing better is known (expressions).
-     */
+    /** A box the shape fits in; without limits if the shape has none, or if
+     * nothing better is known (expressions). */
     const dealii::BoundingBox<dim> &
     bounding_box() const
     {
@@ -409,10 +393,8 @@ namespace moraine
       return part_names;
     }
 
-    /**
-     * Volume and centroid of shape and @p cell. The centroid lies in the
-     * cell; it has no meaning where the volume is zero.
-     */
+    /** Volume and centroid of shape and @p cell. The centroid lies in the cell;
+     * it has no meaning where the volume is zero. */
     ClippedVolume<dim>
     clip(const ConvexPolytope<dim> &cell) const;
 
@@ -425,10 +407,8 @@ namespace moraine
     moments(const ConvexPolytope<dim> &cell,
             const dealii::Point<dim>  &reference) const;
 
-    /**
-     * Append polytopes whose sum, weighted with their signs, is @p sign times
-     * shape and @p cell.
-     */
+    /** Append polytopes whose sum, weighted with their signs, is @p sign times
+     * shape and @p cell. */
     void
     add_pieces(const ConvexPolytope<dim> &cell,
                const double               sign,
@@ -466,18 +446,14 @@ namespace moraine
       , part_names(part_names)
     {}
 
-    /**
-     * moments() of a cell that the shape may cut. Without an override the
-     * pieces are summed.
-     */
+    /** moments() of a cell that the shape may cut. Without an override the
+     * pieces are summed. */
     virtual VolumeMoments<dim>
     moments_of_part(const ConvexPolytope<dim> &cell,
                     const dealii::Point<dim>  &reference) const;
 
-    /**
-     * add_pieces() of a cell that the shape may cut. Without an override those
-     * of add_curved_pieces() with the level as distance.
-     */
+    /** add_pieces() of a cell that the shape may cut. Without an override those
+     * of add_curved_pieces() with the level as distance. */
     virtual void
     add_pieces_of_part(const ConvexPolytope<dim> &cell,
                        const double               sign,

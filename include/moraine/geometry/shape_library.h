@@ -25,10 +25,8 @@ namespace moraine
     surface ///< the rim or a part of it
   };
 
-  /**
-   * A body or a surface as the user gives it: one table of kinds and one of
-   * keys serve both. A key that the kind does not use must not be given.
-   */
+  /** A body or a surface as the user gives it: one table of kinds and one of
+   * keys serve both. A key that the kind does not use must not be given. */
   template <int dim>
   struct ShapeParameters
   {
@@ -45,10 +43,8 @@ namespace moraine
     std::string
     kind() const;
 
-    /**
-     * Throws InputError unless the keys given are those of the kind;
-     * @p section is named in messages.
-     */
+    /** Throws InputError unless the keys given are those of the kind; @p
+     * section is named in messages. */
     void
     check_keys(const std::string &section) const;
 

@@ -28,10 +28,8 @@ namespace moraine
     }
   };
 
-  /**
-   * What is behind all of some planes; @p box must hold it. The planes are
-   * called @p names, or there is but one.
-   */
+  /** What is behind all of some planes; @p box must hold it. The planes are
+   * called @p names, or there is but one. */
   template <int dim>
   ShapePointer<dim>
   make_convex(const std::vector<HalfSpace<dim>> &planes,
@@ -55,10 +53,8 @@ namespace moraine
     return make_convex<dim>({{point, outward_normal / outward_normal.norm()}});
   }
 
-  /**
-   * The box with these opposite corners, lower < upper. Its sides are called
-   * left, right (x), bottom, top (y), or front, back (y), bottom, top (z).
-   */
+  /** The box with these opposite corners, lower < upper. Its sides are called
+   * left, right (x), bottom, top (y), or front, back (y), bottom, top (z). */
   template <int dim>
   ShapePointer<dim>
   make_box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
@@ -142,10 +138,8 @@ namespace moraine
           const ShapePointer<dim>          &b,
           const std::array<std::string, 2> &names = {});
 
-  /**
-   * The plane (2D: the straight line) that bounds a half space, as far as it is
-   * in all of @p ends, whose planes are across it.
-   */
+  /** The plane (2D: the straight line) that bounds a half space, as far as it
+   * is in all of @p ends, whose planes are across it. */
   template <int dim>
   SurfacePointer<dim>
   make_plane(const HalfSpace<dim>              &body,

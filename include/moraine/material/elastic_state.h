@@ -29,10 +29,8 @@ namespace moraine
                 const dealii::Tensor<1, 3> &stress,
                 const std::vector<double>  &internal);
 
-  /**
-   * The stress that @p material, which is not isotropic, has where it has
-   * @p stress and is not strained; at finite strain if it is not deformed.
-   */
+  /** The stress that @p material, which is not isotropic, has where it has @p
+   * stress and is not strained; at finite strain if it is not deformed. */
   dealii::SymmetricTensor<2, 3>
   stress_unstrained(const Material                      &material,
                     const StrainMeasure                  measure,

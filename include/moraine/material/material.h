@@ -16,10 +16,8 @@
 
 namespace moraine
 {
-  /**
-   * The isotropic stiffness
-   * @f$C = \lambda\, 1\otimes 1 + 2\mu\, \mathbb{I}@f$.
-   */
+  /** The isotropic stiffness @f$C = \lambda\, 1\otimes 1 + 2\mu\,
+   * \mathbb{I}@f$. */
   struct LameConstants
   {
     double lambda; ///< @f$\lambda = E\nu/((1+\nu)(1-2\nu))@f$ [stress]
@@ -62,10 +60,8 @@ namespace moraine
     finite
   };
 
-  /**
-   * A number that a material keeps at each point from step to step. It becomes
-   * a field of the points and an array of the output with this name.
-   */
+  /** A number that a material keeps at each point from step to step. It becomes
+   * a field of the points and an array of the output with this name. */
   struct InternalVariable
   {
     std::string name;
@@ -98,10 +94,8 @@ namespace moraine
     dealii::Tensor<2, 3> tangent;
   };
 
-  /**
-   * What a material that is not isotropic is asked at one point, and its
-   * answer.
-   */
+  /** What a material that is not isotropic is asked at one point, and its
+   * answer. */
   struct TensorState
   {
     /** In, at small strain: @f$\Delta\varepsilon@f$. */
@@ -117,10 +111,8 @@ namespace moraine
      * strain, Kirchhoff's @f$\tau_{n+1}@f$. */
     dealii::SymmetricTensor<2, 3> stress;
 
-    /**
-     * Out: @f$\partial\sigma/\partial\Delta\varepsilon@f$; at finite strain
-     * the spatial tangent c, @f$L_v\tau = c : d@f$. With major symmetry.
-     */
+    /** Out: @f$\partial\sigma/\partial\Delta\varepsilon@f$; at finite strain
+     * the spatial tangent c, @f$L_v\tau = c : d@f$. With major symmetry. */
     dealii::SymmetricTensor<4, 3> tangent;
   };
 
@@ -179,10 +171,8 @@ namespace moraine
     virtual double
     density() const = 0;
 
-    /**
-     * Whether the stress is linear in the (small or logarithmic) strain by
-     * elastic_stiffness(), whatever happened before.
-     */
+    /** Whether the stress is linear in the (small or logarithmic) strain by
+     * elastic_stiffness(), whatever happened before. */
     virtual bool
     is_linear() const = 0;
 

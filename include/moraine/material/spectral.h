@@ -30,10 +30,8 @@ namespace moraine
     }
   };
 
-  /**
-   * The spectrum of @p a. With dim = 2, z is a principal direction, the third,
-   * and the others have a closed form.
-   */
+  /** The spectrum of @p a. With dim = 2, z is a principal direction, the third,
+   * and the others have a closed form. */
   template <int dim>
   inline Spectrum
   spectrum(const dealii::SymmetricTensor<2, 3> &a)
@@ -77,10 +75,8 @@ namespace moraine
   template <int dim>
   inline constexpr unsigned int n_voigt = dim *(dim + 1) / 2;
 
-  /**
-   * Rows and columns of the components: 11, 22, 12; in 3D 11, 22, 33, 12, 13,
-   * 23 (the order of dealii::SymmetricTensor).
-   */
+  /** Rows and columns of the components: 11, 22, 12; in 3D 11, 22, 33, 12, 13,
+   * 23 (the order of dealii::SymmetricTensor). */
   template <int dim>
   inline constexpr std::array<std::array<unsigned int, 2>, n_voigt<dim>>
   voigt_pairs()

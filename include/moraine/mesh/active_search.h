@@ -70,10 +70,8 @@ namespace moraine
                   const dealii::Point<dim> &x,
                   double                   *N);
 
-  /**
-   * How far the nodes of an active cell this rank knows carried the place @p X
-   * of the mesh as it was built, which may be outside of the cell.
-   */
+  /** How far the nodes of an active cell this rank knows carried the place @p X
+   * of the mesh as it was built, which may be outside of the cell. */
   template <int dim>
   dealii::Tensor<1, dim>
   move_of_nodes_at(const GridSpace<dim>     &space,

@@ -17,6 +17,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/grid_tools_cache.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -27,10 +28,8 @@
 
 namespace moraine
 {
-  /**
-   * A box of equal cells described in closed form. Bases that need a regular
-   * mesh ask for it.
-   */
+  /** A box of equal cells described in closed form. Bases that need a regular
+   * mesh ask for it. */
   template <int dim>
   struct BoxGrid
   {

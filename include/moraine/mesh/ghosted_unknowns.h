@@ -9,6 +9,7 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/partitioner.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 

@@ -66,10 +66,8 @@ namespace moraine
       return n_nodes_per_cell;
     }
 
-    /**
-     * The nodes of an active cell of this rank or next to one, in lexicographic
-     * order.
-     */
+    /** The nodes of an active cell of this rank or next to one, in
+     * lexicographic order. */
     const unsigned int *
     cell_nodes(const CellIterator &cell) const
     {
@@ -149,10 +147,8 @@ namespace moraine
     node_values(const LA::Vector                    &vector,
                 std::vector<dealii::Tensor<1, dim>> &values) const;
 
-    /**
-     * The other way: the sums over all ranks of what each has at its nodes, in
-     * an owned-only vector. Collective.
-     */
+    /** The other way: the sums over all ranks of what each has at its nodes, in
+     * an owned-only vector. Collective. */
     void
     sum_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
                     LA::Vector                                &vector) const;
@@ -184,10 +180,8 @@ namespace moraine
       return !moves.empty();
     }
 
-    /**
-     * Write @p values of nodes, none or one for each, in @p unit into the data
-     * sets "value" and "id" of @p group.
-     */
+    /** Write @p values of nodes, none or one for each, in @p unit into the data
+     * sets "value" and "id" of @p group. */
     void
     write_node_values(const std::vector<dealii::Tensor<1, dim>> &values,
                       const std::string                         &group,

@@ -31,20 +31,16 @@ namespace moraine
   join_cells(const std::vector<std::pair<unsigned int, unsigned int>> &pairs,
              dealii::Triangulation<dim>                               &cells);
 
-  /**
-   * The middle of a face without a boundary id (0) that lies, by the @p pairs
-   * of coincident_vertices(), on another one without.
-   */
+  /** The middle of a face without a boundary id (0) that lies, by the @p pairs
+   * of coincident_vertices(), on another one without. */
   template <int dim>
   std::optional<dealii::Point<dim>>
   find_torn_face(
     const std::vector<std::pair<unsigned int, unsigned int>> &pairs,
     const dealii::Triangulation<dim>                         &cells);
 
-  /**
-   * A vertex on the boundary that lies on a face with the boundary id 0, but
-   * not at one of its vertices, so that two cells touch but share no face.
-   */
+  /** A vertex on the boundary that lies on a face with the boundary id 0, but
+   * not at one of its vertices, so that two cells touch but share no face. */
   template <int dim>
   std::optional<dealii::Point<dim>>
   find_unmatched_vertex(const dealii::Triangulation<dim> &cells);

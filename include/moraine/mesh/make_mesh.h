@@ -33,10 +33,8 @@ namespace moraine
   using CellGroups =
     std::vector<std::pair<std::string, dealii::types::material_id>>;
 
-  /**
-   * The physical groups of @p cells that came from a file of gmsh: by their
-   * names, those without one by their number. Other meshes have none.
-   */
+  /** The physical groups of @p cells that came from a file of gmsh: by their
+   * names, those without one by their number. Other meshes have none. */
   template <int dim>
   CellGroups
   groups_of_cells(const MeshParameters<dim>        &parameters,

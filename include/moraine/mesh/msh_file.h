@@ -22,10 +22,8 @@ namespace moraine
   std::string
   complaint_about_msh(std::istream &in);
 
-  /**
-   * Names and numbers of the physical groups of dimension @p dimension, of
-   * section $PhysicalNames; none if the file has no such section.
-   */
+  /** Names and numbers of the physical groups of dimension @p dimension, of
+   * section $PhysicalNames; none if the file has no such section. */
   std::vector<std::pair<std::string, unsigned int>>
   physical_names_of_msh(std::istream &in, const unsigned int dimension);
 } // namespace moraine

@@ -14,10 +14,8 @@
 
 namespace moraine
 {
-  /**
-   * Number of stored components of a symmetric stress: in plane strain
-   * xx, yy, zz, xy; in 3D xx, yy, zz, xy, xz, yz.
-   */
+  /** Number of stored components of a symmetric stress: in plane strain xx, yy,
+   * zz, xy; in 3D xx, yy, zz, xy, xz, yz. */
   template <int dim>
   inline constexpr unsigned int n_stress_components = (dim == 2 ? 4 : 6);
 

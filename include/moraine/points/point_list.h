@@ -26,10 +26,8 @@ namespace moraine
     std::vector<std::string>         columns;
     std::vector<std::vector<double>> column_values;
 
-    /**
-     * Half the edges of the parallelepiped each point stands for, as columns
-     * [length]; zero if nothing is known of it but its volume.
-     */
+    /** Half the edges of the parallelepiped each point stands for, as columns
+     * [length]; zero if nothing is known of it but its volume. */
     dealii::Tensor<2, dim> half_edges;
 
     /** What point i is for the user, for messages. */
@@ -50,10 +48,8 @@ namespace moraine
   PointList<dim>
   read_point_file(const std::string &file_name);
 
-  /**
-   * The middles of n[d] equal parts in each direction d of a box, turned and
-   * moved with it; their origin is @p section.
-   */
+  /** The middles of n[d] equal parts in each direction d of a box, turned and
+   * moved with it; their origin is @p section. */
   template <int dim>
   PointList<dim>
   make_point_grid(const ShapeParameters<dim>      &box,

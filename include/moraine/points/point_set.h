@@ -47,9 +47,7 @@ namespace moraine
       unsigned int last;
     };
 
-    /**
-     * To the layout @p fields those of the table above are added.
-     */
+    /** To the layout @p fields those of the table above are added. */
     PointSet(const BackgroundMesh<dim> &mesh, PointFields fields);
 
     /**
@@ -77,10 +75,8 @@ namespace moraine
       dealii::Point<dim> position;
     };
 
-    /**
-     * Add points. Until find_cells() they have the numbers after the last one
-     * and do not occur in cells(). Collective.
-     */
+    /** Add points. Until find_cells() they have the numbers after the last one
+     * and do not occur in cells(). Collective. */
     void
     insert_copies(const std::vector<Copy> &copies);
 
@@ -98,10 +94,8 @@ namespace moraine
     std::vector<Record>
     records_of(const unsigned int body) const;
 
-    /**
-     * Let only the points of the bodies flagged in @p stay remain, and add
-     * @p others: points of the start that are not here. Collective.
-     */
+    /** Let only the points of the bodies flagged in @p stay remain, and add @p
+     * others: points of the start that are not here. Collective. */
     void
     exchange_bodies(const std::vector<bool>   &stay,
                     const std::vector<Record> &others);

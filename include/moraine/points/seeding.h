@@ -12,18 +12,14 @@
 
 namespace moraine
 {
-  /**
-   * How points lie in a full cell.
-   */
+  /** How points lie in a full cell. */
   enum class PointLayout
   {
     gauss,
     equal
   };
 
-  /**
-   * A material point to be.
-   */
+  /** A material point to be. */
   template <int dim>
   struct SeededPoint
   {
@@ -73,10 +69,8 @@ namespace moraine
                const PointLayout  layout,
                const unsigned int fitted_degree = 0);
 
-    /**
-     * Append the points of @p shape in a cell. The numbers of the sub-cells
-     * run lexicographically, x fastest.
-     */
+    /** Append the points of @p shape in a cell. The numbers of the sub-cells
+     * run lexicographically, x fastest. */
     void
     seed(const CellVertices<dim>       &cell,
          const Shape<dim>              &shape,
@@ -131,9 +125,7 @@ namespace moraine
     PointLayout  layout;
     unsigned int fitted_degree;
 
-    /**
-     * The middles of the sub-cells or the Gauss points, with weights.
-     */
+    /** The middles of the sub-cells or the Gauss points, with weights. */
     dealii::Quadrature<dim> rule;
 
     std::vector<dealii::Point<dim>>     lower;

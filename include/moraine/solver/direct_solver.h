@@ -15,9 +15,7 @@
 
 namespace moraine
 {
-  /**
-   * A factorisation by Amesos, kept for many right hand sides.
-   */
+  /** A factorisation by Amesos, kept for many right hand sides. */
   class DirectSolver
   {
   public:

@@ -39,10 +39,8 @@ namespace moraine
       double       relative_tolerance; ///< norm of b - A x over norm of b
     };
 
-    /**
-     * Make a hierarchy. @p matrix must live as long as this; the rigid-body
-     * modes @p near_null_space may be empty. Collective, as the rest.
-     */
+    /** Make a hierarchy. @p matrix must live as long as this; the rigid-body
+     * modes @p near_null_space may be empty. Collective, as the rest. */
     IterativeSolver(const LA::SparseMatrix        &matrix,
                     const Options                 &options,
                     const std::vector<LA::Vector> &near_null_space);

@@ -11,9 +11,7 @@
 
 namespace moraine
 {
-  /**
-   * What one linear solve did.
-   */
+  /** What one linear solve did. */
   struct LinearReport
   {
     bool converged = false;

@@ -21,9 +21,7 @@ namespace dealii
 
 namespace moraine
 {
-  /**
-   * Keys of linear solvers, in the section "Solver".
-   */
+  /** Keys of linear solvers, in the section "Solver". */
   struct LinearSolverParameters
   {
     /** auto, direct, amg-cg, gmres or schwarz. */
@@ -127,15 +125,11 @@ namespace moraine
     void
     read(const Archive &archive) override;
 
-    /**
-     * What solved first, and each change that auto made, with its reason.
-     */
+    /** What solved first, and each change that auto made, with its reason. */
     const std::vector<std::string> &
     choices() const;
 
-    /**
-     * How many times set_up() was called.
-     */
+    /** How many times set_up() was called. */
     unsigned int
     n_set_ups() const;
 

@@ -16,10 +16,8 @@
 
 namespace moraine
 {
-  /**
-   * ML's options for elasticity, and the modes it needs while they are used.
-   * None of them has a unit.
-   */
+  /** ML's options for elasticity, and the modes it needs while they are used.
+   * None of them has a unit. */
   class MultigridOptions
   {
   public:

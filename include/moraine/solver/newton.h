@@ -14,9 +14,7 @@
 
 namespace moraine
 {
-  /**
-   * Keys of the section "Solver" that steer Newton's method.
-   */
+  /** Keys of the section "Solver" that steer Newton's method. */
   struct NewtonParameters
   {
     /** Norm of the residual over NonlinearSystem::force_scales(); what is small
@@ -52,17 +50,13 @@ namespace moraine
     not_held ///< a body, before the first iteration
   };
 
-  /**
-   * The status in words, for messages.
-   */
+  /** The status in words, for messages. */
   std::string
   to_string(const NewtonStatus status);
 
 
 
-  /**
-   * What one nonlinear solve did.
-   */
+  /** What one nonlinear solve did. */
   struct NewtonReport
   {
     NewtonStatus status = NewtonStatus::converged;
@@ -126,10 +120,8 @@ namespace moraine
   public:
     explicit Newton(const NewtonParameters &parameters);
 
-    /**
-     * Solve r(x) = 0 from system.initial_guess(). On return @p x is the last
-     * iterate; it is a solution only if the report says converged.
-     */
+    /** Solve r(x) = 0 from system.initial_guess(). On return @p x is the last
+     * iterate; it is a solution only if the report says converged. */
     NewtonReport
     solve(NonlinearSystem &system, LinearSolver &linear_solver, LA::Vector &x);
 

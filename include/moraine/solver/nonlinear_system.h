@@ -64,35 +64,27 @@ namespace moraine
       return "";
     }
 
-    /**
-     * After the first tangent of a step: why it determines no solution, as of a
-     * body that nothing holds, or "". Collective.
-     */
+    /** After the first tangent of a step: why it determines no solution, as of
+     * a body that nothing holds, or "". Collective. */
     virtual std::string
     why_not_held() const
     {
       return "";
     }
 
-    /**
-     * Where an unknown is, as "the node at (1 2)", or "". Collective.
-     */
+    /** Where an unknown is, as "the node at (1 2)", or "". Collective. */
     virtual std::string
     place_of(const dealii::types::global_dof_index) const
     {
       return "";
     }
 
-    /**
-     * The tangent of the last assemble(x, true). A new object whenever its
-     * sparsity pattern is new: solvers keep what they know of the old one.
-     */
+    /** The tangent of the last assemble(x, true). A new object whenever its
+     * sparsity pattern is new: solvers keep what they know of the old one. */
     virtual std::shared_ptr<const LA::SparseMatrix>
     tangent() const = 0;
 
-    /**
-     * The residual of the last assemble().
-     */
+    /** The residual of the last assemble(). */
     virtual const LA::Vector &
     residual() const = 0;
 
@@ -123,29 +115,21 @@ namespace moraine
       return 0.;
     }
 
-    /**
-     * Whether the tangent is symmetric.
-     */
+    /** Whether the tangent is symmetric. */
     virtual bool
     symmetric() const = 0;
 
-    /**
-     * Rigid-body modes on the unknowns, zero where constrained. Empty if not
-     * known.
-     */
+    /** Rigid-body modes on the unknowns, zero where constrained. Empty if not
+     * known. */
     virtual const std::vector<LA::Vector> &
     near_null_space() const = 0;
 
-    /**
-     * Fill the constrained entries of a correction from the free ones
-     * (homogeneous constraints).
-     */
+    /** Fill the constrained entries of a correction from the free ones
+     * (homogeneous constraints). */
     virtual void
     apply_constraints(LA::Vector &dx) const = 0;
 
-    /**
-     * Forget what assemble() and augment() changed: the step begins anew.
-     */
+    /** Forget what assemble() and augment() changed: the step begins anew. */
     virtual void
     start_over()
     {}

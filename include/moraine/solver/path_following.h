@@ -10,10 +10,8 @@
 
 namespace moraine
 {
-  /**
-   * The equations of one step with a parameter t, on which forces and
-   * prescribed values depend: r(x, t) = 0 is a path of equilibria.
-   */
+  /** The equations of one step with a parameter t, on which forces and
+   * prescribed values depend: r(x, t) = 0 is a path of equilibria. */
   class PathSystem : public NonlinearSystem
   {
   public:

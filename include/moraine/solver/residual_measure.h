@@ -77,10 +77,8 @@ namespace moraine
     bool
     much_is_forgiven() const;
 
-    /**
-     * The residual over that @p before, both by the larger goal of each part:
-     * the goals of a part that was without forces say nothing.
-     */
+    /** The residual over that @p before, both by the larger goal of each part:
+     * the goals of a part that was without forces say nothing. */
     double
     ratio_to(const ResidualParts &before) const;
 
@@ -88,10 +86,8 @@ namespace moraine
     double
     relative() const;
 
-    /**
-     * The factors of the unknowns that make distance() a norm. Null if there is
-     * one part: it is then the norm over goals[0].
-     */
+    /** The factors of the unknowns that make distance() a norm. Null if there
+     * is one part: it is then the norm over goals[0]. */
     const LA::Vector *
     weights();
 

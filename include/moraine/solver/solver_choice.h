@@ -35,10 +35,8 @@ namespace moraine
       spent += iterations;
     }
 
-    /**
-     * Iterations that the matrix may still take: until it has cost twice as
-     * much as a factorisation.
-     */
+    /** Iterations that the matrix may still take: until it has cost twice as
+     * much as a factorisation. */
     unsigned int
     allowed_iterations() const;
 
@@ -46,10 +44,8 @@ namespace moraine
     void
     give_up();
 
-    /**
-     * Of the matrix now: whether what it took is more than a factorisation
-     * would have cost.
-     */
+    /** Of the matrix now: whether what it took is more than a factorisation
+     * would have cost. */
     bool
     too_expensive() const;
 
@@ -60,10 +56,8 @@ namespace moraine
     void
     read(const Archive &archive);
 
-    /**
-     * What a factorisation of @p n unknowns costs: measured, for 4000 to
-     * 80 000 unknowns, see doc/topics/solvers.md.
-     */
+    /** What a factorisation of @p n unknowns costs: measured, for 4000 to 80
+     * 000 unknowns, see doc/topics/solvers.md. */
     static double
     factorisation_cost(const unsigned int n, const unsigned int dim);
 

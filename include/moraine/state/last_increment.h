@@ -11,10 +11,8 @@
 
 namespace moraine
 {
-  /**
-   * The increment of the nodes in the last accepted step, for the one that
-   * begins with it. By then nodes may have other numbers, or be others.
-   */
+  /** The increment of the nodes in the last accepted step, for the one that
+   * begins with it. By then nodes may have other numbers, or be others. */
   template <int dim>
   class LastIncrement : public StatePart
   {

@@ -177,10 +177,8 @@ namespace moraine
       trial.assign(space.n_nodes(), dealii::Tensor<1, dim>());
     }
 
-    /**
-     * The displacement increment of every local point in the trial state, in
-     * the flat numbering.
-     */
+    /** The displacement increment of every local point in the trial state, in
+     * the flat numbering. */
     std::vector<dealii::Tensor<1, dim>>
     point_increments() const;
 
@@ -231,10 +229,8 @@ namespace moraine
     nodes_of_mean(const unsigned int         active_cell_index,
                   std::vector<unsigned int> &nodes) const;
 
-    /**
-     * The end of the run of points of one body that starts at @p begin of a
-     * block. Nearly always that is all of them.
-     */
+    /** The end of the run of points of one body that starts at @p begin of a
+     * block. Nearly always that is all of them. */
     unsigned int
     end_of_body(const StencilBlock<dim> &block, const unsigned int begin) const;
 

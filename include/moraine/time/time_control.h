@@ -7,6 +7,9 @@
 #include <moraine/core/simulation_state.h>
 #include <moraine/time/time_integrator.h>
 
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,9 +21,7 @@ namespace dealii
 
 namespace moraine
 {
-  /**
-   * Keys of the section "Time".
-   */
+  /** Keys of the section "Time". */
   struct TimeParameters
   {
     double start_time = 0.;
@@ -30,10 +31,8 @@ namespace moraine
     /** Equal steps from start to end; their ends are always hit exactly. */
     unsigned int n_steps = 1;
 
-    /**
-     * Length of a step along the path of equilibria, with time as an unknown:
-     * root mean square of the displacement; 0: steps are of time.
-     */
+    /** Length of a step along the path of equilibria, with time as an unknown:
+     * root mean square of the displacement; 0: steps are of time. */
     double arc_length = 0.;
 
     /** As a fraction of one step; a cut below it ends the run. */
@@ -119,10 +118,8 @@ namespace moraine
   class TimeControl : public StatePart
   {
   public:
-    /**
-     * Times in @p stops that lie within the interval are hit exactly, in any
-     * order; others are ignored.
-     */
+    /** Times in @p stops that lie within the interval are hit exactly, in any
+     * order; others are ignored. */
     explicit TimeControl(const TimeParameters      &parameters,
                          const std::vector<double> &stops = {});
 
@@ -231,17 +228,13 @@ namespace moraine
     bool
     can_cut() const;
 
-    /**
-     * Forget the trial time and cut the size. False if the size would fall
-     * below the smallest: then message() tells the story.
-     */
+    /** Forget the trial time and cut the size. False if the size would fall
+     * below the smallest: then message() tells the story. */
     bool
     reject(const std::string &reason);
 
-    /**
-     * After reject(): the next trial has the size of the first one since the
-     * last accepted step, because something else than its size was mended.
-     */
+    /** After reject(): the next trial has the size of the first one since the
+     * last accepted step, because something else than its size was mended. */
     void
     take_back_cuts()
     {
@@ -401,9 +394,7 @@ namespace moraine
 
 
 
-  /**
-   * Keys that say after which accepted steps results are written.
-   */
+  /** Keys that say after which accepted steps results are written. */
   struct OutputTimes
   {
     /** steps, all or end. */

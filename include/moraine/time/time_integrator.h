@@ -39,10 +39,8 @@ namespace moraine
       return integrator != "quasi-static";
     }
 
-    /**
-     * Where a step is divided into two parts, 0 to 1, so that the matrices of
-     * both are alike (Noh and Bathe 2019); 1 if it is not divided.
-     */
+    /** Where a step is divided into two parts, 0 to 1, so that the matrices of
+     * both are alike (Noh and Bathe 2019); 1 if it is not divided. */
     double
     first_part() const;
   };
