@@ -212,7 +212,7 @@ end
   };
 
   /** A term without effect that throws once. */
-  class TrappedTerm : public Term<2>
+  class TrappedTerm : public ConstraintTerm<2>
   {
   public:
     TrappedTerm(const Place place, const double t)
@@ -261,6 +261,12 @@ end
     {
       visit(Place::symmetric, context.t_end);
       return true;
+    }
+
+    double
+    violation(const StepContext<2> &) const override
+    {
+      return 0;
     }
 
     void

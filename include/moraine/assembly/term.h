@@ -179,7 +179,8 @@ namespace moraine
 
     /** Aim at another end of the step; what was tried stays. */
     virtual void
-    move_trial(const StepContext<dim> &context) = 0;
+    move_trial(const StepContext<dim> &)
+    {}
 
     /** The largest violation of the constraint on this rank. */
     virtual double
@@ -193,23 +194,32 @@ namespace moraine
      * small the increments are; zero if there is none. The same on all ranks.
      */
     virtual double
-    rounded_length() const = 0;
+    rounded_length() const
+    {
+      return 0.;
+    }
 
     /** In dynamics: the trial state is that at the start of the step, whose
      * forces count half in its work; see Motion. */
     virtual void
-    note_start(const StepContext<dim> &context) = 0;
+    note_start(const StepContext<dim> &)
+    {}
 
     /** In dynamics: whether add() has its force of the whole step, so that the
      * one at the start is not among those that the integrator adds. */
     virtual bool
-    acts_over_step(const StepContext<dim> &context) const = 0;
+    acts_over_step(const StepContext<dim> &) const
+    {
+      return false;
+    }
 
     /** If so, the work of the step on this rank; @p of_force: that of the force
      * that add() added. */
     virtual double
-    work_of_step(const StepContext<dim> &context,
-                 const double            of_force) const = 0;
+    work_of_step(const StepContext<dim> &, const double of_force) const
+    {
+      return of_force;
+    }
   };
 
 
