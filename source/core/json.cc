@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#include <moraine/core/atomic_file.h>
 #include <moraine/core/json.h>
+
+#include <moraine/core/atomic_file.h>
 
 #include <nlohmann/json.hpp>
 
