@@ -263,37 +263,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                      \
-  template Tensor<1, dim> boundary_traction(const BoundaryPoint<dim> &,       \
-                                            const ConstraintState<dim> &,     \
-                                            const Enforcement &,              \
-                                            const LameConstants &,            \
-                                            const StrainMeasure,              \
-                                            const Tensor<2, dim> &,           \
-                                            const Tensor<2, dim> &);          \
-  template void           add_boundary_point(const BoundaryPoint<dim> &,      \
-                                             const ConstraintState<dim> &,    \
-                                             const double,                    \
-                                             const Enforcement &,             \
-                                             const LameConstants &,           \
-                                             const StrainMeasure,             \
-                                             const double *,                  \
-                                             const Tensor<1, dim> *,          \
-                                             const Tensor<1, dim> *,          \
-                                             const Tensor<2, dim> &,          \
-                                             const Tensor<2, dim> &,          \
-                                             const bool,                      \
-                                             std::vector<Tensor<1, dim>> &,   \
-                                             LocalSystem<dim> &);             \
-  template void           add_mean_penalty(const ImplicitBoundary<dim> &,     \
-                                           const BoundaryPiece<dim> &,        \
-                                           const Enforcement &,               \
-                                           const LameConstants &,             \
-                                           LocalSystem<dim> &);               \
-  template void           add_turn_of_normal(const double,                    \
-                                             const SymmetricTensor<2, dim> &, \
-                                             const double *,                  \
-                                             LocalSystem<dim> &);
+#define INSTANTIATE(dim)                                              \
+  template decltype(boundary_traction<dim>)  boundary_traction<dim>;  \
+  template decltype(add_boundary_point<dim>) add_boundary_point<dim>; \
+  template decltype(add_mean_penalty<dim>)   add_mean_penalty<dim>;   \
+  template decltype(add_turn_of_normal<dim>) add_turn_of_normal<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -452,11 +452,8 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                       \
-  template std::string why_no_stress(const State<dim> &,       \
-                                     const TrialPoints<dim> &, \
-                                     const Material &,         \
-                                     const unsigned int);      \
+#define INSTANTIATE(dim)                                    \
+  template decltype(why_no_stress<dim>) why_no_stress<dim>; \
   template class InternalForce<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -78,16 +78,7 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                  \
-  template Terms<dim> make_terms(std::vector<ImplicitBoundary<dim>> &,    \
-                                 const std::vector<GridCondition<dim>> &, \
-                                 Loads<dim> &,                            \
-                                 const double,                            \
-                                 const bool,                              \
-                                 const bool,                              \
-                                 std::unique_ptr<Term<dim>>,              \
-                                 const IsActive &,                        \
-                                 const ShapesOfBodies<dim> &);
+#define INSTANTIATE(dim) template decltype(make_terms<dim>) make_terms<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

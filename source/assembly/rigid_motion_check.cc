@@ -271,14 +271,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                                \
-  template std::vector<LA::Vector> rigid_modes_of(const GridSpace<dim> &);              \
-  template void                    check_rigid_motion(const StepContext<dim> &,         \
-                                                      const LA::SparseMatrix &,         \
-                                                      const ConstraintTable &,          \
-                                                      const std::vector<LA::Vector> &,  \
-                                                      const std::vector<std::string> &, \
-                                                      const bool);
+#define INSTANTIATE(dim)                                          \
+  template decltype(rigid_modes_of<dim>)     rigid_modes_of<dim>; \
+  template decltype(check_rigid_motion<dim>) check_rigid_motion<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -297,12 +297,8 @@ namespace moraine
 
 
 #define INSTANTIATE(dim)                                          \
-  template Point<dim> place_in_balance(const StepContext<dim> &,  \
-                                       const unsigned int);       \
-  template double     moment_on_nodes(const GridCondition<dim> &, \
-                                      const StepContext<dim> &,   \
-                                      const Point<dim> &,         \
-                                      const Tensor<1, dim> &);    \
+  template decltype(place_in_balance<dim>) place_in_balance<dim>; \
+  template decltype(moment_on_nodes<dim>)  moment_on_nodes<dim>;  \
   template class SharedNodes<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -162,12 +162,10 @@ namespace moraine
 
   template class WeightedValues<2>;
   template class WeightedValues<3>;
-#define INSTANTIATE(dim)                                      \
-  template SymmetricTensor<2, dim> fixed_projection<dim>();   \
-  template SymmetricTensor<2, dim> direction_projection<dim>( \
-    const Tensor<1, dim> &);                                  \
-  template SymmetricTensor<2, dim> normal_stiffness<dim>(     \
-    const SymmetricTensor<4, dim> &, const Tensor<1, dim> &);
+#define INSTANTIATE(dim)                                                  \
+  template SymmetricTensor<2, dim>             fixed_projection<dim>();   \
+  template decltype(direction_projection<dim>) direction_projection<dim>; \
+  template decltype(normal_stiffness<dim>)     normal_stiffness<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

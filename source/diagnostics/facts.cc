@@ -170,13 +170,10 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                               \
-  template class Facts<dim>;                                           \
-  template std::vector<GridCondition<dim>> acting_conditions(          \
-    const std::vector<GridCondition<dim>> &, const StageParameters &); \
-  template bool absorbs_in(const StageParameters &,                    \
-                           const Scene<dim> &,                         \
-                           const AbsorbingBoundary<dim> &);
+#define INSTANTIATE(dim)                                            \
+  template class Facts<dim>;                                        \
+  template decltype(acting_conditions<dim>) acting_conditions<dim>; \
+  template decltype(absorbs_in<dim>)        absorbs_in<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -290,12 +290,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                      \
-  template struct ExactSolutionParameters<dim>;               \
-  template ErrorNorms error_norms(const PointSet<dim> &,      \
-                                  const ExactSolution<dim> &, \
-                                  const double,               \
-                                  const bool);
+#define INSTANTIATE(dim)                        \
+  template struct ExactSolutionParameters<dim>; \
+  template decltype(error_norms<dim>) error_norms<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -152,14 +152,9 @@ namespace moraine
 
 
 
-  template void
-  write_mesh_vtu(const GridSpace<2> &,
-                 const std::vector<NodeField<2>> &,
-                 const SmoothedStress<2> &,
-                 const VtuTarget &);
-  template void
-  write_mesh_vtu(const GridSpace<3> &,
-                 const std::vector<NodeField<3>> &,
-                 const SmoothedStress<3> &,
-                 const VtuTarget &);
+#define INSTANTIATE(dim) \
+  template decltype(write_mesh_vtu<dim>) write_mesh_vtu<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -160,11 +160,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                   \
-  template void write_point_vtu(const PointSet<dim> &, const VtuTarget &); \
-  template void write_domain_vtu(const Basis<dim> &,                       \
-                                 const PointSet<dim> &,                    \
-                                 const VtuTarget &);
+#define INSTANTIATE(dim)                                         \
+  template decltype(write_point_vtu<dim>)  write_point_vtu<dim>; \
+  template decltype(write_domain_vtu<dim>) write_domain_vtu<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -164,12 +164,10 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                             \
-  template NamedTranslations<dim> translations_of_conditions(        \
-    const Scene<dim> &, const Model<dim> &);                         \
-  template void write_boundary_vtu(const Model<dim> &,               \
-                                   const std::vector<std::string> &, \
-                                   const VtuTarget &);
+#define INSTANTIATE(dim)                                                      \
+  template decltype(translations_of_conditions<dim>)                          \
+                                             translations_of_conditions<dim>; \
+  template decltype(write_boundary_vtu<dim>) write_boundary_vtu<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

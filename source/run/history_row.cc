@@ -181,13 +181,7 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                        \
-  template std::vector<NamedValue> history_row( \
-    const Scene<dim> &,                         \
-    const Model<dim> &,                         \
-    const NamedTranslations<dim> &,             \
-    const TimeControl &,                        \
-    const std::vector<BoundaryReport<dim>> &);
+#define INSTANTIATE(dim) template decltype(history_row<dim>) history_row<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

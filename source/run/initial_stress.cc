@@ -419,7 +419,7 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                              \
   template void set_initial_stress(const Scene<dim> &, Model<dim> &); \
-  template bool begins_with_stress(const Scene<dim> &, const unsigned int);
+  template decltype(begins_with_stress<dim>) begins_with_stress<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

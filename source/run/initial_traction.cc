@@ -209,13 +209,10 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                \
-  template void set_initial_tractions(const StageParameters &,          \
-                                      const std::vector<std::string> &, \
-                                      Model<dim> &);                    \
-  template void set_tractions_of_new_bodies(const StageParameters &,    \
-                                            const StageParameters &,    \
-                                            Model<dim> &);
+#define INSTANTIATE(dim)                                                    \
+  template decltype(set_initial_tractions<dim>) set_initial_tractions<dim>; \
+  template decltype(set_tractions_of_new_bodies<dim>)                       \
+    set_tractions_of_new_bodies<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -186,14 +186,9 @@ namespace moraine
 
 
 
-  template std::string
-  check_changes(const SavedRun &,
-                const Scene<2> &,
-                const InputFile &,
-                const std::string &);
-  template std::string
-  check_changes(const SavedRun &,
-                const Scene<3> &,
-                const InputFile &,
-                const std::string &);
+#define INSTANTIATE(dim) \
+  template decltype(check_changes<dim>) check_changes<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -505,13 +505,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                 \
-  template Summary simulate<dim>(const InputFile &,      \
-                                 const RunOptions &,     \
-                                 const MPI_Comm &,       \
-                                 Console &,              \
-                                 const AfterRun<dim> &); \
-  template bool describe<dim>(const InputFile &, const MPI_Comm &, Console &);
+#define INSTANTIATE(dim)                          \
+  template decltype(simulate<dim>) simulate<dim>; \
+  template decltype(describe<dim>) describe<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

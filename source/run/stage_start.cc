@@ -434,14 +434,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                              \
-  template void begin_first_step(const Scene<dim> &,  \
-                                 Model<dim> &,        \
-                                 Diagnostics<dim> &); \
-  template void begin_stage(const Scene<dim> &,       \
-                            const unsigned int,       \
-                            Model<dim> &,             \
-                            Diagnostics<dim> &);
+#define INSTANTIATE(dim)                                          \
+  template decltype(begin_first_step<dim>) begin_first_step<dim>; \
+  template decltype(begin_stage<dim>)      begin_stage<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

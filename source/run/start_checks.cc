@@ -241,14 +241,8 @@ namespace moraine
 
 
 
-  template void
-  check_start(const Scene<2> &,
-              const StageParameters &,
-              const bool,
-              Model<2> &);
-  template void
-  check_start(const Scene<3> &,
-              const StageParameters &,
-              const bool,
-              Model<3> &);
+#define INSTANTIATE(dim) template decltype(check_start<dim>) check_start<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

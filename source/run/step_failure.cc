@@ -228,18 +228,11 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                \
-  template std::optional<Imbalance<dim>> largest_imbalance(             \
-    const GridSpace<dim> &, const PointSet<dim> &, const LA::Vector &); \
-  template std::string place_of_imbalance(const GridSpace<dim> &,       \
-                                          const PointSet<dim> &,        \
-                                          const LA::Vector &);          \
-  template std::string cause_of_unsolved(const Model<dim> &,            \
-                                         const bool,                    \
-                                         const bool);                   \
-  template std::string point_that_leaves(const Model<dim> &,            \
-                                         const TimeControl &,           \
-                                         const LA::Vector &);
+#define INSTANTIATE(dim)                                              \
+  template decltype(largest_imbalance<dim>)  largest_imbalance<dim>;  \
+  template decltype(place_of_imbalance<dim>) place_of_imbalance<dim>; \
+  template decltype(cause_of_unsolved<dim>)  cause_of_unsolved<dim>;  \
+  template decltype(point_that_leaves<dim>)  point_that_leaves<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -222,10 +222,8 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                 \
-  template std::optional<Finding> velocity_jump(const StageParameters &, \
-                                                const bool,              \
-                                                Model<dim> &);           \
+#define INSTANTIATE(dim)                                    \
+  template decltype(velocity_jump<dim>) velocity_jump<dim>; \
   template void set_first_target(const TimeParameters &, Model<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

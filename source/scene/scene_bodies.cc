@@ -288,25 +288,20 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                                \
-  template void BodyParameters<dim>::add_parameters(ParameterHandler &);                \
-  template NamedShapes<dim>         body_shapes(const Scene<dim> &);                    \
-  template std::set<std::string>    operands_of(const Scene<dim> &);                    \
-  template std::vector<std::string> simulated_bodies(const Scene<dim> &);               \
-  template std::vector<Body<dim>>   make_bodies(const Scene<dim> &);                    \
-  template void check_groups(const Scene<dim> &, const BackgroundMesh<dim> &);          \
-  template std::vector<std::shared_ptr<const Material>> make_materials(                 \
-    const Scene<dim> &,                                                                 \
-    const std::vector<Body<dim>> &,                                                     \
-    const BackgroundMesh<dim> &);                                                       \
-  template std::vector<double>          fill_of_bodies(const Scene<dim> &,              \
-                                                       const std::vector<Body<dim>> &); \
-  template std::vector<RayleighFactors> make_damping(                                   \
-    const Scene<dim> &, const std::vector<Body<dim>> &);                                \
-  template bool         Scene<dim>::changes_bodies() const;                             \
-  template bool         Scene<dim>::comes_later(const std::string &) const;             \
-  template bool         Scene<dim>::are_together(const std::string &,                   \
-                                         const std::string &) const;            \
+#define INSTANTIATE(dim)                                                       \
+  template void BodyParameters<dim>::add_parameters(ParameterHandler &);       \
+  template NamedShapes<dim>              body_shapes(const Scene<dim> &);      \
+  template std::set<std::string>         operands_of(const Scene<dim> &);      \
+  template std::vector<std::string>      simulated_bodies(const Scene<dim> &); \
+  template std::vector<Body<dim>>        make_bodies(const Scene<dim> &);      \
+  template decltype(check_groups<dim>)   check_groups<dim>;                    \
+  template decltype(make_materials<dim>) make_materials<dim>;                  \
+  template decltype(fill_of_bodies<dim>) fill_of_bodies<dim>;                  \
+  template decltype(make_damping<dim>)   make_damping<dim>;                    \
+  template bool                          Scene<dim>::changes_bodies() const;   \
+  template bool         Scene<dim>::comes_later(const std::string &) const;    \
+  template bool         Scene<dim>::are_together(const std::string &,          \
+                                         const std::string &) const;   \
   template unsigned int Scene<dim>::first_stage_with(const std::string &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)

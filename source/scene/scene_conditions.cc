@@ -452,23 +452,14 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                  \
-  template std::vector<ImplicitBoundary<dim>> make_boundaries(            \
-    const Scene<dim> &);                                                  \
-  template std::vector<AbsorbingBoundary<dim>> make_absorbing_boundaries( \
-    const Scene<dim> &,                                                   \
-    const BackgroundMesh<dim> &,                                          \
-    const std::vector<std::string> &,                                     \
-    const ShapesOfBodies<dim> &);                                         \
-  template std::vector<GridCondition<dim>> make_grid_conditions(          \
-    const Scene<dim> &, const BackgroundMesh<dim> &);                     \
-  template Loads<dim> make_loads(const Scene<dim> &,                      \
-                                 const BackgroundMesh<dim> &,             \
-                                 const std::vector<std::string> &,        \
-                                 const ShapePointer<dim> &,               \
-                                 const Covers<dim> &);                    \
-  template std::function<Tensor<1, dim>(const unsigned int,               \
-                                        const Point<dim> &)>              \
+#define INSTANTIATE(dim)                                                       \
+  template decltype(make_boundaries<dim>) make_boundaries<dim>;                \
+  template decltype(make_absorbing_boundaries<dim>)                            \
+                                               make_absorbing_boundaries<dim>; \
+  template decltype(make_grid_conditions<dim>) make_grid_conditions<dim>;      \
+  template decltype(make_loads<dim>)           make_loads<dim>;                \
+  template std::function<Tensor<1, dim>(const unsigned int,                    \
+                                        const Point<dim> &)>                   \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -196,17 +196,9 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                       \
-  template MeshMotion<dim> make_mesh_motion(                   \
-    const Scene<dim> &,                                        \
-    const BackgroundMesh<dim> &,                               \
-    const std::vector<ImplicitBoundary<dim>> &,                \
-    const std::vector<GridCondition<dim>> &);                  \
-  template void check_mesh_motion(const MeshMotion<dim> &,     \
-                                  const double,                \
-                                  const TimeParameters &,      \
-                                  const BackgroundMesh<dim> &, \
-                                  const std::vector<GridCondition<dim>> &);
+#define INSTANTIATE(dim)                                           \
+  template decltype(make_mesh_motion<dim>)  make_mesh_motion<dim>; \
+  template decltype(check_mesh_motion<dim>) check_mesh_motion<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

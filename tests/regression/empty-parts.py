@@ -14,7 +14,7 @@ def largest_difference(a, b):
         map(abs, b.probes.values()))
 
 
-free = {"Method/Aggregate below": 0}
+free = {"Method/Method": "material point", "Method/Aggregate below": 0}
 at = {**free, "Mesh/Cell size": 2.5, "Probes/top/Location": "60, 70",
       "Probes/top/Quantities": "displacement"}
 on_its_own = run(scene, at)

@@ -44,8 +44,9 @@ def strip(method, cells, angle, dy, across, settings):
 def strips(method, cells, across, settings={}):
     """Least and largest force, largest stress over what is right, warnings."""
     forces, stresses, notes = [], [], 0
-    for angle, dy in ((0, 0), (0, 1e-8), (0, 0.75), (0, 1 - 1e-6), (17, 0),
-                      (17, 0.5), (45, 1e-8), (45, 0.75)):
+    cuts = [(angle, dy) for angle in (0, 17, 45)
+            for dy in (0, 1e-8, 0.5, 0.75, 1 - 1e-6)]
+    for angle, dy in cuts if across else cuts[::2]:
         f, s, result = strip(method, cells, angle, dy, across, settings)
         t = cells * H
         forces.append(f)
