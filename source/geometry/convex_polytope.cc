@@ -332,7 +332,11 @@ namespace moraine
     if (dim == 2)
       {
         if (cut != nullptr && !rim.empty())
-          cut->push_back({corner[rim[0][0]], corner[rim[0][1]]});
+          {
+            auto &face = cut->emplace_back();
+            face.push_back(corner[rim[0][0]]);
+            face.push_back(corner[rim[0][1]]);
+          }
         return;
       }
     // edges used in both directions are interior to the kept faces; the
