@@ -203,14 +203,16 @@ namespace moraine
     std::vector<Effect> notes;
     for (const Conflict &conflict : conflicts)
       {
-        const std::string two =
-          name(conflict.first) + " and " + name(conflict.second);
+        // Rounding may decide which of two lets go.
+        std::string a = name(conflict.first), b = name(conflict.second);
+        if (b < a)
+          std::swap(a, b);
         std::ostringstream text;
         text << "they move differently in a cell at (" << conflict.x << ")";
         if (conflict.cells.size() > 1)
           text << " and " << conflict.cells.size() - 1 << " more";
         text << ", which cannot follow both; smaller cells narrow the gap";
-        notes.push_back({two, "note", text.str()});
+        notes.push_back({a + " and " + b, "note", text.str()});
       }
     return notes;
   }
