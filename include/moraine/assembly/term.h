@@ -28,7 +28,7 @@ namespace moraine
   /** How the assembly treats a term. */
   struct TermTraits
   {
-    /** What the work of its forces is counted as. */
+    /** The entry of the energy balance for the work of its forces. */
     WorkKind work_kind = WorkKind::external;
     /** The part of a run that begin_step() is timed as; "" if none is. */
     const char *timer      = "";
@@ -62,7 +62,8 @@ namespace moraine
 
     virtual ~Term() = default;
 
-    /** What it is, and what it touches at the start of a step. Collective. */
+    /** Its name and extent at the start of a step, for the console.
+     * Collective. */
     virtual std::vector<Effect>
     effects(const StepContext<dim> &context) const = 0;
 

@@ -15,7 +15,7 @@
 
 namespace moraine
 {
-  /** What bases whose points have domains have in common. */
+  /** Tools shared by bases whose points have domains. */
   namespace DomainTools
   {
     /**
@@ -70,7 +70,7 @@ namespace moraine
       dealii::Point<dim> centroid;
     };
 
-    /** What a quadrilateral or hexahedron fills. */
+    /** Volume and centroid of a quadrilateral or hexahedron. */
     template <int dim>
     Region<dim>
     region_of(const CellVertices<dim> &corners)

@@ -13,8 +13,8 @@
 
 namespace moraine
 {
-  /** What one owner, an implicit boundary or a grid condition, holds in one
-   * cell: @f$M \sum_a N_a u_a = M g@f$ at some places. */
+  /** The constraints of one owner (an implicit boundary or a grid condition) in
+   * one cell: @f$M \sum_a N_a u_a = M g@f$ at its quadrature points. */
   template <int dim>
   struct ConflictingPiece
   {

@@ -11,7 +11,7 @@
 
 namespace moraine
 {
-  /** What a row of an Archive holds: all of an object. */
+  /** Selects the whole object for a row of an Archive. */
   struct WholeObject
   {
     template <class Object>

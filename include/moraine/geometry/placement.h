@@ -22,7 +22,7 @@ namespace moraine
   dealii::BoundingBox<dim>
   unlimited_box();
 
-  /** What two boxes have in common; no width where they are apart. */
+  /** The intersection of two boxes; no width where they are apart. */
   template <int dim>
   dealii::BoundingBox<dim>
   intersection(const dealii::BoundingBox<dim> &a,

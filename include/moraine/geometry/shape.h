@@ -291,7 +291,7 @@ namespace moraine
   SurfacePointer<dim>
   join(const std::vector<SurfacePointer<dim>> &members);
 
-  /** What a shape covers of a polytope, to the shape's accuracy. */
+  /** Volume and centroid of the part of a polytope inside a shape. */
   template <int dim>
   struct ClippedVolume
   {

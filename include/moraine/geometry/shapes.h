@@ -28,8 +28,8 @@ namespace moraine
     }
   };
 
-  /** What is behind all of some planes; @p box must hold it. The planes are
-   * called @p names, or there is but one. */
+  /** The convex body behind all @p planes; it must lie in @p box. @p names of
+   * the planes may be left out if there is only one. */
   template <int dim>
   ShapePointer<dim>
   make_convex(const std::vector<HalfSpace<dim>> &planes,
@@ -44,7 +44,7 @@ namespace moraine
     return make_convex<dim>({});
   }
 
-  /** What is behind a plane; the normal need not have unit length. */
+  /** The half-space behind a plane; the normal need not have unit length. */
   template <int dim>
   ShapePointer<dim>
   make_half_space(const dealii::Point<dim>     &point,

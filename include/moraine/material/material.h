@@ -94,8 +94,7 @@ namespace moraine
     dealii::Tensor<2, 3> tangent;
   };
 
-  /** What a material that is not isotropic is asked at one point, and its
-   * answer. */
+  /** Input and output of an anisotropic material at one point. */
   struct TensorState
   {
     /** In, at small strain: @f$\Delta\varepsilon@f$. */

@@ -66,7 +66,7 @@ namespace moraine
       std::optional<double> plastic_share;
     };
 
-    /** What diagnostics found; left out if nothing. */
+    /** Findings of diagnostics; left out if there are none. */
     struct Findings
     {
       std::vector<Finding> warnings, hints;

@@ -42,7 +42,7 @@ namespace moraine
     void
     set_stage(const Scene<dim> &scene, const unsigned int k);
 
-    /** What diagnostics read of it. */
+    /** Its parts for diagnostics. */
     typename Facts<dim>::Objects
     objects(const Scene<dim> &scene) const;
 

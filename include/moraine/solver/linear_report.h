@@ -11,7 +11,7 @@
 
 namespace moraine
 {
-  /** What one linear solve did. */
+  /** The outcome of one linear solve. */
   struct LinearReport
   {
     bool converged = false;
