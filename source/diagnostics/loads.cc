@@ -372,67 +372,16 @@ namespace moraine
 
 
 
-    namespace
-    {
-      /** Refuse to go on when @p n pieces of what moves material have
-       * become none. @return the most so far. */
-      double
-      most_pieces(const std::string &section, const double n, Ledger &ledger)
-      {
-        double &most =
-          ledger.number("lost-hold/of stage: pieces of " + section);
-        most = std::max(most, n);
-        if (n == 0 && most > 0)
-          throw ComputationError("section '" + section +
-                                 "': no material is left where it acts; use a "
-                                 "boundary with 'Translation', or 'Mesh "
-                                 "motion'");
-        return most;
-      }
-
-
-
-      /** Whether the boundary @p name has a 'Displacement'. */
-      template <int dim>
-      bool
-      has_displacement(const std::string &name, const Facts<dim> &facts)
-      {
-        return any_of(facts.of.scene.boundaries, [&name](const auto &named) {
-          return named.first == name && !named.second.displacement.empty();
-        });
-      }
-    } // namespace
-
-
-
     template <int dim>
     std::optional<Finding>
     lost_boundaries(Facts<dim> &facts, Ledger &ledger)
     {
-      Worst      worst("lost-hold", allowed_push);
-      const bool moves =
-        facts.of.state.mesh_after_step() != MeshAfterStep::keep;
       for (const auto &boundary : facts.of.boundaries)
         {
           const std::string &name = boundary.name();
           if (!facts.holds(name))
             continue;
           const double n = boundary.n_points(facts.communicator());
-          if (has_displacement(name, facts))
-            {
-              double largest = 0;
-              for (const auto &point : boundary.points())
-                largest = std::max(
-                  largest,
-                  std::abs(boundary.moved_through(
-                    point, facts.now.stage->time.start_time, facts.now.t)));
-              most_pieces("Boundaries/" + name, n, ledger);
-              if (moves)
-                worst.take(name,
-                           Utilities::MPI::max(largest, facts.communicator()) /
-                             facts.cell_size());
-              continue;
-            }
           double &most = ledger.number("lost-hold/of stage: points of " + name);
           most         = std::max(most, n);
           // In dynamics a body may leave a wall.
@@ -444,8 +393,7 @@ namespace moraine
                            "no material is left at it, and its force is zero; "
                            "take shorter steps or smaller cells"};
         }
-      return worst.with("its 'Displacement' has moved material through its "
-                        "surface, which stays; use 'Translation'");
+      return {};
     }
 
 
@@ -506,12 +454,19 @@ namespace moraine
           push = std::max(push,
                           Utilities::MPI::max(largest, facts.communicator()) /
                             facts.cell_size());
-          most_pieces("Grid conditions/" + condition.name, n, ledger);
+          double &most =
+            ledger.number("lost-hold/of stage: nodes of " + condition.name);
+          most = std::max(most, 1. * n);
+          if (n == 0 && most > 0)
+            throw ComputationError("section 'Grid conditions/" +
+                                   condition.name +
+                                   "': no material is left where it acts; use "
+                                   "a boundary with 'Translation', or 'Mesh "
+                                   "motion'");
           worst.take(condition.name, push);
         }
-      return worst.with(
-        "it has pushed material off its nodes, which stay; use a boundary with "
-        "'Translation', or 'Mesh motion'");
+      return worst.with("it has pushed material off its nodes, which stay; use "
+                        "a boundary with 'Translation', or 'Mesh motion'");
     }
 
 

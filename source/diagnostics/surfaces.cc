@@ -418,10 +418,9 @@ namespace moraine
             ledger.number(name) = report.penetration;
           worst.take(report.name, report.penetration - ledger.number(name));
         }
-      // Where constraints conflict a gap of up to a cell is not held, and a
-      // surface with a 'Displacement' stays while it moves material through.
+      // Where constraints conflict a gap of up to a cell is not held.
       if (worst.value > most_passing * facts.cell_size() &&
-          !ledger.has("lost-hold") && !conflicting_constraints(facts, ledger))
+          !conflicting_constraints(facts, ledger))
         throw ComputationError(
           "material is " + text_of(worst.value, 3) + " behind '" +
           worst.object + "' at t = " + text_of(facts.now.t, 3) +

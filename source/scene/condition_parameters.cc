@@ -60,7 +60,9 @@ namespace moraine
 
   template <int dim>
   RigidMotion<dim>
-  MotionParameters<dim>::make_motion(const std::string &section) const
+  MotionParameters<dim>::make_motion(
+    const std::string                                 &section,
+    const std::function<Tensor<1, dim>(const double)> &displacement) const
   {
     using Curve = typename RigidMotion<dim>::Curve;
     std::array<Curve, dim> shift;
@@ -73,6 +75,11 @@ namespace moraine
             return curve.value(t);
           };
       }
+    if (displacement)
+      for (unsigned int d = 0; d < dim; ++d)
+        shift[d] = [given = shift[d], displacement, d](const double t) {
+          return (given ? given(t) : 0.) + displacement(t)[d];
+        };
     Curve angle;
     if (!rotation_angle.empty())
       angle = [curve =
@@ -115,9 +122,9 @@ namespace moraine
     prm.add_parameter(
       "Displacement",
       displacement,
-      "Prescribed displacement of the material relative to the moving surface "
-      "(length), dim expressions in x, y, z, t separated by ';'. Its change "
-      "over time acts; it is 0 at the start.");
+      "Displacement of the surface and of the material it holds since it began "
+      "to act (length), dim expressions in t separated by ';'; 0 at the start. "
+      "With 'Mesh after step = keep', where surfaces stay, also in x, y, z.");
     motion.add_parameters(prm, "the surface");
     prm.add_parameter(
       "Penetration limit",

@@ -3,6 +3,7 @@
 
 #include <moraine/scene/scene_conditions.h>
 
+#include <moraine/core/arithmetic.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
@@ -174,38 +175,9 @@ namespace moraine
         }
       return flags;
     }
-  } // namespace
 
 
 
-  template <int dim>
-  std::vector<ImplicitBoundary<dim>>
-  make_boundaries(const Scene<dim> &scene)
-  {
-    const NamedShapes<dim>             shapes = body_shapes(scene);
-    std::vector<ImplicitBoundary<dim>> boundaries;
-    for (const auto &[name, parameters] : scene.boundaries)
-      {
-        if (parameters.constraint == "absorbing")
-          continue;
-        const std::string section = "Boundaries/" + name;
-        boundaries.emplace_back(
-          name,
-          make_surface<dim>(parameters.surface, shapes, section),
-          parameters.motion.make_motion(section),
-          vector_function<dim>(parameters.displacement,
-                               place(section, "Displacement")),
-          make_constraint<dim>(parameters, section),
-          parameters.enforcement.enforcement_of(),
-          parameters.penetration_limit);
-      }
-    return boundaries;
-  }
-
-
-
-  namespace
-  {
     /** When the boundary @p name begins to act. */
     template <int dim>
     double
@@ -219,6 +191,59 @@ namespace moraine
 
 
 
+    /** The boundary @p name. A displacement that is the same everywhere moves
+     * its surface. */
+    template <int dim>
+    ImplicitBoundary<dim>
+    make_boundary(const std::string             &name,
+                  const BoundaryParameters<dim> &parameters,
+                  const NamedShapes<dim>        &shapes,
+                  const Scene<dim>              &scene)
+    {
+      const std::string section = "Boundaries/" + name;
+      const auto        given   = vector_function<dim>(parameters.displacement,
+                                              place(section, "Displacement"));
+      const bool varies = has_name(parameters.displacement, {"x", "y", "z"});
+      if (varies && scene.method.after_step() != MeshAfterStep::keep)
+        reject(section,
+               "Displacement",
+               parameters.displacement,
+               "expressions in t, as the surface moves as a rigid body; in x, "
+               "y, z with 'Mesh after step = keep'");
+      std::function<Tensor<1, dim>(const double)> of_surface;
+      if (!varies && !parameters.displacement.empty())
+        of_surface = [given,
+                      first = first_time_of(name, scene)](const double t) {
+          return given(Point<dim>(), t) - given(Point<dim>(), first);
+        };
+      return {name,
+              make_surface<dim>(parameters.surface, shapes, section),
+              parameters.motion.make_motion(section, of_surface),
+              varies ? given : vector_function<dim>("", ""),
+              make_constraint<dim>(parameters, section),
+              parameters.enforcement.enforcement_of(),
+              parameters.penetration_limit};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<ImplicitBoundary<dim>>
+  make_boundaries(const Scene<dim> &scene)
+  {
+    const NamedShapes<dim>             shapes = body_shapes(scene);
+    std::vector<ImplicitBoundary<dim>> boundaries;
+    for (const auto &[name, parameters] : scene.boundaries)
+      if (parameters.constraint != "absorbing")
+        boundaries.push_back(make_boundary(name, parameters, shapes, scene));
+    return boundaries;
+  }
+
+
+
+  namespace
+  {
     /**
      * Places of a surface where its motion has brought it. A mesh that does not
      * let material through is cut where the surface stood at first; if its

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Bearing capacity of a strip footing with all boundaries implicit, h = 1/16 of its
-half width, against Prandtl's."""
+half width, against Prandtl's; and what is added where footing and ground move."""
 
 from math import pi
 
@@ -17,3 +17,16 @@ for method, constraint, n in (("finite element", "roller", 2), ("GIMP", "fixed",
     bound(f"{name}: plateau", force[-1] / (2 + pi) - 1, 3e-2)
     bound(f"{name}: rise in the last tenth of the way",
           force[-1] / force[-3] - 1, 1e-2)
+
+# Soil heaves beside a footing and slides out of its last cell: less than two
+# settlements over the half width, whatever the cells.
+for h in (0.125, 0.25):
+    stays, moves = (
+        [-row["reaction_y of footing"] for row in run(
+            "prm/hard-cases/bearing-implicit.prm",
+            {**QUIET, "Mesh/Cell size": h, "Time/Steps": 8,
+             "Method/Mesh after step": after_step}).history()]
+        for after_step in ("keep", "follow material"))
+    bound(f"moving, h = {h}: rise of the plateau over the settlement",
+          (moves[-1] / stays[-1] - 1) / 0.01, 2)
+    at_least(f"moving, h = {h}: it rises", moves[-1] / moves[-3] - 1, 1e-3)

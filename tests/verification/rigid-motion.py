@@ -24,6 +24,7 @@ for name, settings in METHODS.items():
 
     turned = run(SCENE, {
         **settings,
+        "Method/Mesh after step": "keep",
         "Boundaries/sides/Translation": "0; 0",
         "Boundaries/sides/Displacement": "-1e-3*t*y; 1e-3*t*x",
     })

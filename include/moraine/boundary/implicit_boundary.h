@@ -454,18 +454,6 @@ namespace moraine
       return at_start.curved() && is_roller();
     }
 
-    /** How far the displacement relative to the surface moves what it holds at
-     * @p point along the normal, from @p t_start to @p t_end. */
-    double
-    moved_through(const BoundaryPoint<dim> &point,
-                  const double              t_start,
-                  const double              t_end) const
-    {
-      return projection(point.normal) *
-             (displacement(point.x, t_end) - displacement(point.x, t_start)) *
-             point.normal;
-    }
-
     /** What it constrains, in words. */
     std::string
     constraint_name() const;

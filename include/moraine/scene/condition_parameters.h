@@ -12,6 +12,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,12 @@ namespace moraine
     void
     add_parameters(dealii::ParameterHandler &prm, const std::string &what);
 
-    /** @throw InputError for what is no motion in section @p section. */
+    /** The motion, with @p displacement on top of it if that is given.
+     * @throw InputError for what is no motion in section @p section. */
     RigidMotion<dim>
-    make_motion(const std::string &section) const;
+    make_motion(const std::string &section,
+                const std::function<dealii::Tensor<1, dim>(const double)>
+                  &displacement = {}) const;
   };
 
   /** Section `Boundaries/<name>`. */
