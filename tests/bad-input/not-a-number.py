@@ -48,9 +48,11 @@ def refused(key, value, settings=STEPS, stages=False):
 for where in ("Boundaries/end", "Boundaries/base", "Grid conditions/side"):
     for stages in (False, True):
         settings = {} if stages else STEPS
-        for value in (NEVER, LATER, PLACE):
-            if value != PLACE or where != "Boundaries/base":  # y is 0 there
-                refused(f"{where}/Displacement", f"{value}; 0", settings, stages)
+        for value in (NEVER, LATER):
+            refused(f"{where}/Displacement", f"{value}; 0", settings, stages)
+        if where != "Boundaries/base":  # y is 0 there
+            refused(f"{where}/Displacement", f"{PLACE}; 0",
+                    {**settings, "Method/Mesh after step": "keep"}, stages)
         for value in (NEVER, LATER):
             refused(f"{where}/Translation", f"{value}; 0", settings, stages)
             refused(f"{where}/Rotation angle", value, settings, stages)
