@@ -111,7 +111,7 @@ namespace moraine
     dealii::SymmetricTensor<2, 3> stress;
 
     /** Out: @f$\partial\sigma/\partial\Delta\varepsilon@f$; at finite strain
-     * the spatial tangent c, @f$L_v\tau = c : d@f$. With major symmetry. */
+     * the spatial tangent c, @f$L_v\tau = c : d@f$. */
     dealii::SymmetricTensor<4, 3> tangent;
   };
 
@@ -174,6 +174,14 @@ namespace moraine
      * elastic_stiffness(), whatever happened before. */
     virtual bool
     is_linear() const = 0;
+
+    /** Whether the tangents that it answers with are symmetric, in any state:
+     * @f$D_{AB} = D_{BA}@f$, @f$c_{ijkl} = c_{klij}@f$. */
+    virtual bool
+    has_symmetric_tangent() const
+    {
+      return true;
+    }
 
     /** Whether it makes sense at small strain. */
     virtual bool
