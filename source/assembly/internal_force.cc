@@ -117,8 +117,8 @@ namespace moraine
 
 
     /**
-     * Add the tangent of one point to the upper triangle of node pairs,
-     * @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
+     * Add the tangent of one point to the upper triangle of node pairs, or to
+     * @p all_pairs, @f$K_{ab,ij} = \sum_k D_{a,ijk}\, g_{b,k}@f$ with
      * @f$D_{a,ijk} = w\, (c_{iljk}\, g_{a,l} + \delta_{ij}\, \tau_{kl}\,
      * g_{a,l})@f$, and what @p coupling says (MeanDilatation), if there is any.
      * Gradients of nodes from @p n_own on, added for groups of cells, are zero.
@@ -132,6 +132,7 @@ namespace moraine
                 const Tensor<1, dim>                         *g,
                 const unsigned int                            n_own,
                 const unsigned int                            n_nodes,
+                const bool                                    all_pairs,
                 FullMatrix<double>                           &matrix)
     {
       const Tensor<1, dim> *mean_g =
@@ -142,11 +143,12 @@ namespace moraine
           if (g[a].norm_square() == 0. &&
               (!has_coupling || mean_g[a].norm_square() == 0.))
             continue;
-          const unsigned int first_mean = std::max(a, n_own);
+          const unsigned int first      = all_pairs ? 0 : a;
+          const unsigned int first_mean = std::max(first, n_own);
           Tensor<1, dim>     e;
           if constexpr (has_coupling)
             e = coupling->T * g[a] + coupling->modulus * mean_g[a];
-          if (a < n_own)
+          if (first < n_own)
             {
               const Tensor<1, dim> w_g = w * g[a];
               double               D[dim][dim][dim]; // i, k, j
@@ -163,14 +165,14 @@ namespace moraine
                 for (unsigned int i = 0; i < dim; ++i)
                   for (unsigned int k = 0; k < dim; ++k)
                     for (unsigned int j = 0; j < dim; ++j)
-                      D[i][k][j] += mean_g[a][i] * coupling->T[k][j];
+                      D[i][k][j] += mean_g[a][i] * coupling->T_left[k][j];
               for (unsigned int i = 0; i < dim; ++i)
                 add_row<dim, has_coupling>(D[i],
                                            e[i],
-                                           g + a,
-                                           mean_g + (has_coupling ? a : 0),
-                                           n_own - a,
-                                           &matrix(dim * a + i, dim * a));
+                                           g + first,
+                                           mean_g + (has_coupling ? first : 0),
+                                           n_own - first,
+                                           &matrix(dim * a + i, dim * first));
             }
           for (unsigned int i = 0; has_coupling && i < dim; ++i)
             add_mean_row<dim>(e[i],
@@ -187,7 +189,9 @@ namespace moraine
      * are zero. */
     template <int dim>
     void
-    add_tangents(const unsigned int n_own, LocalSystem<dim> &local)
+    add_tangents(const unsigned int n_own,
+                 const bool         all_pairs,
+                 LocalSystem<dim>  &local)
     {
       const TrialPoints<dim> &trial     = local.trial_points;
       const bool              has_means = trial.n_means() > 0;
@@ -218,6 +222,7 @@ namespace moraine
               trial.grad_N(p),
               n_own,
               n_nodes,
+              all_pairs,
               local.matrix);
         }
     }
@@ -291,17 +296,18 @@ namespace moraine
 
 
     /** Add the stiffness that the moments give with an isotropic C, to the
-     * upper triangle of node pairs. */
+     * upper triangle of node pairs or to @p all_pairs. */
     template <int dim>
     void
     add_stiffness(const std::vector<double> &moments,
                   const unsigned int         n_nodes,
                   const LameConstants       &C,
+                  const bool                 all_pairs,
                   FullMatrix<double>        &matrix)
     {
       const unsigned int n = dim * n_nodes;
       for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int b = a; b < n_nodes; ++b)
+        for (unsigned int b = all_pairs ? 0 : a; b < n_nodes; ++b)
           {
             const double *G     = &moments[dim * a * n + dim * b];
             double       *K     = &matrix(dim * a, dim * b);
@@ -376,13 +382,14 @@ namespace moraine
     const State<dim>    &state  = context.state;
     const PointSet<dim> &points = state.material_points();
     TrialPoints<dim>    &trial  = local.trial_points;
+    const bool           all_pairs = !state.has_symmetric_tangents();
     for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
       {
         end = state.end_of_body(block, begin);
         trial.evaluate(state, block, begin, end, local.nodal_increments.data());
         const bool has_means = trial.n_means() > 0;
         if (has_means)
-          local.dilatation.begin(trial, block.n_nodes);
+          local.dilatation.begin(trial, block.n_nodes, all_pairs);
         add_stress_force(trial, block.n_nodes, local);
         const Material &material =
           state.material(points.body(block.points[begin]));
@@ -403,13 +410,14 @@ namespace moraine
                 C.lambda = -2. * C.mu / dim;
               }
             sum_moments(state, block, begin, end, local.moments);
-            add_stiffness<dim>(local.moments, block.n_nodes, C, local.matrix);
+            add_stiffness<dim>(
+              local.moments, block.n_nodes, C, all_pairs, local.matrix);
           }
         else if (with_tangent)
-          add_tangents(block.n_own_nodes, local);
+          add_tangents(block.n_own_nodes, all_pairs, local);
         if (has_means)
           local.dilatation.end(with_tangent, local.force, local.matrix);
-        if (with_tangent)
+        if (with_tangent && !all_pairs)
           mirror<dim>(block.n_nodes, local.matrix);
       }
   }

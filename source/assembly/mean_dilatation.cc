@@ -12,13 +12,14 @@ namespace moraine
   namespace
   {
     /** Add @f$c\, x y^T@f$, and if there is z @f$y z^T@f$, of vectors of nodes
-     * to the upper triangle of node pairs. */
+     * to the upper triangle of node pairs or to @p all_pairs. */
     template <int dim, bool has_z>
     void
-    add_upper(const double                       c,
+    add_pairs(const double                       c,
               const std::vector<Tensor<1, dim>> &x,
               const std::vector<Tensor<1, dim>> &y,
               const Tensor<1, dim>              *z,
+              const bool                         all_pairs,
               FullMatrix<double>                &matrix)
     {
       const unsigned int n = x.size();
@@ -27,11 +28,12 @@ namespace moraine
           // A node of other points of the block only.
           if (!has_z && x[a].norm_square() == 0.)
             continue;
+          const std::size_t first = all_pairs ? 0 : a;
           for (unsigned int i = 0; i < dim; ++i)
             {
               const double             x_ai = c * x[a][i], y_ai = y[a][i];
-              double *DEAL_II_RESTRICT row = &matrix(dim * a + i, dim * a);
-              for (std::size_t b = a; b < n; ++b, row += dim)
+              double *DEAL_II_RESTRICT row = &matrix(dim * a + i, dim * first);
+              for (std::size_t b = first; b < n; ++b, row += dim)
                 for (unsigned int j = 0; j < dim; ++j)
                   row[j] += x_ai * y[b][j] + (has_z ? y_ai * z[b][j] : 0.);
             }
@@ -69,16 +71,19 @@ namespace moraine
   template <int dim>
   void
   MeanDilatation<dim>::begin(const TrialPoints<dim> &trial_,
-                             const unsigned int      n_nodes_)
+                             const unsigned int      n_nodes_,
+                             const bool              all_pairs_)
   {
     trial                = &trial_;
     n_nodes              = n_nodes_;
+    all_pairs            = all_pairs_;
     finite               = trial_.is_finite();
     const unsigned int m = trial_.n_means();
     // A point of its own costs a product of nodes, a cell two.
     by_points = m > 1 && trial_.n_points() <= 2 * m;
     P.assign(m, 0.);
     Q.clear();
+    Q_left.clear();
     k.assign(by_points ? 0 : m * m, 0.);
   }
 
@@ -138,25 +143,31 @@ namespace moraine
   {
     constexpr unsigned int  n_v = n_voigt<dim>;
     const double            a   = trial->mean_part(i);
-    std::array<double, n_v> t{}; // a c : 1
+    std::array<double, n_v> t{}, t_left{}; // a c : 1, a 1 : c
     double                  k_1 = 0;
     for (unsigned int I = 0; I < n_v; ++I)
       for (unsigned int J = 0; J < dim; ++J)
-        t[I] += a * c[I][J];
+        {
+          t[I] += a * c[I][J];
+          t_left[I] += a * c[J][I];
+        }
     for (unsigned int I = 0; I < dim; ++I)
       k_1 += a * t[I];
     VoigtMatrix<dim> rest = c;
     for (unsigned int I = 0; I < n_v; ++I)
       for (unsigned int J = 0; J < n_v; ++J)
         rest[I][J] += (I < dim && J < dim ? k_1 / (dim * dim) : 0.) -
-                      (J < dim ? t[I] / dim : 0.) - (I < dim ? t[J] / dim : 0.);
-    for (unsigned int I = 0; I < dim; ++I)
-      t[I] -= k_1 / dim;
+                      (J < dim ? t[I] / dim : 0.) -
+                      (I < dim ? t_left[J] / dim : 0.);
 
     constexpr auto           pairs = voigt_pairs<dim>();
-    SymmetricTensor<2, dim> &T     = of_point.T;
+    SymmetricTensor<2, dim> &T = of_point.T, &T_left = of_point.T_left;
     for (unsigned int I = 0; I < n_v; ++I)
-      T[pairs[I][0]][pairs[I][1]] = t[I];
+      {
+        const double part                = I < dim ? k_1 / dim : 0.;
+        T[pairs[I][0]][pairs[I][1]]      = t[I] - part;
+        T_left[pairs[I][0]][pairs[I][1]] = t_left[I] - part;
+      }
     double modulus = k_1 / (dim * dim);
     if (finite)
       {
@@ -166,10 +177,16 @@ namespace moraine
         add_stress_part<dim>(stress, p, a, rest);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = d; e < dim; ++e)
-            T[d][e] += 2. * a * (stress[d][e] + (d == e ? (1. - a) * p : 0.));
+            {
+              const double part =
+                2. * a * (stress[d][e] + (d == e ? (1. - a) * p : 0.));
+              T[d][e] += part;
+              T_left[d][e] += part;
+            }
       }
     const double w = trial->weight(i);
     T *= w / dim;
+    T_left *= w / dim;
     of_point.modulus = w * modulus;
     if (by_points)
       {
@@ -177,18 +194,32 @@ namespace moraine
         of_point.mean_gradients = mean_gradients.data();
         return rest;
       }
+    add_to_cells(i, T, Q);
+    if (all_pairs)
+      add_to_cells(i, T_left, Q_left);
+    sum_moduli(i, of_point.modulus);
+    return rest;
+  }
+
+
+
+  template <int dim>
+  void
+  MeanDilatation<dim>::add_to_cells(
+    const unsigned int             i,
+    const SymmetricTensor<2, dim> &T,
+    std::vector<Tensor<1, dim>>   &of_cells) const
+  {
     const Tensor<1, dim> *g = trial->grad_N(i);
     const unsigned int    m = P.size();
-    if (Q.empty())
-      Q.assign(m * n_nodes, Tensor<1, dim>());
+    if (of_cells.empty())
+      of_cells.assign(m * n_nodes, Tensor<1, dim>());
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
         const Tensor<1, dim> T_g = T * g[a];
-        for (unsigned int c_ = 0; c_ < m; ++c_)
-          Q[c_ * n_nodes + a] += trial->mean_weight(i, c_) * T_g;
+        for (unsigned int c = 0; c < m; ++c)
+          of_cells[c * n_nodes + a] += trial->mean_weight(i, c) * T_g;
       }
-    sum_moduli(i, of_point.modulus);
-    return rest;
   }
 
 
@@ -207,8 +238,8 @@ namespace moraine
             continue;
           }
         find_mean_gradients(i);
-        add_upper<dim, false>(
-          w_k, mean_gradients, mean_gradients, nullptr, matrix);
+        add_pairs<dim, false>(
+          w_k, mean_gradients, mean_gradients, nullptr, all_pairs, matrix);
       }
   }
 
@@ -249,7 +280,7 @@ namespace moraine
         const unsigned int   *places = trial->mean_places(c);
         for (unsigned int a = 0; a < n_corners; ++a)
           for (unsigned int b = 0; b < n_corners; ++b)
-            if (places[a] < places[b])
+            if (all_pairs || places[a] < places[b])
               {
                 double *K = &matrix(dim * places[a], dim * places[b]);
                 for (unsigned int i = 0; i < dim; ++i)
@@ -289,10 +320,15 @@ namespace moraine
                 mean_gradients[trial->mean_places(c)[b]] = g;
             }
         if (Q.empty())
-          add_upper<dim, false>(1., factors, mean_gradients, nullptr, matrix);
+          add_pairs<dim, false>(
+            1., factors, mean_gradients, nullptr, all_pairs, matrix);
         else
-          add_upper<dim, true>(
-            1., factors, mean_gradients, &Q[c * n_nodes], matrix);
+          add_pairs<dim, true>(1.,
+                               factors,
+                               mean_gradients,
+                               &(all_pairs ? Q_left : Q)[c * n_nodes],
+                               all_pairs,
+                               matrix);
       }
   }
 

@@ -170,6 +170,17 @@ namespace moraine
 
   template <int dim>
   bool
+  State<dim>::has_symmetric_tangents() const
+  {
+    return std::all_of(materials.begin(), materials.end(), [](const auto &m) {
+      return m->has_symmetric_tangent();
+    });
+  }
+
+
+
+  template <int dim>
+  bool
   State<dim>::begin_step(
     const typename Aggregates<dim>::AskOfCell &holds_mean_in)
   {

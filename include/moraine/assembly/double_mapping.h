@@ -26,8 +26,8 @@ namespace moraine
    * their stiffness,
    * @f$K = \sum_g B(x_g)^T [\sum_i N_i(x_g) \sum_p S^*_{ip} D_p W_p] B(x_g)
    *  |J|@f$ (eq. 7, with B at the Gauss point and W_p in the cell's reference
-   * coordinates, so that @f$|J| W_p = v_p@f$). It is symmetric and the exact
-   * derivative of f.
+   * coordinates, so that @f$|J| W_p = v_p@f$). It is the exact derivative of
+   * f, and symmetric if D is.
    *
    * The stress that points are given at the end of the step is that of their
    * own strain (Basis::strain_basis()), not that of the Gauss points. The
@@ -71,6 +71,12 @@ namespace moraine
     add(const StepContext<dim> &context,
         const bool              tangent,
         GlobalSystem<dim>      &system) const override;
+
+    bool
+    symmetric(const StepContext<dim> &context) const override
+    {
+      return context.state.has_symmetric_tangents();
+    }
 
     /** Why a point has no stress with the strain that it is going to have. */
     std::string

@@ -49,7 +49,7 @@ namespace moraine
    * @f$f_{ai} = -\sum_p w\, \tau_{ij} g_{aj}@f$ and
    * @f$K_{ai,bj} = \sum_p w\, (g_{ak} c_{ikjl}\, g_{bl}
    *  + \delta_{ij}\, g_a \cdot \tau g_b)@f$, the second term at finite strain
-   * only. It is the exact derivative, and symmetric.
+   * only. It is the exact derivative, and symmetric if c is.
    */
   template <int dim>
   class InternalForce : public PointTerm<dim>
@@ -65,6 +65,12 @@ namespace moraine
 
     std::vector<Effect>
     effects(const StepContext<dim> &context) const override;
+
+    bool
+    symmetric(const StepContext<dim> &context) const override
+    {
+      return context.state.has_symmetric_tangents();
+    }
 
     using PointTerm<dim>::add;
 

@@ -36,7 +36,8 @@ namespace moraine
    *       + 2\, \mathrm{dev}\,\tau\, g_a), \qquad
    *     k_{cc'} = \sum_p w\, \omega_{pc} \omega_{pc'}
    *       \left(\tfrac{k}{n^2} + (\tfrac2n - 1)\, p\right), @f]
-   * terms of @f$\tau@f$ and p at finite strain only. It is symmetric.
+   * terms of @f$\tau@f$ and p at finite strain only. It is symmetric if c
+   * is. Otherwise @f$t' = 1 : c@f$ stands for t where Q comes second.
    *
    * Sums over cells are for many points in few cells. Where that is less work,
    * a point takes @f$\hat g_a = \sum_c \omega_{pc}\, \bar g_{ca}@f$ itself
@@ -46,8 +47,8 @@ namespace moraine
    *     T = \tfrac{w}{n} (\mathrm{dev}\,t + 2\, \mathrm{dev}\,\tau), \quad
    *     \kappa = w \left(\tfrac{k}{n^2} + (\tfrac2n - 1)\, p\right). @f]
    *
-   * All that is added to the matrix is added to the upper triangle of node
-   * pairs.
+   * What is added to the matrix is added to the upper triangle of node pairs,
+   * or to all pairs.
    *
    * Where the means are the part a of the change of volume of a point,
    * TrialPoints::mean_part(), a p is what works on their gradients,
@@ -67,6 +68,7 @@ namespace moraine
     struct Coupling
     {
       dealii::SymmetricTensor<2, dim> T;
+      dealii::SymmetricTensor<2, dim> T_left; ///< T of @f$1 : c@f$
       double                          modulus;        ///< @f$\kappa@f$
       const dealii::Tensor<1, dim>   *mean_gradients; ///< @f$\hat g@f$
     };
@@ -74,7 +76,9 @@ namespace moraine
     /** For a run of points that @p trial has evaluated, until it evaluates
      * others; their block has @p n_nodes. */
     void
-    begin(const TrialPoints<dim> &trial, const unsigned int n_nodes);
+    begin(const TrialPoints<dim> &trial,
+          const unsigned int      n_nodes,
+          const bool              all_pairs);
 
     /** Take the pressure of the i-th point.
      * @return what is left of its stress. */
@@ -112,6 +116,12 @@ namespace moraine
     void
     sum_moduli(const unsigned int i, const double modulus);
 
+    /** Add @f$\omega_{pc} T g_a@f$ of the i-th point. */
+    void
+    add_to_cells(const unsigned int                   i,
+                 const dealii::SymmetricTensor<2, dim> &T,
+                 std::vector<dealii::Tensor<1, dim>>   &of_cells) const;
+
     /** The terms of P. */
     void
     add_pressures(dealii::FullMatrix<double> &matrix) const;
@@ -124,10 +134,12 @@ namespace moraine
     unsigned int                        n_nodes   = 0;
     bool                                finite    = false;
     bool                                by_points = false;
+    bool                                all_pairs = false;
     Coupling                            of_point;
     std::vector<double>                 P;
     std::vector<double>                 k; ///< of pairs of cells
-    std::vector<dealii::Tensor<1, dim>> Q; ///< of cells and nodes, over n
+    /** Of cells and nodes, over n; Q_left of @f$1 : c@f$, for all pairs. */
+    std::vector<dealii::Tensor<1, dim>> Q, Q_left;
     /** Scratch of nodes: @f$\hat g@f$ or @f$\bar g_c@f$, and what it is
      * multiplied by. */
     std::vector<dealii::Tensor<1, dim>> mean_gradients, factors;

@@ -344,6 +344,10 @@ namespace moraine
     bool
     is_linear() const;
 
+    /** Whether the tangents of all materials are. */
+    bool
+    has_symmetric_tangents() const;
+
   private:
     /** Tie the nodes of cut cells; @p active are the cells of this rank. */
     bool
