@@ -48,7 +48,7 @@ namespace moraine
       const unsigned int   body     = points.body(p);
       const double        *values   = points.values(p);
       const Material      &material = state.material(body);
-      const LameConstants  C        = material.elastic_stiffness();
+      const LameConstants  C        = elastic_stiffness(state, p);
       if (material.is_linear() || !material.is_isotropic())
         return C.mu;
       PrincipalState at;
@@ -62,10 +62,8 @@ namespace moraine
             at.strain[A] = 0.5 * std::log(at.strain[A]);
         }
       at.strain *= loaded_on;
-      std::vector<double> internal;
-      for (const auto &field : state.fields().internal[body])
-        internal.push_back(field(values));
-      at.internal = internal.data();
+      auto internal = state.fields().internal_of(body, values);
+      at.internal   = internal.data();
       material.respond(state.step_time(), ArrayView<PrincipalState>(&at, 1));
       // D : (I - 1 x 1 / 3) in the principal directions.
       double modulus = trace(at.tangent);

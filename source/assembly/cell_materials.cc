@@ -14,19 +14,39 @@ namespace moraine
 
   namespace
   {
-    /** Of each body, as first components, @f$\sum_p N_a v_p@f$ at the nodes
-     * where @p wanted is not zero; at others maybe less. Collective. */
+    /** In a list of sums over points: volume times lambda, volume times mu, and
+     * from here on the volumes of bodies. */
+    constexpr unsigned int first_body = 2;
+
+    /** Add @p volume of point @p p to the sums. */
+    template <int dim, class Add>
+    void
+    add_point(const State<dim>  &state,
+              const unsigned int p,
+              const double       volume,
+              const Add         &add)
+    {
+      const LameConstants C = elastic_stiffness(state, p);
+      add(0, volume * C.lambda);
+      add(1, volume * C.mu);
+      add(first_body + state.material_points().body(p), volume);
+    }
+
+
+
+    /** The sums, as first components, of @f$N_a v_p@f$ at the nodes where @p
+     * wanted is not zero; at others maybe less. Collective. */
     template <int dim>
     std::vector<std::vector<Tensor<1, dim>>>
-    volumes_at_nodes(const State<dim>                  &state,
-                     const std::vector<Tensor<1, dim>> &wanted,
-                     const unsigned int                 n_bodies)
+    sums_at_nodes(const State<dim>                  &state,
+                  const std::vector<Tensor<1, dim>> &wanted,
+                  const unsigned int                 n_sums)
     {
       const PointSet<dim>                     &points = state.material_points();
       const Basis<dim>                        &basis  = state.point_basis();
       StencilBlock<dim>                        block;
-      std::vector<std::vector<Tensor<1, dim>>> volumes(
-        n_bodies, std::vector<Tensor<1, dim>>(wanted.size()));
+      std::vector<std::vector<Tensor<1, dim>>> sums(
+        n_sums, std::vector<Tensor<1, dim>>(wanted.size()));
       for (unsigned int g = 0; g < basis.n_batches(); ++g)
         {
           const auto nodes = basis.batch_nodes(g);
@@ -38,14 +58,19 @@ namespace moraine
           for (unsigned int i = 0; i < block.n_points; ++i)
             {
               const unsigned int p = block.points[i];
-              for (unsigned int a = 0; a < block.n_nodes; ++a)
-                volumes[points.body(p)][block.nodes[a]][0] +=
-                  block.N(i)[a] * points.volume(p);
+              add_point(state,
+                        p,
+                        points.volume(p),
+                        [&](const unsigned int sum, const double value) {
+                          for (unsigned int a = 0; a < block.n_nodes; ++a)
+                            sums[sum][block.nodes[a]][0] +=
+                              block.N(i)[a] * value;
+                        });
             }
         }
-      for (auto &of_body : volumes)
-        state.grid().sum_over_ranks(of_body);
-      return volumes;
+      for (auto &sum : sums)
+        state.grid().sum_over_ranks(sum);
+      return sums;
     }
   } // namespace
 
@@ -61,23 +86,31 @@ namespace moraine
     body_of_cell.assign(n_cells, 0);
     stiffness.assign(n_cells, state.material(0).elastic_stiffness());
     densities.assign(n_cells, state.material(0).density());
-    std::vector<double> volumes;
-    unsigned int        n_bodies = 1;
+    std::vector<double> sums;
+    unsigned int        n_sums     = first_body + 1;
+    bool                is_uniform = true;
     for (const auto &in_cell : points.cells())
       {
-        volumes.clear();
+        sums.assign(n_sums, 0.);
         for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          {
-            if (points.body(p) >= volumes.size())
-              volumes.resize(points.body(p) + 1, 0.);
-            volumes[points.body(p)] += points.volume(p);
-          }
-        n_bodies = std::max<unsigned int>(n_bodies, volumes.size());
-        take_mean(state, in_cell.cell->active_cell_index(), volumes);
+          add_point(state,
+                    p,
+                    points.volume(p),
+                    [&sums](const unsigned int sum, const double value) {
+                      if (sum >= sums.size())
+                        sums.resize(sum + 1, 0.);
+                      sums[sum] += value;
+                    });
+        n_sums = std::max<unsigned int>(n_sums, sums.size());
+        is_uniform =
+          is_uniform &&
+          state.material(points.body(in_cell.first)).has_uniform_stiffness();
+        take_mean(state, in_cell.cell->active_cell_index(), sums);
       }
-    n_bodies = Utilities::MPI::max(n_bodies, state.grid().communicator());
-    if (n_bodies > 1)
-      update_cells_without_points(state, n_bodies);
+    n_sums = Utilities::MPI::max(n_sums, state.grid().communicator());
+    if (Utilities::MPI::logical_or(n_sums > first_body + 1 || !is_uniform,
+                                   state.grid().communicator()))
+      update_cells_without_points(state, n_sums);
   }
 
 
@@ -86,24 +119,19 @@ namespace moraine
   void
   CellMaterials<dim>::take_mean(const State<dim>          &state,
                                 const unsigned int         cell,
-                                const std::vector<double> &volumes)
+                                const std::vector<double> &sums)
   {
-    const double volume = std::accumulate(volumes.begin(), volumes.end(), 0.);
+    const auto   volumes = sums.begin() + first_body;
+    const double volume  = std::accumulate(volumes, sums.end(), 0.);
     if (!(volume > 0))
       return;
-    body_of_cell[cell] =
-      std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
-    stiffness[cell] = {0., 0.};
-    densities[cell] = 0.;
-    for (unsigned int body = 0; body < volumes.size(); ++body)
-      if (volumes[body] > 0)
-        {
-          const LameConstants C     = state.material(body).elastic_stiffness();
-          const double        share = volumes[body] / volume;
-          stiffness[cell].lambda += share * C.lambda;
-          stiffness[cell].mu += share * C.mu;
-          densities[cell] += share * state.material(body).density();
-        }
+    body_of_cell[cell] = std::max_element(volumes, sums.end()) - volumes;
+    stiffness[cell]    = {sums[0] / volume, sums[1] / volume};
+    densities[cell]    = 0.;
+    for (unsigned int sum = first_body; sum < sums.size(); ++sum)
+      if (sums[sum] > 0)
+        densities[cell] +=
+          sums[sum] / volume * state.material(sum - first_body).density();
   }
 
 
@@ -111,7 +139,7 @@ namespace moraine
   template <int dim>
   void
   CellMaterials<dim>::update_cells_without_points(const State<dim>  &state,
-                                                  const unsigned int n_bodies)
+                                                  const unsigned int n_sums)
   {
     const GridSpace<dim>       &space = state.grid();
     const auto                 &tria  = space.mesh().triangulation();
@@ -133,17 +161,17 @@ namespace moraine
       return;
     // Points of one rank touch nodes of another's cells.
     space.sum_over_ranks(wanted);
-    const auto          at_nodes = volumes_at_nodes(state, wanted, n_bodies);
-    std::vector<double> volumes(n_bodies);
+    const auto          at_nodes = sums_at_nodes(state, wanted, n_sums);
+    std::vector<double> sums(n_sums);
     for (const unsigned int cell : cells)
       {
-        for (unsigned int body = 0; body < n_bodies; ++body)
+        for (unsigned int sum = 0; sum < n_sums; ++sum)
           {
-            volumes[body] = 0;
+            sums[sum] = 0;
             for (unsigned int a = 0; a < n; ++a)
-              volumes[body] += at_nodes[body][space.cell_nodes(cell)[a]][0];
+              sums[sum] += at_nodes[sum][space.cell_nodes(cell)[a]][0];
           }
-        take_mean(state, cell, volumes);
+        take_mean(state, cell, sums);
       }
   }
 

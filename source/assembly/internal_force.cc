@@ -379,9 +379,9 @@ namespace moraine
                           const bool               tangent,
                           LocalSystem<dim>        &local) const
   {
-    const State<dim>    &state  = context.state;
-    const PointSet<dim> &points = state.material_points();
-    TrialPoints<dim>    &trial  = local.trial_points;
+    const State<dim>    &state     = context.state;
+    const PointSet<dim> &points    = state.material_points();
+    TrialPoints<dim>    &trial     = local.trial_points;
     const bool           all_pairs = !state.has_symmetric_tangents();
     for (unsigned int begin = 0, end = 0; begin < block.n_points; begin = end)
       {
@@ -444,8 +444,7 @@ namespace moraine
             v *
               take_mean<dim>(stress,
                              state.mean_part(point,
-                                             state.material(points.body(point))
-                                               .elastic_stiffness())),
+                                             elastic_stiffness(state, point))),
             block.means,
             p,
             local);

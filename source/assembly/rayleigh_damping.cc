@@ -95,7 +95,7 @@ namespace moraine
     const unsigned int  n     = block.n_nodes;
     const unsigned int  point = block.points[p];
     const unsigned int  body  = state.material_points().body(point);
-    const LameConstants C     = state.material(body).elastic_stiffness();
+    const LameConstants C     = elastic_stiffness(state, point);
     const double w = factors[body].stiffness * state.integration_volume(point) /
                      state.volume_ratio(point);
 

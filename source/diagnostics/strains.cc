@@ -63,9 +63,8 @@ namespace moraine
         double               largest = 0;
         for (unsigned int p = 0; p < points.n_local(); ++p)
           {
-            const LameConstants C =
-              facts.of.materials[points.body(p)]->elastic_stiffness();
-            const auto sigma = points.stress_field()(points.values(p));
+            const LameConstants C     = elastic_stiffness(facts.of.state, p);
+            const auto          sigma = points.stress_field()(points.values(p));
             largest =
               std::max(largest,
                        sigma * C.strain_of(sigma) / (4 * (C.lambda + C.mu)));

@@ -181,11 +181,9 @@ namespace moraine
                              per_cent(*error) +
                              " in the energy norm; take smaller cells"};
         }
-      const auto &materials = facts.of.scene.materials;
       if (method.chosen().has_own_internal_force &&
-          any_of(materials, [](const auto &named) {
-            return named.second.hardly_changes_volume();
-          }))
+          any_of(facts.of.materials,
+                 [](const auto &material) { return material->may_lock(); }))
         return Finding{"stress-oscillation",
                        "",
                        1,

@@ -11,14 +11,27 @@ namespace moraine
   LinearElastic::respond(const StepTime &,
                          const ArrayView<PrincipalState> &points) const
   {
-    Tensor<2, 3> D;
-    for (unsigned int A = 0; A < 3; ++A)
-      for (unsigned int B = 0; B < 3; ++B)
-        D[A][B] = stiffness.lambda + (A == B ? 2 * stiffness.mu : 0.);
     for (PrincipalState &point : points)
       {
-        point.tangent = D;
-        point.stress  = D * point.strain;
+        const auto [lambda, mu] = stiffness_at(point.internal);
+        for (unsigned int A = 0; A < 3; ++A)
+          for (unsigned int B = 0; B < 3; ++B)
+            point.tangent[A][B] = lambda + (A == B ? 2 * mu : 0.);
+        point.stress = point.tangent * point.strain;
       }
+  }
+
+
+
+  MaterialModel
+  linear_elastic_model()
+  {
+    return {"linear elastic",
+            "stress linear in strain; at finite strain Kirchhoff stress in "
+            "logarithmic strain (Hencky)",
+            elastic_keys(),
+            [](MaterialInput &input) {
+              return std::make_shared<LinearElastic>(read_elasticity(input));
+            }};
   }
 } // namespace moraine

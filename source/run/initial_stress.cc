@@ -246,7 +246,9 @@ namespace moraine
       {
         if (!K0)
           {
-            const LameConstants C = model.materials[body]->elastic_stiffness();
+            const Material &material = *model.materials[body];
+            const auto      internal = material.internal_at(point_in_space(x));
+            const LameConstants C = material.elastic_stiffness(internal.data());
             return C.lambda / (C.lambda + 2 * C.mu);
           }
         const double share = K0->value(x);

@@ -215,8 +215,10 @@ namespace moraine
   bool
   Scene<dim>::any_yields() const
   {
-    return any_of(materials,
-                  [](const auto &named) { return named.second.yields(); });
+    return any_of(materials, [](const auto &named) {
+      return make_material(named.second, "Materials/" + named.first)
+        ->dissipates();
+    });
   }
 
 
@@ -351,16 +353,17 @@ namespace moraine
   Scene<dim>::choose_volumetric_strain(
     const std::vector<InputFile::Entry> &given)
   {
-    const bool hardly_changes = any_of(materials, [](const auto &named) {
-      return named.second.hardly_changes_volume();
+    const bool may_lock  = any_of(materials, [](const auto &named) {
+      return make_material(named.second, "Materials/" + named.first)
+        ->may_lock();
     });
-    const bool is_damped      = any_of(given, [](const auto &entry) {
+    const bool is_damped = any_of(given, [](const auto &entry) {
       return contains({"Stiffness damping", "Damping ratio"}, entry.key);
     });
     prm.enter_subsection("Method");
     prm.set("Volumetric strain",
-            hardly_changes && method.can_average_volume() &&
-                !conserves_energy() && !is_damped ?
+            may_lock && method.can_average_volume() && !conserves_energy() &&
+                !is_damped ?
               std::string("cell mean") :
               std::string("pointwise"));
     prm.leave_subsection();
@@ -407,6 +410,8 @@ namespace moraine
       parameters.add_parameters(prm);
       prm.leave_subsection();
     };
+    for (auto &named : materials)
+      named.second.dim = dim;
     const auto add_all = [this](auto &parameters) {
       parameters.add_parameters(prm);
     };

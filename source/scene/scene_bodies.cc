@@ -9,6 +9,8 @@
 #include <moraine/core/words.h>
 #include <moraine/geometry/mesh_groups.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -178,14 +180,16 @@ namespace moraine
                  const std::vector<Body<dim>> &bodies,
                  const BackgroundMesh<dim>    &mesh)
   {
-    double cell_size = 0;
+    MaterialPlace place;
     if (const auto &box = mesh.box_grid())
       {
-        cell_size = 1;
+        place.cell_size = 1;
         for (unsigned int d = 0; d < dim; ++d)
-          cell_size *= box->cell_size[d];
-        cell_size = std::pow(cell_size, 1. / dim);
+          place.cell_size *= box->cell_size[d];
+        place.cell_size = std::pow(place.cell_size, 1. / dim);
       }
+    const auto everywhere =
+      GridTools::compute_bounding_box(mesh.triangulation());
     std::vector<std::shared_ptr<const Material>> materials;
     for (const Body<dim> &body : bodies)
       {
@@ -193,11 +197,19 @@ namespace moraine
           std::find_if(scene.bodies.begin(),
                        scene.bodies.end(),
                        [&](const auto &b) { return b.first == body.name; });
+        Point<dim> middle;
+        for (unsigned int d = 0; d < dim; ++d)
+          middle[d] =
+            0.5 * (std::max(everywhere.lower_bound(d),
+                            body.shape->bounding_box().lower_bound(d)) +
+                   std::min(everywhere.upper_bound(d),
+                            body.shape->bounding_box().upper_bound(d)));
+        place.middle = point_in_space(middle);
         for (const auto &[name, material] : scene.materials)
           if (parameters->second.material == name ||
               scene.materials.size() == 1)
             materials.push_back(scene.strength_reduction.reduced(
-              name, make_material(material, "Materials/" + name, cell_size)));
+              name, make_material(material, "Materials/" + name, place)));
       }
     return materials;
   }

@@ -418,9 +418,8 @@ namespace moraine
     for (const auto &[name, material] : materials)
       {
         material_names.push_back(name);
-        for (const char *key : {"Young modulus", "Poisson ratio"})
-          input.require("Materials/" + name, key);
-        if (material.softening_length > 0 && !mesh.is_box())
+        if (!mesh.is_box() && Utilities::string_to_double(
+                                material.texts.at("Softening length")) > 0)
           reject("Materials/" + name,
                  "Softening length",
                  input.get("Materials/" + name, "Softening length", ""),

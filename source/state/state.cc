@@ -62,11 +62,12 @@ namespace moraine
       densities.push_back(material->density());
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
-        double            *values    = points.values(p);
-        const unsigned int body      = points.body(p);
-        const auto         variables = materials[body]->internal_variables();
-        for (unsigned int v = 0; v < variables.size(); ++v)
-          state_fields.internal[body][v].store(variables[v].initial, values);
+        double            *values = points.values(p);
+        const unsigned int body   = points.body(p);
+        const auto         internal =
+          materials[body]->internal_at(point_in_space(points.position(p)));
+        for (unsigned int v = 0; v < internal.size(); ++v)
+          state_fields.internal[body][v].store(internal[v], values);
         if (measure == StrainMeasure::small)
           continue;
         state_fields.F.store(unit_symmetric_tensor<dim>(), values);
@@ -82,11 +83,9 @@ namespace moraine
   State<dim>::set_initial_stress(const unsigned int           p,
                                  const SymmetricTensor<2, 3> &stress)
   {
-    const Material     &material = *materials[points.body(p)];
-    double             *values   = points.values(p);
-    std::vector<double> internal;
-    for (const InternalVariable &variable : material.internal_variables())
-      internal.push_back(variable.initial);
+    const Material &material = *materials[points.body(p)];
+    double         *values   = points.values(p);
+    const auto      internal = state_fields.internal_of(points.body(p), values);
     points.stress_field().store(stress, values);
     if (!material.is_isotropic())
       return stress_unstrained(material, measure, stress, internal);

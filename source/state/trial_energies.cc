@@ -79,7 +79,11 @@ namespace moraine
     AssertThrow(isotropic, ExcNotImplemented());
     const Material &material =
       state.material(state.material_points().body(block.points[begin]));
-    stiffness  = material.elastic_stiffness();
+    stiffness.assign(points.size(), material.elastic_stiffness());
+    for (unsigned int i = 0;
+         i < points.size() && !material.has_uniform_stiffness();
+         ++i)
+      stiffness[i] = material.elastic_stiffness(&internal[i * n_internal]);
     dissipates = material.dissipates();
     energy_points.resize(points.size());
     if (measure == StrainMeasure::small)
@@ -88,12 +92,11 @@ namespace moraine
         return;
       }
     find_finite_energies(state, block, begin);
-    elastic_strains.resize(2 * points.size());
     stored.resize(2 * points.size());
     for (unsigned int i = 0; i < points.size(); ++i)
-      elastic_strains[2 * i + 1] = answers[i].strain;
-    material.stored_energies(ArrayView<const Tensor<1, 3>>(
-                               elastic_strains.data(), elastic_strains.size()),
+      elastic_points[2 * i + 1] = {answers[i].strain, answers[i].internal};
+    material.stored_energies(ArrayView<const ElasticPoint>(
+                               elastic_points.data(), elastic_points.size()),
                              ArrayView<double>(stored.data(), stored.size()));
     for (unsigned int i = 0; i < points.size(); ++i)
       {
@@ -135,9 +138,9 @@ namespace moraine
         EnergyPoint &at = energy_points[i];
         at.stress = set.stress_field()(set.values(block.points[begin + i]));
         const SymmetricTensor<2, 3> &end    = points[i].stress;
-        const SymmetricTensor<2, 3>  strain = stiffness.strain_of(end);
+        const SymmetricTensor<2, 3>  strain = stiffness[i].strain_of(end);
         const SymmetricTensor<2, 3>  start_strain =
-          stiffness.strain_of(at.stress);
+          stiffness[i].strain_of(at.stress);
         at.energies = {0.5 * (at.stress * start_strain),
                        0.5 * (end * strain),
                        0.};
@@ -161,7 +164,7 @@ namespace moraine
                                          const unsigned int       begin)
   {
     const auto &set = state.material_points();
-    elastic_strains.resize(2 * points.size());
+    elastic_points.resize(2 * points.size());
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const unsigned int p      = block.points[begin + i];
@@ -171,8 +174,9 @@ namespace moraine
         const Tensor<1, 3> start =
           spectrum<dim>(state.fields().b(values)).values;
         for (unsigned int A = 0; A < 3; ++A)
-          elastic_strains[2 * i][A] = 0.5 * std::log(start[A]);
-        at.energies.dissipated = 0;
+          elastic_points[2 * i].strain[A] = 0.5 * std::log(start[A]);
+        elastic_points[2 * i].internal = answers[i].internal;
+        at.energies.dissipated         = 0;
         if (!dissipates)
           continue;
         const Tensor<2, dim> dF =
@@ -194,7 +198,7 @@ namespace moraine
   {
     if (!dissipates)
       return points[i].stress;
-    const Tensor<2, 3> elastic = elastic_part(stiffness, answers[i].tangent);
+    const Tensor<2, 3> elastic = elastic_part(stiffness[i], answers[i].tangent);
     Tensor<2, 3>       plastic = -elastic;
     for (unsigned int A = 0; A < 3; ++A)
       plastic[A][A] += 1;

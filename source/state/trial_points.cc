@@ -144,11 +144,11 @@ namespace moraine
                                         const unsigned int       begin)
   {
     means.parts.resize(points.size());
-    const LameConstants C =
-      state.material(state.material_points().body(block.points[begin]))
-        .elastic_stiffness();
     for (unsigned int i = 0; i < points.size(); ++i)
-      means.parts[i] = state.mean_part(block.points[begin + i], C);
+      {
+        const unsigned int p = block.points[begin + i];
+        means.parts[i]       = state.mean_part(p, elastic_stiffness(state, p));
+      }
   }
 
 
@@ -263,15 +263,18 @@ namespace moraine
                               const StencilBlock<dim> &block,
                               const unsigned int       begin)
   {
-    const auto         &set = state.material_points();
-    const LameConstants C =
-      state.material(set.body(block.points[begin])).elastic_stiffness();
+    const auto     &set        = state.material_points();
+    const Material &material   = state.material(set.body(block.points[begin]));
+    const bool      is_uniform = material.has_uniform_stiffness();
+    LameConstants   C          = material.elastic_stiffness();
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const unsigned int p  = block.points[begin + i];
         TrialPoint        &at = points[i];
-        at.J_increment        = 1;
-        at.weight = block.share(begin + i) * state.integration_volume(p);
+        if (!is_uniform)
+          C = material.elastic_stiffness(&internal[i * n_internal]);
+        at.J_increment = 1;
+        at.weight      = block.share(begin + i) * state.integration_volume(p);
         at.principal =
           spectrum<dim>(C.strain_of(set.stress_field()(set.values(p))) +
                         symmetric_part(at.gradient));

@@ -45,16 +45,17 @@ namespace moraine
     }
 
   private:
-    /** Give a cell the mean of bodies with these @p volumes, if it has any. */
+    /** Give a cell the mean of its points, if it has any, from sums over them.
+     */
     void
     take_mean(const State<dim>          &state,
               const unsigned int         cell,
-              const std::vector<double> &volumes);
+              const std::vector<double> &sums);
 
     /** Of active cells of this rank. Collective. */
     void
     update_cells_without_points(const State<dim>  &state,
-                                const unsigned int n_bodies);
+                                const unsigned int n_sums);
 
     std::vector<LameConstants> stiffness;
     std::vector<double>        densities;

@@ -4,7 +4,7 @@
 #ifndef moraine_material_linear_elastic_h
 #define moraine_material_linear_elastic_h
 
-#include <moraine/material/material.h>
+#include <moraine/material/material_input.h>
 
 namespace moraine
 {
@@ -26,9 +26,12 @@ namespace moraine
     bool
     is_linear() const override
     {
-      return true;
+      return has_uniform_stiffness();
     }
   };
+
+  MaterialModel
+  linear_elastic_model();
 } // namespace moraine
 
 #endif

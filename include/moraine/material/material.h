@@ -5,6 +5,7 @@
 #define moraine_material_material_h
 
 #include <moraine/core/step_time.h>
+#include <moraine/material/parameter.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/exceptions.h>
@@ -60,15 +61,6 @@ namespace moraine
     finite
   };
 
-  /** A number that a material keeps at each point from step to step. It becomes
-   * a field of the points and an array of the output with this name. */
-  struct InternalVariable
-  {
-    std::string name;
-    std::string unit;
-    double      initial = 0; ///< before the first step
-  };
-
   /**
    * What an isotropic material is asked at one point, and its answer, in the
    * principal directions of the trial elastic strain, which stress and elastic
@@ -92,6 +84,13 @@ namespace moraine
 
     /** Out: @f$D_{AB} = \partial\tau_A/\partial\varepsilon^{tr}_B@f$. */
     dealii::Tensor<2, 3> tangent;
+  };
+
+  /** A point of an isotropic material. */
+  struct ElasticPoint
+  {
+    dealii::Tensor<1, 3> strain; ///< principal elastic strains
+    const double        *internal;
   };
 
   /** Input and output of an anisotropic material at one point. */
@@ -161,10 +160,46 @@ namespace moraine
       return {};
     }
 
-    /** The elastic stiffness, by which boundaries scale their enforcement; if
-     * it is not isotropic, an isotropic one as stiff as its stiffest. */
+    /** Their values before the first step at @p x. @throws InputError where
+     * one is not allowed. */
+    std::vector<double>
+    internal_at(const dealii::Point<3> &x) const
+    {
+      std::vector<double> values;
+      for (const InternalVariable &variable : internal_variables())
+        values.push_back(variable.initial_at ? variable.initial_at(x) :
+                                               variable.initial);
+      return values;
+    }
+
+    /** Whether elements of degree 1 may lock: plastic flow keeps the volume or
+     * ties it to the shear, or Poisson's ratio is above 0.4. */
+    bool
+    may_lock() const
+    {
+      const LameConstants C = elastic_stiffness();
+      return dissipates() || C.lambda > (4 + 1e-9) * C.mu;
+    }
+
+    /** The elastic stiffness, of parameters that are fields with their nominal
+     * values; if it is not isotropic, an isotropic one as stiff as its
+     * stiffest. */
     virtual LameConstants
     elastic_stiffness() const = 0;
+
+    /** The same at a point with these @p internal variables. */
+    virtual LameConstants
+    elastic_stiffness(const double * /*internal*/) const
+    {
+      return elastic_stiffness();
+    }
+
+    /** Whether it is the same at all points. */
+    virtual bool
+    has_uniform_stiffness() const
+    {
+      return true;
+    }
 
     /** Mass per initial volume. */
     virtual double
@@ -191,20 +226,18 @@ namespace moraine
     }
 
     /**
-     * The energies per initial volume that elastic strains, given by their
-     * principal values, store, if it is isotropic: @f$\psi =
-     * \frac12\, \varepsilon^e : C : \varepsilon^e@f$ with
-     * elastic_stiffness() unless said otherwise.
+     * The energies per initial volume that elastic strains store, if it is
+     * isotropic: @f$\psi = \frac12\, \varepsilon^e : C : \varepsilon^e@f$
+     * with elastic_stiffness() unless said otherwise.
      */
     virtual void
-    stored_energies(
-      const dealii::ArrayView<const dealii::Tensor<1, 3>> &strains,
-      const dealii::ArrayView<double>                     &energies) const
+    stored_energies(const dealii::ArrayView<const ElasticPoint> &points,
+                    const dealii::ArrayView<double>             &energies) const
     {
-      const LameConstants C = elastic_stiffness();
       for (unsigned int i = 0; i < energies.size(); ++i)
         {
-          const dealii::Tensor<1, 3> &e          = strains[i];
+          const LameConstants         C = elastic_stiffness(points[i].internal);
+          const dealii::Tensor<1, 3> &e = points[i].strain;
           const double                volumetric = e[0] + e[1] + e[2];
           energies[i] =
             0.5 * C.lambda * volumetric * volumetric + C.mu * (e * e);
@@ -238,15 +271,38 @@ namespace moraine
     }
   };
 
+  /** Isotropic elasticity, and the density, as a scene gives them. */
+  struct IsotropicElasticity
+  {
+    Parameter young_modulus; ///< E > 0 [stress]
+    Parameter poisson_ratio; ///< @f$\nu \in (-1, 0.5)@f$
+    double    density = 0;
+    /** What points keep of these and of other parameters of the material. */
+    std::vector<InternalVariable> fields = {};
+  };
+
   /** A material with an isotropic elastic stiffness. */
   class IsotropicMaterial : public Material
   {
   public:
+    /** @param history the internal variables that change in time */
+    IsotropicMaterial(const IsotropicElasticity    &elasticity,
+                      std::vector<InternalVariable> history = {})
+      : elasticity(elasticity)
+      , stiffness(lame_constants(elasticity.young_modulus.nominal(),
+                                 elasticity.poisson_ratio.nominal()))
+      , variables(std::move(history))
+      , n_history(variables.size())
+    {
+      variables.insert(variables.end(),
+                       elasticity.fields.begin(),
+                       elasticity.fields.end());
+    }
+
     /** @param E > 0 [stress], @param nu in (-1, 0.5), @param rho mass density
      */
     IsotropicMaterial(const double E, const double nu, const double rho)
-      : stiffness(lame_constants(E, nu))
-      , rho(rho)
+      : IsotropicMaterial(IsotropicElasticity{E, nu, rho})
     {}
 
     LameConstants
@@ -255,10 +311,30 @@ namespace moraine
       return stiffness;
     }
 
+    LameConstants
+    elastic_stiffness(const double *internal) const override
+    {
+      return stiffness_at(internal);
+    }
+
+    bool
+    has_uniform_stiffness() const override
+    {
+      return !elasticity.young_modulus.is_field() &&
+             !elasticity.poisson_ratio.is_field();
+    }
+
+    /** The history, then the fields. */
+    std::vector<InternalVariable>
+    internal_variables() const override
+    {
+      return variables;
+    }
+
     double
     density() const override
     {
-      return rho;
+      return elasticity.density;
     }
 
     bool
@@ -268,10 +344,26 @@ namespace moraine
     }
 
   protected:
-    const LameConstants stiffness;
+    /** elastic_stiffness() at a point. */
+    LameConstants
+    stiffness_at(const double *internal) const
+    {
+      if (!elasticity.young_modulus.is_field() &&
+          !elasticity.poisson_ratio.is_field())
+        return stiffness;
+      const double *fields = internal + n_history;
+      return lame_constants(elasticity.young_modulus.at(fields),
+                            elasticity.poisson_ratio.at(fields));
+    }
+
+    const IsotropicElasticity elasticity;
+    const LameConstants       stiffness; ///< nominal
 
   private:
-    const double rho;
+    std::vector<InternalVariable> variables;
+
+  protected:
+    const unsigned int n_history; ///< internal variables that are no fields
   };
 } // namespace moraine
 

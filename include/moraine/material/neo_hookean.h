@@ -4,7 +4,7 @@
 #ifndef moraine_material_neo_hookean_h
 #define moraine_material_neo_hookean_h
 
-#include <moraine/material/material.h>
+#include <moraine/material/material_input.h>
 
 namespace moraine
 {
@@ -30,9 +30,8 @@ namespace moraine
             const dealii::ArrayView<PrincipalState> &points) const override;
 
     void
-    stored_energies(
-      const dealii::ArrayView<const dealii::Tensor<1, 3>> &strains,
-      const dealii::ArrayView<double> &energies) const override;
+    stored_energies(const dealii::ArrayView<const ElasticPoint> &points,
+                    const dealii::ArrayView<double> &energies) const override;
 
     bool
     has_small_strain_limit() const override
@@ -40,6 +39,9 @@ namespace moraine
       return false;
     }
   };
+
+  MaterialModel
+  neo_hookean_model();
 } // namespace moraine
 
 #endif

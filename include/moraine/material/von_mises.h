@@ -4,7 +4,7 @@
 #ifndef moraine_material_von_mises_h
 #define moraine_material_von_mises_h
 
-#include <moraine/material/material.h>
+#include <moraine/material/material_input.h>
 
 #include <string>
 #include <utility>
@@ -54,6 +54,11 @@ namespace moraine
              const double                                  rho,
              const std::vector<std::pair<double, double>> &yield_radius);
 
+    /** @param scale multiplies the yield radius */
+    VonMises(const IsotropicElasticity                    &elasticity,
+             const std::vector<std::pair<double, double>> &yield_radius,
+             const Parameter                              &scale = 1);
+
     using Material::respond;
 
     void
@@ -64,13 +69,6 @@ namespace moraine
     dissipates() const override
     {
       return true;
-    }
-
-    /** The accumulated plastic strain @f$\kappa@f$. */
-    std::vector<InternalVariable>
-    internal_variables() const override
-    {
-      return {{"plastic_strain", "-"}};
     }
 
     /** The yield radius is divided at every plastic strain. */
@@ -84,7 +82,7 @@ namespace moraine
              "too steeply with plastic strain";
     }
 
-    /** The yield radius @f$R(\kappa)@f$ [stress]. */
+    /** The yield radius @f$R(\kappa)@f$ [stress], over its scale. */
     double
     yield_radius(const double kappa) const
     {
@@ -108,15 +106,20 @@ namespace moraine
     /**
      * Find the segment in which a return ends.
      *
-     * @param trial_radius @f$\|s^{tr}\|@f$
+     * @param trial_radius @f$\|s^{tr}\|@f$ over the scale of the radius
+     * @param G shear modulus over that scale
      * @param kappa in: at the start of the step, out: at its end; nan if there
      * is no return
      */
     std::vector<Segment>::const_iterator
-    find_return(const double trial_radius, double &kappa) const;
+    find_return(const double trial_radius, const double G, double &kappa) const;
 
     std::vector<Segment> segments;
+    Parameter            scale;
   };
+
+  MaterialModel
+  von_mises_model();
 } // namespace moraine
 
 #endif

@@ -415,6 +415,21 @@ namespace moraine
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;
   };
+
+
+  /** The elastic stiffness of point @p p. */
+  template <int dim>
+  inline LameConstants
+  elastic_stiffness(const State<dim> &state, const unsigned int p)
+  {
+    const PointSet<dim> &points   = state.material_points();
+    const unsigned int   body     = points.body(p);
+    const Material      &material = state.material(body);
+    if (material.has_uniform_stiffness())
+      return material.elastic_stiffness();
+    const auto internal = state.fields().internal_of(body, points.values(p));
+    return material.elastic_stiffness(internal.data());
+  }
 } // namespace moraine
 
 #endif

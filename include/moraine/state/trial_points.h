@@ -42,6 +42,16 @@ namespace moraine
     PointField<dim, double>                        v_0;
     /** Of the material of each body; materials share what has one name. */
     std::vector<std::vector<PointField<dim, double>>> internal;
+
+    /** The internal variables of a point of @p body with these @p values. */
+    std::vector<double>
+    internal_of(const unsigned int body, const double *values) const
+    {
+      std::vector<double> result;
+      for (const auto &field : internal[body])
+        result.push_back(field(values));
+      return result;
+    }
   };
 
   /** A deformation gradient, in plane strain with the third direction. */
@@ -392,11 +402,11 @@ namespace moraine
     std::vector<double>                 internal;
 
     /** After find_energies(). */
-    std::vector<EnergyPoint>          energy_points;
-    std::vector<dealii::Tensor<1, 3>> elastic_strains;
-    std::vector<double>               stored;
-    LameConstants                     stiffness{};
-    bool                              dissipates = false;
+    std::vector<EnergyPoint>   energy_points;
+    std::vector<ElasticPoint>  elastic_points;
+    std::vector<double>        stored;
+    std::vector<LameConstants> stiffness;
+    bool                       dissipates = false;
   };
 } // namespace moraine
 
