@@ -197,13 +197,21 @@ namespace moraine
           std::find_if(scene.bodies.begin(),
                        scene.bodies.end(),
                        [&](const auto &b) { return b.first == body.name; });
+        // A list of points has no shape.
         Point<dim> middle;
         for (unsigned int d = 0; d < dim; ++d)
-          middle[d] =
-            0.5 * (std::max(everywhere.lower_bound(d),
-                            body.shape->bounding_box().lower_bound(d)) +
-                   std::min(everywhere.upper_bound(d),
-                            body.shape->bounding_box().upper_bound(d)));
+          {
+            double lower = everywhere.lower_bound(d),
+                   upper = everywhere.upper_bound(d);
+            if (body.shape)
+              {
+                lower =
+                  std::max(lower, body.shape->bounding_box().lower_bound(d));
+                upper =
+                  std::min(upper, body.shape->bounding_box().upper_bound(d));
+              }
+            middle[d] = 0.5 * (lower + upper);
+          }
         place.middle = point_in_space(middle);
         for (const auto &[name, material] : scene.materials)
           if (parameters->second.material == name ||
