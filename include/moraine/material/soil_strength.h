@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_material_soil_strength_h
+#define moraine_material_soil_strength_h
+
+#include <moraine/material/material.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What a soil is given by. Strengths are tables: pairs of the accumulated
+   * plastic strain @f$\kappa@f$ and a value, linear in between, constant after
+   * the last; the first @f$\kappa@f$ is 0, and they increase.
+   */
+  struct SoilParameters
+  {
+    using Table = std::vector<std::pair<double, double>>;
+
+    double E   = 0; ///< Young's modulus > 0 [stress]
+    double nu  = 0; ///< Poisson's ratio in (-1, 0.5)
+    double rho = 0; ///< mass per initial volume
+
+    Table cohesion       = {{0., 0.}}; ///< c >= 0 [stress]
+    Table friction_angle = {{0., 0.}}; ///< in degrees, c > 0 where it is 0
+    Table dilation_angle = {{0., 0.}}; ///< in degrees, at most the friction's
+
+    /** The largest principal stress >= 0; infinity: no limit. */
+    Table tensile_strength = {{0., 0.}};
+
+    /** The accumulated volumetric plastic strain from which on there is no
+     * dilation angle; infinity: dilation does not end. */
+    double largest_dilation = std::numeric_limits<double>::infinity();
+  };
+
+  /** The strength of a soil at one point, or its derivative. */
+  struct SoilStrength
+  {
+    double cohesion = 0;
+    double sin_phi  = 0; ///< of the friction angle
+    double cos_phi  = 0;
+    double sin_psi  = 0; ///< of the dilation angle
+    double tension  = 0;
+  };
+
+  /** Strengths as functions of the accumulated plastic strain. */
+  class SoilStrengthTables
+  {
+  public:
+    /** A strength and its derivative by @f$\kappa@f$. */
+    struct Row
+    {
+      SoilStrength value, slope;
+    };
+
+    explicit SoilStrengthTables(const SoilParameters &parameters);
+
+    /** The same with c / F, tan(phi) / F, tensile strength / F, and no more
+     * dilation than friction. */
+    SoilStrengthTables
+    over(const double factor) const;
+
+    bool
+    are_constant() const
+    {
+      return segments.size() == 1;
+    }
+
+    /** Whether the dilation angle is the friction angle everywhere. */
+    bool
+    are_associated() const;
+
+    /** The segment that @p kappa >= 0 lies in; at a kink, the later one. */
+    unsigned int
+    segment_at(const double kappa) const;
+
+    /** Where a segment ends; the last does at infinity. */
+    double
+    end_of(const unsigned int segment) const
+    {
+      return segment + 1 < segments.size() ?
+               segments[segment + 1].kappa :
+               std::numeric_limits<double>::infinity();
+    }
+
+    /** At @p kappa, as @p segment says. */
+    Row
+    at(const double kappa, const unsigned int segment) const;
+
+  private:
+    /** Cohesion, angles in radians and tension at its start and their slopes.
+     */
+    struct Segment
+    {
+      double                kappa;
+      std::array<double, 4> value, slope;
+    };
+
+    std::vector<Segment> segments;
+    double               reduction = 1;
+  };
+
+  /** Hooke's law in principal values. */
+  inline dealii::Tensor<1, 3>
+  principal_stress(const LameConstants &C, const dealii::Tensor<1, 3> &strain)
+  {
+    const double mean = C.lambda * (strain[0] + strain[1] + strain[2]);
+    return 2 * C.mu * strain + dealii::Tensor<1, 3>({mean, mean, mean});
+  }
+
+  /** The inverse of principal_stress(). */
+  inline dealii::Tensor<1, 3>
+  principal_strain(const LameConstants &C, const dealii::Tensor<1, 3> &stress)
+  {
+    const double mean = C.lambda / (3 * C.lambda + 2 * C.mu) *
+                        (stress[0] + stress[1] + stress[2]);
+    return (stress - dealii::Tensor<1, 3>({mean, mean, mean})) / (2 * C.mu);
+  }
+
+  /**
+   * The stress that exceeds a yield function only by round-off. A point that
+   * yielded and rests has the elastic tangent, whatever that did to its strain:
+   * a fraction of the strain, and what is lost next to 1 where strains are
+   * logarithms of stretches.
+   *
+   * @param strain the trial strain
+   * @param cohesion the yield function at no stress, or any part of it
+   */
+  inline double
+  yield_tolerance(const LameConstants        &C,
+                  const dealii::Tensor<1, 3> &strain,
+                  const double                cohesion)
+  {
+    const double size =
+      std::abs(strain[0]) + std::abs(strain[1]) + std::abs(strain[2]);
+    return 1e-12 * cohesion +
+           (std::abs(C.lambda) + 2 * C.mu) * (1e-12 * size + 2e-15);
+  }
+
+  /** What a return mapping with strengths at a given @f$\kappa@f$ answers. */
+  struct SoilReturn
+  {
+    bool                 yields = false;
+    dealii::Tensor<1, 3> stress;
+    dealii::Tensor<2, 3> tangent; ///< by the trial strain
+    dealii::Tensor<1, 3> slope;   ///< of the stress by @f$\kappa@f$
+
+    dealii::Tensor<1, 3> elastic; ///< strain
+    dealii::Tensor<1, 3> plastic; ///< strain of the step
+
+    /** Fill what follows from the stress. */
+    void
+    split(const LameConstants &C, const dealii::Tensor<1, 3> &trial_strain)
+    {
+      elastic = principal_strain(C, stress);
+      plastic = trial_strain - elastic;
+    }
+
+    double
+    plastic_strain() const
+    {
+      return std::sqrt(2. / 3.) * plastic.norm();
+    }
+  };
+
+  /**
+   * Close a return: find the @f$\kappa@f$ at which @f$r(\kappa) = \kappa -
+   * \kappa_n - \Delta\kappa(\kappa) = 0@f$, where @f$\Delta\kappa =
+   * \sqrt{2/3}\, \|\varepsilon^{tr} - C^{-1} \sigma(\kappa)\|@f$ and @p give
+   * returns to the strength at @f$\kappa@f$. Segment by segment, so that it is
+   * the first one; in a segment by Newton's method within bounds. The tangent
+   * becomes
+   * @f[
+   *   \frac{\partial\sigma}{\partial\varepsilon} +
+   *   \frac{\partial\sigma}{\partial\kappa} \otimes
+   *   \frac{\partial\Delta\kappa/\partial\varepsilon}
+   *        {1 - \partial\Delta\kappa/\partial\kappa} .
+   * @f]
+   *
+   * @param kappa in: at the start of the step, out: at its end; nan if r does
+   * not grow over a segment before, so that there is no return
+   * @param give a function of @f$\kappa@f$ and segment that answers with a
+   * SoilReturn
+   */
+  template <typename Give>
+  SoilReturn
+  close_return(const SoilStrengthTables &tables,
+               const LameConstants      &C,
+               const Give               &give,
+               double                   &kappa)
+  {
+    constexpr double nan     = std::numeric_limits<double>::quiet_NaN();
+    const double     kappa_n = kappa;
+    unsigned int     segment = tables.segment_at(kappa);
+    SoilReturn       at;
+    double           slope    = 1;
+    const auto       residual = [&](const double k) {
+      at                     = give(k, segment);
+      const double increment = at.plastic_strain();
+      const double along =
+        at.plastic * principal_strain(C, at.slope) * (2. / 3.);
+      slope = increment > 0 ? 1 + along / increment : 1;
+      return k - kappa_n - increment;
+    };
+
+    double low = kappa_n, r_low = residual(low);
+    if (!at.yields)
+      return at;
+    for (;; ++segment)
+      {
+        const double end = tables.end_of(segment);
+        if (std::isinf(end))
+          {
+            r_low = residual(low);
+            kappa = low - r_low;
+            break;
+          }
+        const double r_end = residual(end);
+        if (r_end >= 0)
+          {
+            double high = end, r_high = r_end;
+            kappa = low - r_low * (high - low) / (r_high - r_low);
+            for (unsigned int iteration = 0; iteration < 100; ++iteration)
+              {
+                const double r = residual(kappa);
+                if (std::abs(r) <= 1e-15 * (kappa + at.elastic.norm()))
+                  break;
+                (r < 0 ? low : high) = kappa;
+                kappa -= r / slope;
+                if (!(kappa > low && kappa < high))
+                  kappa = 0.5 * (low + high);
+              }
+            break;
+          }
+        if (!(r_end > r_low))
+          {
+            kappa = nan;
+            break;
+          }
+        low   = end;
+        r_low = r_end;
+      }
+    residual(kappa);
+    const double increment = at.plastic_strain();
+    if (!(slope > 0))
+      kappa = nan;
+    if (std::isnan(kappa))
+      at.stress[0] = at.stress[1] = at.stress[2] = nan;
+    else if (increment > 0)
+      at.tangent +=
+        outer_product(at.slope,
+                      (at.plastic -
+                       principal_strain(C, at.plastic) * at.tangent) *
+                        (2. / 3. / (increment * slope)));
+    return at;
+  }
+} // namespace moraine
+
+#endif

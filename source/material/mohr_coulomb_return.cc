@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/material/mohr_coulomb_return.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A sign is wrong beyond this fraction of the trial stress. */
+    constexpr double sign_tolerance = 1e-12;
+
+    double
+    size_of(const Tensor<1, 3> &stress)
+    {
+      return std::max(std::abs(stress[0]), std::abs(stress[2]));
+    }
+  } // namespace
+
+
+
+  MohrCoulombReturn::MohrCoulombReturn(const SoilStrength  &strength,
+                                       const LameConstants &C)
+    : C(C)
+    , strength(strength)
+  {
+    const double s = strength.sin_phi, t = strength.sin_psi;
+    cohesion    = 2 * strength.cohesion * strength.cos_phi;
+    along_plane = {{1 + s, 1 - s}};
+    const double apex =
+      s > 0 ? cohesion / (2 * s) : std::numeric_limits<double>::infinity();
+    cut_off = strength.tension < apex;
+    limit   = std::min(strength.tension, apex);
+    corner  = cut_off ? ((1 + s) * limit - cohesion) / (1 - s) : limit;
+
+    const auto stress_of = [&](const double x, const double y, const double z) {
+      return principal_stress(C, Tensor<1, 3>({x, y, z}));
+    };
+    planes = {
+      {{Tensor<1, 3>({1 + s, 0, s - 1}), stress_of(1 + t, 0, t - 1), cohesion},
+       {Tensor<1, 3>({0, 1 + s, s - 1}), stress_of(0, 1 + t, t - 1), cohesion},
+       {Tensor<1, 3>({1 + s, s - 1, 0}), stress_of(1 + t, t - 1, 0), cohesion},
+       {Tensor<1, 3>({1, 0, 0}), stress_of(1, 0, 0), limit},
+       {Tensor<1, 3>({0, 1, 0}), stress_of(0, 1, 0), limit}}};
+
+    const Tensor<2, 3> D({{C.lambda + 2 * C.mu, C.lambda, C.lambda},
+                          {C.lambda, C.lambda + 2 * C.mu, C.lambda},
+                          {C.lambda, C.lambda, C.lambda + 2 * C.mu}});
+    tangents[n_regions]                 = D;
+    const unsigned int all[n_linear][3] = {
+      {1, 0, 0}, {2, 0, 1}, {2, 0, 2}, {1, 3, 3}, {2, 3, 0}, {2, 3, 4}};
+    for (unsigned int i = 0; i < n_linear; ++i)
+      {
+        LinearRegion &region = regions[i];
+        region.n_planes      = all[i][0];
+        region.planes        = {{all[i][1], all[i][2]}};
+        const Plane &a = planes[all[i][1]], &b = planes[all[i][2]];
+        if (region.n_planes == 1)
+          region.inverse[0][0] = 1 / (a.normal * a.stress);
+        else
+          region.inverse =
+            invert(Tensor<2, 2>({{a.normal * a.stress, a.normal * b.stress},
+                                 {b.normal * a.stress, b.normal * b.stress}}));
+        tangents[i] = D;
+        for (unsigned int p = 0; p < region.n_planes; ++p)
+          for (unsigned int q = 0; q < region.n_planes; ++q)
+            tangents[i] -= region.inverse[p][q] *
+                           outer_product(planes[region.planes[p]].stress,
+                                         planes[region.planes[q]].normal * D);
+      }
+  }
+
+
+
+  Tensor<1, 2>
+  MohrCoulombReturn::subtract(const LinearRegion &region,
+                              Tensor<1, 3>       &stress) const
+  {
+    const Plane &a = planes[region.planes[0]], &b = planes[region.planes[1]];
+    Tensor<1, 2> multipliers;
+    const double excess = a.normal * stress - a.strength;
+    if (region.n_planes == 1)
+      {
+        multipliers[0] = region.inverse[0][0] * excess;
+        stress -= multipliers[0] * a.stress;
+      }
+    else
+      {
+        multipliers = region.inverse *
+                      Tensor<1, 2>({excess, b.normal * stress - b.strength});
+        stress -= multipliers[0] * a.stress + multipliers[1] * b.stress;
+      }
+    return multipliers;
+  }
+
+
+
+  double
+  MohrCoulombReturn::violation(const Region        region,
+                               const Tensor<1, 3> &trial,
+                               Tensor<1, 3>       &stress) const
+  {
+    if (region < n_linear)
+      {
+        stress                         = trial;
+        const Tensor<1, 2> multipliers = subtract(regions[region], stress);
+        return std::max(std::max(yield_function(stress),
+                                 -2 * C.mu *
+                                   std::min(multipliers[0], multipliers[1])),
+                        std::max(stress[1] - stress[0], stress[2] - stress[1]));
+      }
+    stress = Tensor<1, 3>({limit,
+                           region == corner_23 ? corner : limit,
+                           region == vertex ? limit : corner});
+    return violation_at_point(region, trial, stress);
+  }
+
+
+
+  double
+  MohrCoulombReturn::violation_at_point(const Region        region,
+                                        const Tensor<1, 3> &trial,
+                                        const Tensor<1, 3> &stress) const
+  {
+    const Tensor<1, 3> e = 2 * C.mu * principal_strain(C, trial - stress);
+    const double       t = strength.sin_psi;
+    // Inside of the flows of f_13 and f_23, and of f_13 and f_12.
+    const double in_12 = (1 - t) * (e[0] + e[1]) + (1 + t) * e[2];
+    const double in_23 = (1 - t) * e[0] + (1 + t) * (e[1] + e[2]);
+    switch (region)
+      {
+        case corner_12:
+          return -std::min(std::min(e[0], e[1]), std::min(-e[2], in_12));
+        case corner_23:
+          return -std::min(std::min(-e[1], -e[2]), in_23);
+        default:
+          return cut_off ? -std::min(std::min(e[0], e[1]), e[2]) :
+                           -std::min(in_12, in_23);
+      }
+  }
+
+
+
+  MohrCoulombReturn::Region
+  MohrCoulombReturn::project(Tensor<1, 3> &stress) const
+  {
+    const Tensor<1, 3> trial     = stress;
+    const double       size      = size_of(trial) + cohesion;
+    const double       tolerance = sign_tolerance * size;
+    Region             found     = plane;
+    double             least     = violation(plane, trial, stress);
+    for (unsigned int i = edge_12; i < n_regions && least > tolerance; ++i)
+      if (cut_off || i < tension || i == vertex)
+        {
+          const Region region = static_cast<Region>(i);
+          Tensor<1, 3> candidate;
+          const double wrong = violation(region, trial, candidate);
+          if (wrong < least)
+            {
+              found  = region;
+              least  = wrong;
+              stress = candidate;
+            }
+        }
+    // What round-off left of a trial stress far away.
+    if (found < n_linear && size_of(stress) < 1e-3 * size)
+      subtract(regions[found], stress);
+    return found;
+  }
+
+
+
+  Tensor<1, 3>
+  MohrCoulombReturn::derivative(const Region        region,
+                                const Tensor<1, 3> &trial,
+                                const Tensor<1, 3> &stress,
+                                const SoilStrength &change) const
+  {
+    const double s = strength.sin_phi, ds = change.sin_phi;
+    const double dk = 2 * (change.cohesion * strength.cos_phi +
+                           strength.cohesion * change.cos_phi);
+    if (region >= n_linear)
+      {
+        const double d_limit =
+          cut_off ? change.tension : (dk - 2 * limit * ds) / (2 * s);
+        const double d_corner =
+          ((1 + s) * d_limit + (limit + corner) * ds - dk) / (1 - s);
+        return Tensor<1, 3>({d_limit,
+                             region == corner_23 ? d_corner : d_limit,
+                             region == vertex ? d_limit : d_corner});
+      }
+
+    // F ds = dh - dF s with ds = -D (dG^T lambda + G^T d lambda)
+    Tensor<1, 3>       again  = trial;
+    const Tensor<1, 2> lambda = subtract(regions[region], again);
+    const auto         change_of =
+      [&](const unsigned int plane, const double rate, const double unit) {
+        Tensor<1, 3> a;
+        if (plane < 3)
+          for (unsigned int A = 0; A < 3; ++A)
+            a[A] = A == (plane == 1 ? 0 : plane == 2 ? 2 : 1) ? 0. : rate;
+        return a * unit;
+      };
+    const LinearRegion &r = regions[region];
+    Tensor<1, 3>        result;
+    for (unsigned int p = 0; p < r.n_planes; ++p)
+      result -=
+        principal_stress(C, change_of(r.planes[p], change.sin_psi, lambda[p]));
+    Tensor<1, 2> rest;
+    for (unsigned int p = 0; p < r.n_planes; ++p)
+      {
+        const unsigned int i = r.planes[p];
+        const double       dh =
+          i < 3 ? dk - change_of(i, ds, 1) * stress : change.tension;
+        rest[p] = dh - planes[i].normal * result;
+      }
+    rest = r.inverse * rest;
+    for (unsigned int p = 0; p < r.n_planes; ++p)
+      result += rest[p] * planes[r.planes[p]].stress;
+    return result;
+  }
+} // namespace moraine
