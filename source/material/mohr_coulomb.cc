@@ -21,19 +21,63 @@ namespace moraine
 
 
 
+    /** nan if the first is. */
+    double
+    largest_of(const Tensor<1, 3> &a)
+    {
+      return std::max(std::max(a[0], a[1]), a[2]);
+    }
+
+
+
+    double
+    least_of(const Tensor<1, 3> &a)
+    {
+      return std::min(std::min(a[0], a[1]), a[2]);
+    }
+
+
+
+    using Order = std::array<unsigned int, 3>;
+
     /** Indices of the values from the largest to the least; of any values if
      * some are nan. */
-    std::array<unsigned int, 3>
+    Order
     descending(const Tensor<1, 3> &a)
     {
       // Ranks without branches, which would be foreseen badly.
       const unsigned int a_b = a[0] < a[1], a_c = a[0] < a[2],
                          b_c = a[1] < a[2];
-      std::array<unsigned int, 3> order{{0, 1, 2}};
+      Order order{{0, 1, 2}};
       order[a_b + a_c]     = 0;
       order[1 - a_b + b_c] = 1;
       order[2 - a_c - b_c] = 2;
       return order;
+    }
+
+
+
+    Tensor<1, 3>
+    permuted(const Tensor<1, 3> &a, const Order &order)
+    {
+      return Tensor<1, 3>({a[order[0]], a[order[1]], a[order[2]]});
+    }
+
+
+
+    /** Write the answer to sorted strains. */
+    void
+    put(const Tensor<1, 3> &stress,
+        const Tensor<2, 3> &tangent,
+        const Order        &order,
+        PrincipalState     &point)
+    {
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          point.stress[order[a]] = stress[a];
+          for (unsigned int b = 0; b < 3; ++b)
+            point.tangent[order[a]][order[b]] = tangent[a][b];
+        }
     }
   } // namespace
 
@@ -78,13 +122,11 @@ namespace moraine
   MohrCoulomb::yield_function(const Tensor<1, 3> &stress,
                               const double       *internal) const
   {
-    const auto   order = descending(stress);
-    Tensor<1, 3> sorted;
-    for (unsigned int a = 0; a < 3; ++a)
-      sorted[a] = stress[order[a]];
-    const auto strength =
+    const double largest = largest_of(stress), least = least_of(stress);
+    const auto   strength =
       strength_at(internal, strengths.segment_at(internal[0])).value;
-    return MohrCoulombReturn(strength, stiffness).yield_function(sorted);
+    return MohrCoulombReturn(strength, stiffness)
+      .yield_function(largest, least);
   }
 
 
@@ -100,7 +142,7 @@ namespace moraine
     answer.tangent = planes.elastic_tangent();
     answer.elastic = trial_strain;
     answer.yields =
-      !(planes.yield_function(trial) <=
+      !(planes.yield_function(trial[0], trial[2]) <=
         yield_tolerance(stiffness, trial_strain, strength.value.cohesion));
     if (!answer.yields)
       return answer;
@@ -194,44 +236,46 @@ namespace moraine
 
 
   void
+  MohrCoulomb::respond_constant(PrincipalState &point) const
+  {
+    Tensor<1, 3> &strain = point.strain;
+    point.stress         = principal_stress(stiffness, strain);
+    const double largest = largest_of(point.stress),
+                 least   = least_of(point.stress);
+    const double f       = constant.yield_function(largest, least);
+    if (f <= 0 ||
+        f <= yield_tolerance(stiffness, strain, constant.cohesion_term()))
+      {
+        point.tangent = constant.elastic_tangent();
+        return;
+      }
+    const auto          order   = descending(strain);
+    Tensor<1, 3>        stress  = permuted(point.stress, order);
+    const Tensor<2, 3> &tangent = constant.tangent(constant.project(stress));
+    put(stress, tangent, order, point);
+    const Tensor<1, 3> elastic = principal_strain(stiffness, point.stress);
+    point.internal[0] += std::sqrt(2. / 3.) * (strain - elastic).norm();
+    strain = elastic;
+  }
+
+
+
+  void
   MohrCoulomb::respond(const StepTime &,
                        const ArrayView<PrincipalState> &points) const
   {
     const bool simple = strengths.are_constant() && !dilation_ends();
     for (PrincipalState &point : points)
-      {
-        const auto   order = descending(point.strain);
-        Tensor<1, 3> strain;
-        for (unsigned int a = 0; a < 3; ++a)
-          strain[a] = point.strain[order[a]];
-
-        SoilReturn          answer;
-        const Tensor<2, 3> *tangent = &answer.tangent;
-        if (simple)
-          {
-            answer.stress = principal_stress(stiffness, strain);
-            answer.yields =
-              !(constant.yield_function(answer.stress) <=
-                yield_tolerance(stiffness, strain, constant.cohesion_term()));
-            tangent = &constant.elastic_tangent();
-            if (answer.yields)
-              {
-                tangent = &constant.tangent(constant.project(answer.stress));
-                answer.split(stiffness, strain);
-                point.internal[0] += answer.plastic_strain();
-              }
-          }
-        else
-          answer = respond_sorted(strain, point.internal);
-
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            point.stress[order[a]] = answer.stress[a];
-            if (answer.yields)
-              point.strain[order[a]] = answer.elastic[a];
-            for (unsigned int b = 0; b < 3; ++b)
-              point.tangent[order[a]][order[b]] = (*tangent)[a][b];
-          }
-      }
+      if (simple)
+        respond_constant(point);
+      else
+        {
+          const auto       order = descending(point.strain);
+          const SoilReturn answer =
+            respond_sorted(permuted(point.strain, order), point.internal);
+          put(answer.stress, answer.tangent, order, point);
+          for (unsigned int a = 0; a < 3; ++a)
+            point.strain[order[a]] = answer.elastic[a];
+        }
   }
 } // namespace moraine

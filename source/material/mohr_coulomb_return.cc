@@ -77,30 +77,30 @@ namespace moraine
 
 
 
-  Tensor<1, 2>
+  inline Tensor<1, 2>
   MohrCoulombReturn::subtract(const LinearRegion &region,
                               Tensor<1, 3>       &stress) const
   {
     const Plane &a = planes[region.planes[0]], &b = planes[region.planes[1]];
+    const auto  &M = region.inverse;
+    double       f = -a.strength, g = -b.strength;
+    for (unsigned int A = 0; A < 3; ++A)
+      {
+        f += a.normal[A] * stress[A];
+        g += b.normal[A] * stress[A];
+      }
+    // With one plane the rest of the inverse is 0.
     Tensor<1, 2> multipliers;
-    const double excess = a.normal * stress - a.strength;
-    if (region.n_planes == 1)
-      {
-        multipliers[0] = region.inverse[0][0] * excess;
-        stress -= multipliers[0] * a.stress;
-      }
-    else
-      {
-        multipliers = region.inverse *
-                      Tensor<1, 2>({excess, b.normal * stress - b.strength});
-        stress -= multipliers[0] * a.stress + multipliers[1] * b.stress;
-      }
+    multipliers[0] = M[0][0] * f + M[0][1] * g;
+    multipliers[1] = M[1][0] * f + M[1][1] * g;
+    for (unsigned int A = 0; A < 3; ++A)
+      stress[A] -= multipliers[0] * a.stress[A] + multipliers[1] * b.stress[A];
     return multipliers;
   }
 
 
 
-  double
+  inline double
   MohrCoulombReturn::violation(const Region        region,
                                const Tensor<1, 3> &trial,
                                Tensor<1, 3>       &stress) const
@@ -109,7 +109,7 @@ namespace moraine
       {
         stress                         = trial;
         const Tensor<1, 2> multipliers = subtract(regions[region], stress);
-        return std::max(std::max(yield_function(stress),
+        return std::max(std::max(yield_function(stress[0], stress[2]),
                                  -2 * C.mu *
                                    std::min(multipliers[0], multipliers[1])),
                         std::max(stress[1] - stress[0], stress[2] - stress[1]));
@@ -122,7 +122,7 @@ namespace moraine
 
 
 
-  double
+  inline double
   MohrCoulombReturn::violation_at_point(const Region        region,
                                         const Tensor<1, 3> &trial,
                                         const Tensor<1, 3> &stress) const
@@ -152,21 +152,64 @@ namespace moraine
     const Tensor<1, 3> trial     = stress;
     const double       size      = size_of(trial) + cohesion;
     const double       tolerance = sign_tolerance * size;
-    Region             found     = plane;
-    double             least     = violation(plane, trial, stress);
-    for (unsigned int i = edge_12; i < n_regions && least > tolerance; ++i)
-      if (cut_off || i < tension || i == vertex)
-        {
-          const Region region = static_cast<Region>(i);
-          Tensor<1, 3> candidate;
-          const double wrong = violation(region, trial, candidate);
-          if (wrong < least)
+
+    // As in violation(), written out: it is the answer most often.
+    const Plane &f = planes[plane];
+    const double multiplier =
+      regions[plane].inverse[0][0] *
+      (along_plane[0] * trial[0] - along_plane[1] * trial[2] - cohesion);
+    for (unsigned int A = 0; A < 3; ++A)
+      stress[A] -= multiplier * f.stress[A];
+    const double beyond_12      = stress[1] - stress[0],
+                 beyond_23      = stress[2] - stress[1],
+                 beyond_tension = std::max(stress[0] - limit, -multiplier);
+    double least = std::max(beyond_tension, std::max(beyond_12, beyond_23));
+    Region found = plane;
+    if (!(least <= tolerance))
+      {
+        // Any order would do; the likely ones come first, to save time.
+        static constexpr std::array<std::array<Region, 8>, 3> orders{
+          {{{edge_12,
+             vertex,
+             corner_12,
+             tension_edge,
+             tension_plane,
+             tension,
+             corner_23,
+             edge_23}},
+           {{edge_23,
+             vertex,
+             corner_23,
+             tension_plane,
+             tension,
+             tension_edge,
+             corner_12,
+             edge_12}},
+           {{tension_plane,
+             tension,
+             tension_edge,
+             vertex,
+             corner_12,
+             corner_23,
+             edge_12,
+             edge_23}}}};
+        const bool at_23      = beyond_12 < beyond_23;
+        const bool in_tension = cut_off && beyond_tension == least;
+        for (const Region region : orders[in_tension ? 2 : at_23])
+          if (cut_off || region < tension || region == vertex)
             {
-              found  = region;
-              least  = wrong;
-              stress = candidate;
+              Tensor<1, 3> candidate;
+              const double wrong = violation(region, trial, candidate);
+              if (!(wrong >= least))
+                {
+                  found  = region;
+                  least  = wrong;
+                  stress = candidate;
+                }
+              if (least <= tolerance)
+                break;
             }
-        }
+      }
     // What round-off left of a trial stress far away.
     if (found < n_linear && size_of(stress) < 1e-3 * size)
       subtract(regions[found], stress);

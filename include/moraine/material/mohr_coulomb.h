@@ -104,6 +104,10 @@ namespace moraine
       return std::isfinite(largest_dilation);
     }
 
+    /** Answer where strengths are constant and dilation does not end. */
+    void
+    respond_constant(PrincipalState &point) const;
+
     /** Return to @p strength, which changes as said, for sorted strains. */
     SoilReturn
     return_to(const SoilStrengthTables::Row &strength,

@@ -62,13 +62,13 @@ namespace moraine
 
     MohrCoulombReturn(const SoilStrength &strength, const LameConstants &C);
 
-    /** The largest of all functions, at sorted stress. */
+    /** The largest of all functions, of the largest and the least stress. */
     double
-    yield_function(const dealii::Tensor<1, 3> &stress) const
+    yield_function(const double largest, const double least) const
     {
-      return std::max(along_plane[0] * stress[0] - along_plane[1] * stress[2] -
+      return std::max(along_plane[0] * largest - along_plane[1] * least -
                         cohesion,
-                      stress[0] - limit);
+                      largest - limit);
     }
 
     /** -f at no stress, @f$2c\cos\varphi@f$. */

@@ -110,17 +110,24 @@ namespace moraine
   inline dealii::Tensor<1, 3>
   principal_stress(const LameConstants &C, const dealii::Tensor<1, 3> &strain)
   {
-    const double mean = C.lambda * (strain[0] + strain[1] + strain[2]);
-    return 2 * C.mu * strain + dealii::Tensor<1, 3>({mean, mean, mean});
+    const double         mean = C.lambda * (strain[0] + strain[1] + strain[2]);
+    dealii::Tensor<1, 3> stress;
+    for (unsigned int A = 0; A < 3; ++A)
+      stress[A] = 2 * C.mu * strain[A] + mean;
+    return stress;
   }
 
   /** The inverse of principal_stress(). */
   inline dealii::Tensor<1, 3>
   principal_strain(const LameConstants &C, const dealii::Tensor<1, 3> &stress)
   {
-    const double mean = C.lambda / (3 * C.lambda + 2 * C.mu) *
-                        (stress[0] + stress[1] + stress[2]);
-    return (stress - dealii::Tensor<1, 3>({mean, mean, mean})) / (2 * C.mu);
+    const double         bulk_3  = 3 * C.lambda + 2 * C.mu;
+    const double         inverse = 1 / (2 * C.mu * bulk_3);
+    const double         mean = C.lambda * (stress[0] + stress[1] + stress[2]);
+    dealii::Tensor<1, 3> strain;
+    for (unsigned int A = 0; A < 3; ++A)
+      strain[A] = inverse * (bulk_3 * stress[A] - mean);
+    return strain;
   }
 
   /**
