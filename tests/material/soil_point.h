@@ -255,7 +255,7 @@ namespace soil_point
         for (unsigned int i = 0; i < 50; ++i)
           {
             const auto trial = moraine::spectrum<3>(
-              elastic + random.tensor(size * std::pow(10., -(i % 3))));
+              elastic + random.tensor(size * std::pow(0.1, i % 3)));
             const Response at = respond(material, trial.values, variables);
             ASSERT_TRUE(std::isfinite(at.stress.norm()) &&
                         std::isfinite(at.tangent.norm()));
