@@ -51,38 +51,47 @@ namespace moraine
     const Tensor<2, 3> D({{C.lambda + 2 * C.mu, C.lambda, C.lambda},
                           {C.lambda, C.lambda + 2 * C.mu, C.lambda},
                           {C.lambda, C.lambda, C.lambda + 2 * C.mu}});
-    tangents[n_regions]                 = D;
-    const unsigned int all[n_linear][3] = {
-      {1, 0, 0}, {2, 0, 1}, {2, 0, 2}, {1, 3, 3}, {2, 3, 0}, {2, 3, 4}};
-    for (unsigned int i = 0; i < n_linear; ++i)
+    tangents[n_regions]                  = D;
+    const unsigned int all[n_regions][3] = {{1, 0, 0},
+                                            {2, 0, 1},
+                                            {0, 0, 0},
+                                            {2, 3, 4},
+                                            {0, 0, 0},
+                                            {1, 3, 3},
+                                            {2, 3, 0},
+                                            {0, 0, 0},
+                                            {2, 0, 2}};
+    for (unsigned int i = 0; i < n_regions; ++i)
       {
-        LinearRegion &region = regions[i];
-        region.n_planes      = all[i][0];
-        region.planes        = {{all[i][1], all[i][2]}};
+        const unsigned int n = all[i][0];
+        active[i].n_planes   = n;
+        active[i].planes     = {{all[i][1], all[i][2]}};
+        if (n == 0)
+          continue;
         const Plane &a = planes[all[i][1]], &b = planes[all[i][2]];
-        if (region.n_planes == 1)
-          region.inverse[0][0] = 1 / (a.normal * a.stress);
+        if (n == 1)
+          active[i].inverse[0][0] = 1 / (a.normal * a.stress);
         else
-          region.inverse =
+          active[i].inverse =
             invert(Tensor<2, 2>({{a.normal * a.stress, a.normal * b.stress},
                                  {b.normal * a.stress, b.normal * b.stress}}));
         tangents[i] = D;
-        for (unsigned int p = 0; p < region.n_planes; ++p)
-          for (unsigned int q = 0; q < region.n_planes; ++q)
-            tangents[i] -= region.inverse[p][q] *
-                           outer_product(planes[region.planes[p]].stress,
-                                         planes[region.planes[q]].normal * D);
+        for (unsigned int p = 0; p < n; ++p)
+          for (unsigned int q = 0; q < n; ++q)
+            tangents[i] -= active[i].inverse[p][q] *
+                           outer_product(planes[all[i][1 + p]].stress,
+                                         planes[all[i][1 + q]].normal * D);
       }
   }
 
 
 
   inline Tensor<1, 2>
-  MohrCoulombReturn::subtract(const LinearRegion &region,
+  MohrCoulombReturn::subtract(const ActivePlanes &active,
                               Tensor<1, 3>       &stress) const
   {
-    const Plane &a = planes[region.planes[0]], &b = planes[region.planes[1]];
-    const auto  &M = region.inverse;
+    const Plane &a = planes[active.planes[0]], &b = planes[active.planes[1]];
+    const auto  &M = active.inverse;
     double       f = -a.strength, g = -b.strength;
     for (unsigned int A = 0; A < 3; ++A)
       {
@@ -105,10 +114,10 @@ namespace moraine
                                const Tensor<1, 3> &trial,
                                Tensor<1, 3>       &stress) const
   {
-    if (region < n_linear)
+    if (active[region].n_planes > 0)
       {
         stress                         = trial;
-        const Tensor<1, 2> multipliers = subtract(regions[region], stress);
+        const Tensor<1, 2> multipliers = subtract(active[region], stress);
         return std::max(std::max(yield_function(stress[0], stress[2]),
                                  -2 * C.mu *
                                    std::min(multipliers[0], multipliers[1])),
@@ -156,7 +165,7 @@ namespace moraine
     // As in violation(), written out: it is the answer most often.
     const Plane &f = planes[plane];
     const double multiplier =
-      regions[plane].inverse[0][0] *
+      active[plane].inverse[0][0] *
       (along_plane[0] * trial[0] - along_plane[1] * trial[2] - cohesion);
     for (unsigned int A = 0; A < 3; ++A)
       stress[A] -= multiplier * f.stress[A];
@@ -167,52 +176,31 @@ namespace moraine
     Region found = plane;
     if (!(least <= tolerance))
       {
-        // Any order would do; the likely ones come first, to save time.
-        static constexpr std::array<std::array<Region, 8>, 3> orders{
-          {{{edge_12,
-             vertex,
-             corner_12,
-             tension_edge,
-             tension_plane,
-             tension,
-             corner_23,
-             edge_23}},
-           {{edge_23,
-             vertex,
-             corner_23,
-             tension_plane,
-             tension,
-             tension_edge,
-             corner_12,
-             edge_12}},
-           {{tension_plane,
-             tension,
-             tension_edge,
-             vertex,
-             corner_12,
-             corner_23,
-             edge_12,
-             edge_23}}}};
-        const bool at_23      = beyond_12 < beyond_23;
-        const bool in_tension = cut_off && beyond_tension == least;
-        for (const Region region : orders[in_tension ? 2 : at_23])
-          if (cut_off || region < tension || region == vertex)
-            {
-              Tensor<1, 3> candidate;
-              const double wrong = violation(region, trial, candidate);
-              if (!(wrong >= least))
-                {
-                  found  = region;
-                  least  = wrong;
-                  stress = candidate;
-                }
-              if (least <= tolerance)
-                break;
-            }
+        // Any order would do. To save time: around, first the likely one.
+        constexpr unsigned int n        = n_regions - 1;
+        const bool             tensile  = cut_off && beyond_tension == least;
+        const bool             forwards = !tensile && beyond_12 > beyond_23;
+        for (unsigned int i = 0; i < n && !(least <= tolerance); ++i)
+          {
+            const unsigned int step =
+              forwards ? i : (tensile ? tension_plane : edge_23) + n - 1 - i;
+            const Region region = static_cast<Region>(1 + step % n);
+            if (!cut_off && region > edge_12 && region < edge_23 &&
+                region != vertex)
+              continue;
+            Tensor<1, 3> candidate;
+            const double wrong = violation(region, trial, candidate);
+            if (!(wrong >= least))
+              {
+                found  = region;
+                least  = wrong;
+                stress = candidate;
+              }
+          }
       }
     // What round-off left of a trial stress far away.
-    if (found < n_linear && size_of(stress) < 1e-3 * size)
-      subtract(regions[found], stress);
+    if (active[found].n_planes > 0 && size_of(stress) < 1e-3 * size)
+      subtract(active[found], stress);
     return found;
   }
 
@@ -227,7 +215,7 @@ namespace moraine
     const double s = strength.sin_phi, ds = change.sin_phi;
     const double dk = 2 * (change.cohesion * strength.cos_phi +
                            strength.cohesion * change.cos_phi);
-    if (region >= n_linear)
+    if (active[region].n_planes == 0)
       {
         const double d_limit =
           cut_off ? change.tension : (dk - 2 * limit * ds) / (2 * s);
@@ -238,30 +226,25 @@ namespace moraine
                              region == vertex ? d_limit : d_corner});
       }
 
-    // F ds = dh - dF s with ds = -D (dG^T lambda + G^T d lambda)
+    // F ds = dh - dF s, where ds = -D (dG^T lambda + G^T d lambda).
     Tensor<1, 3>       again  = trial;
-    const Tensor<1, 2> lambda = subtract(regions[region], again);
-    const auto         change_of =
-      [&](const unsigned int plane, const double rate, const double unit) {
-        Tensor<1, 3> a;
-        if (plane < 3)
-          for (unsigned int A = 0; A < 3; ++A)
-            a[A] = A == (plane == 1 ? 0 : plane == 2 ? 2 : 1) ? 0. : rate;
-        return a * unit;
-      };
-    const LinearRegion &r = regions[region];
-    Tensor<1, 3>        result;
+    const Tensor<1, 2> lambda = subtract(active[region], again);
+    const auto         ones   = [&](const unsigned int plane) {
+      return plane == 0 ? Tensor<1, 3>({1, 0, 1}) :
+                       plane == 1 ? Tensor<1, 3>({0, 1, 1}) :
+                       plane == 2 ? Tensor<1, 3>({1, 1, 0}) :
+                                    Tensor<1, 3>();
+    };
+    const auto  &r = active[region];
+    Tensor<1, 3> result;
     for (unsigned int p = 0; p < r.n_planes; ++p)
       result -=
-        principal_stress(C, change_of(r.planes[p], change.sin_psi, lambda[p]));
+        lambda[p] * change.sin_psi * principal_stress(C, ones(r.planes[p]));
     Tensor<1, 2> rest;
     for (unsigned int p = 0; p < r.n_planes; ++p)
-      {
-        const unsigned int i = r.planes[p];
-        const double       dh =
-          i < 3 ? dk - change_of(i, ds, 1) * stress : change.tension;
-        rest[p] = dh - planes[i].normal * result;
-      }
+      rest[p] = (r.planes[p] < 3 ? dk : change.tension) -
+                ds * (ones(r.planes[p]) * stress) -
+                planes[r.planes[p]].normal * result;
     rest = r.inverse * rest;
     for (unsigned int p = 0; p < r.n_planes; ++p)
       result += rest[p] * planes[r.planes[p]].stress;

@@ -7,6 +7,7 @@
 #include <moraine/material/mohr_coulomb.h>
 
 #include <algorithm>
+#include <bitset>
 #include <map>
 
 #include "soil_point.h"
@@ -60,7 +61,7 @@ namespace
     result.cohesion         = {{0, 10}, {0.01, 12}, {0.05, 2}};
     result.friction_angle   = {{0, 30}, {0.02, 33}, {0.06, 25}};
     result.dilation_angle   = {{0, 10}, {0.04, 0}};
-    result.tensile_strength = {{0, 4}, {0.01, 0}};
+    result.tensile_strength = {{0, 4}, {0.01, 0}, {0.05, 6}};
     return result;
   }
 
@@ -116,11 +117,11 @@ namespace
     for (unsigned int set = 0; set < (1u << n); ++set)
       {
         std::vector<Plane> active;
+        if (std::bitset<9>(set).count() > 3)
+          continue;
         for (unsigned int i = 0; i < n; ++i)
           if (set & (1u << i))
             active.push_back(planes[i]);
-        if (active.size() > 3)
-          continue;
         // Absent ones are identities.
         Tensor<2, 3> A = unit_symmetric_tensor<3>();
         Tensor<1, 3> h;

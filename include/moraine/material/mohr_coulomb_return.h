@@ -43,18 +43,18 @@ namespace moraine
   class MohrCoulombReturn
   {
   public:
-    /** Plane and edges; with a cut-off a plane and edges of it; points. */
+    /** Regions, but for the first as they follow one another around it. */
     enum Region : unsigned int
     {
       plane,         ///< @f$f_{13}@f$
       edge_12,       ///< @f$f_{13}, f_{23}@f$: @f$\sigma_1 = \sigma_2@f$
-      edge_23,       ///< @f$f_{13}, f_{12}@f$: @f$\sigma_2 = \sigma_3@f$
+      corner_12,     ///< @f$r_1, r_2, f_{13}, f_{23}@f$
+      tension_edge,  ///< @f$r_1, r_2@f$
+      vertex,        ///< @f$r_1, r_2, r_3@f$, or the apex: all
       tension,       ///< @f$r_1@f$
       tension_plane, ///< @f$r_1, f_{13}@f$
-      tension_edge,  ///< @f$r_1, r_2@f$
-      corner_12,     ///< @f$r_1, r_2, f_{13}, f_{23}@f$
       corner_23,     ///< @f$r_1, f_{13}, f_{12}@f$
-      vertex,        ///< @f$r_1, r_2, r_3@f$, or the apex: all
+      edge_23,       ///< @f$f_{13}, f_{12}@f$: @f$\sigma_2 = \sigma_3@f$
       n_regions
     };
 
@@ -104,8 +104,6 @@ namespace moraine
                const SoilStrength         &change) const;
 
   private:
-    static constexpr unsigned int n_linear = corner_12;
-
     /** The normal, D times the flow, and the strength h of f and r. */
     struct Plane
     {
@@ -113,8 +111,8 @@ namespace moraine
       double               strength;
     };
 
-    /** A region where one or two planes are active. */
-    struct LinearRegion
+    /** One or two active planes; none: a point. */
+    struct ActivePlanes
     {
       unsigned int                n_planes;
       std::array<unsigned int, 2> planes;
@@ -133,9 +131,9 @@ namespace moraine
                        const dealii::Tensor<1, 3> &trial,
                        const dealii::Tensor<1, 3> &stress) const;
 
-    /** Subtract what takes @p stress to the planes of a region. */
+    /** Return to active planes. @return the multipliers */
     dealii::Tensor<1, 2>
-    subtract(const LinearRegion &region, dealii::Tensor<1, 3> &stress) const;
+    subtract(const ActivePlanes &active, dealii::Tensor<1, 3> &stress) const;
 
     LameConstants                                   C;
     SoilStrength                                    strength;
@@ -145,7 +143,7 @@ namespace moraine
     bool                                            cut_off;
     double                                          corner; ///< least stress
     std::array<Plane, 5>                            planes;
-    std::array<LinearRegion, n_linear>              regions;
+    std::array<ActivePlanes, n_regions>             active;
     std::array<dealii::Tensor<2, 3>, n_regions + 1> tangents;
   };
 } // namespace moraine
