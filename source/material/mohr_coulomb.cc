@@ -252,10 +252,20 @@ namespace moraine
     const auto          order   = descending(strain);
     Tensor<1, 3>        stress  = permuted(point.stress, order);
     const Tensor<2, 3> &tangent = constant.tangent(constant.project(stress));
+    const double        bulk_3  = 3 * stiffness.lambda + 2 * stiffness.mu;
+    const double        inverse = 1 / (2 * stiffness.mu * bulk_3);
+    const double        mean    = stiffness.lambda * sum(stress);
+    double              square  = 0;
+    // One by one: vectors that were just written would have to wait.
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        double      &value   = strain[order[a]];
+        const double elastic = inverse * (bulk_3 * stress[a] - mean);
+        square += (value - elastic) * (value - elastic);
+        value = elastic;
+      }
     put(stress, tangent, order, point);
-    const Tensor<1, 3> elastic = principal_strain(stiffness, point.stress);
-    point.internal[0] += std::sqrt(2. / 3.) * (strain - elastic).norm();
-    strain = elastic;
+    point.internal[0] += std::sqrt(2. / 3. * square);
   }
 
 
