@@ -34,9 +34,8 @@ namespace moraine
 
   DruckerPrager::DruckerPrager(const SoilParameters &parameters,
                                const Match           match)
-    : IsotropicMaterial(parameters.E, parameters.nu, parameters.rho)
+    : SoilMaterial(parameters)
     , match(match)
-    , strengths(parameters)
   {
     const double at_start = 0;
     constant              = cone_at(&at_start, 0);

@@ -84,8 +84,7 @@ namespace moraine
 
 
   MohrCoulomb::MohrCoulomb(const SoilParameters &parameters)
-    : IsotropicMaterial(parameters.E, parameters.nu, parameters.rho)
-    , strengths(parameters)
+    : SoilMaterial(parameters)
     , largest_dilation(parameters.largest_dilation)
   {
     const double at_start = 0;
@@ -97,7 +96,7 @@ namespace moraine
   std::vector<InternalVariable>
   MohrCoulomb::internal_variables() const
   {
-    std::vector<InternalVariable> variables = {{"plastic_strain", "-"}};
+    auto variables = SoilMaterial::internal_variables();
     if (dilation_ends())
       variables.push_back({"plastic_dilation", "-"});
     return variables;

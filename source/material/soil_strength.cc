@@ -82,20 +82,6 @@ namespace moraine
 
 
 
-  bool
-  SoilStrengthTables::are_associated() const
-  {
-    return std::all_of(
-      segments.begin(), segments.end(), [this](const Segment &segment) {
-        const auto row =
-          at(segment.kappa,
-             static_cast<unsigned int>(&segment - segments.data()));
-        return row.value.sin_psi == row.value.sin_phi;
-      });
-  }
-
-
-
   unsigned int
   SoilStrengthTables::segment_at(const double kappa) const
   {

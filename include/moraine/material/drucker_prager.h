@@ -7,8 +7,6 @@
 #include <moraine/material/soil_strength.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace moraine
 {
@@ -52,7 +50,7 @@ namespace moraine
    * Sources: Drucker and Prager 1952; de Souza Neto, Peric and Owen 2008
    * (return to cone and apex). Ours is the match for @f$\psi \ne \varphi@f$.
    */
-  class DruckerPrager : public IsotropicMaterial
+  class DruckerPrager : public SoilMaterial
   {
   public:
     /** What the cone has in common with Mohr and Coulomb's pyramid. */
@@ -72,37 +70,10 @@ namespace moraine
     respond(const StepTime                          &time,
             const dealii::ArrayView<PrincipalState> &points) const override;
 
-    bool
-    dissipates() const override
-    {
-      return true;
-    }
-
-    /** Symmetric if flow is associated and strength constant. */
-    bool
-    has_symmetric_tangent() const override
-    {
-      return strengths.are_constant() && strengths.are_associated();
-    }
-
-    /** The accumulated plastic strain @f$\kappa@f$. */
-    std::vector<InternalVariable>
-    internal_variables() const override
-    {
-      return {{"plastic_strain", "-"}};
-    }
-
     /** c and @f$\tan\varphi@f$ are divided; @f$\psi@f$ is at most the new
      * @f$\varphi@f$. */
     std::shared_ptr<const Material>
     with_strength_over(const double factor) const override;
-
-    std::string
-    why_no_stress() const override
-    {
-      return "it cannot return to its yield surface: the strength falls too "
-             "steeply with plastic strain";
-    }
 
     /** f, > 0 beyond yield. */
     double
@@ -131,9 +102,8 @@ namespace moraine
     return_to(const ChangingCone         &cone,
               const dealii::Tensor<1, 3> &trial_strain) const;
 
-    const Match        match;
-    SoilStrengthTables strengths;
-    ChangingCone       constant; ///< the cone if strengths are constant
+    const Match  match;
+    ChangingCone constant; ///< the cone if strengths are constant
   };
 } // namespace moraine
 

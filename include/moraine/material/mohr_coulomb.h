@@ -8,7 +8,6 @@
 #include <moraine/material/soil_strength.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace moraine
@@ -43,7 +42,7 @@ namespace moraine
    * Neto, Peric and Owen 2008 (principal values). Ours are the corners of the
    * limit of tension and the implicit strengths.
    */
-  class MohrCoulomb : public IsotropicMaterial
+  class MohrCoulomb : public SoilMaterial
   {
   public:
     explicit MohrCoulomb(const SoilParameters &parameters);
@@ -55,17 +54,9 @@ namespace moraine
             const dealii::ArrayView<PrincipalState> &points) const override;
 
     bool
-    dissipates() const override
-    {
-      return true;
-    }
-
-    /** Symmetric if flow is associated and strength constant. */
-    bool
     has_symmetric_tangent() const override
     {
-      return strengths.are_constant() && strengths.are_associated() &&
-             !dilation_ends();
+      return SoilMaterial::has_symmetric_tangent() && !dilation_ends();
     }
 
     /** @f$\kappa@f$, and v if dilation ends. */
@@ -76,13 +67,6 @@ namespace moraine
      * most the new @f$\varphi@f$. */
     std::shared_ptr<const Material>
     with_strength_over(const double factor) const override;
-
-    std::string
-    why_no_stress() const override
-    {
-      return "it cannot return to its yield surface: the strength falls too "
-             "steeply with plastic strain";
-    }
 
     /** The larger of f and @f$\sigma_1 - \sigma_t@f$, > 0 beyond yield. */
     double
@@ -125,9 +109,8 @@ namespace moraine
     respond_sorted(const dealii::Tensor<1, 3> &trial_strain,
                    double                     *internal) const;
 
-    SoilStrengthTables strengths;
-    double             largest_dilation;
-    MohrCoulombReturn  constant; ///< the return if strengths are constant
+    const double      largest_dilation;
+    MohrCoulombReturn constant; ///< the return if strengths are constant
   };
 } // namespace moraine
 

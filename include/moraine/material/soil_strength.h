@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -71,10 +72,6 @@ namespace moraine
     {
       return segments.size() == 1;
     }
-
-    /** Whether the dilation angle is the friction angle everywhere. */
-    bool
-    are_associated() const;
 
     /** The segment that @p kappa >= 0 lies in; at a kink, the later one. */
     unsigned int
@@ -267,6 +264,46 @@ namespace moraine
                         (2. / 3. / (increment * slope)));
     return at;
   }
+  /** A material with the strength of a soil. */
+  class SoilMaterial : public IsotropicMaterial
+  {
+  public:
+    bool
+    dissipates() const override
+    {
+      return true;
+    }
+
+    /** Symmetric if flow is associated and strength constant. */
+    bool
+    has_symmetric_tangent() const override
+    {
+      const SoilStrength at_start = strengths.at(0, 0).value;
+      return strengths.are_constant() && at_start.sin_psi == at_start.sin_phi;
+    }
+
+    /** The accumulated plastic strain @f$\kappa@f$. */
+    std::vector<InternalVariable>
+    internal_variables() const override
+    {
+      return {{"plastic_strain", "-"}};
+    }
+
+    std::string
+    why_no_stress() const override
+    {
+      return "it cannot return to its yield surface: the strength falls too "
+             "steeply with plastic strain";
+    }
+
+  protected:
+    explicit SoilMaterial(const SoilParameters &parameters)
+      : IsotropicMaterial(parameters.E, parameters.nu, parameters.rho)
+      , strengths(parameters)
+    {}
+
+    SoilStrengthTables strengths;
+  };
 } // namespace moraine
 
 #endif
