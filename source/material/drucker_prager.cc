@@ -3,6 +3,8 @@
 
 #include <moraine/material/drucker_prager.h>
 
+#include <moraine/core/patterns.h>
+
 #include <cmath>
 
 namespace moraine
@@ -37,8 +39,8 @@ namespace moraine
     : SoilMaterial(parameters)
     , match(match)
   {
-    const double at_start = 0;
-    constant              = cone_at(&at_start, 0);
+    if (is_constant())
+      constant = cone_at(0, 0, nullptr);
   }
 
 
@@ -46,20 +48,21 @@ namespace moraine
   std::shared_ptr<const Material>
   DruckerPrager::with_strength_over(const double factor) const
   {
-    auto weaker           = std::make_shared<DruckerPrager>(*this);
-    weaker->strengths     = strengths.over(factor);
-    const double at_start = 0;
-    weaker->constant      = weaker->cone_at(&at_start, 0);
+    auto weaker       = std::make_shared<DruckerPrager>(*this);
+    weaker->strengths = strengths.over(factor);
+    if (is_constant())
+      weaker->constant = weaker->cone_at(0, 0, nullptr);
     return weaker;
   }
 
 
 
   DruckerPrager::ChangingCone
-  DruckerPrager::cone_at(const double      *internal,
-                         const unsigned int segment) const
+  DruckerPrager::cone_at(const double       kappa,
+                         const unsigned int segment,
+                         const double      *fields) const
   {
-    const auto [value, slope] = strengths.at(internal[0], segment);
+    const auto [value, slope] = strengths.at(kappa, segment, fields);
     const double s = value.sin_phi, ds = slope.sin_phi;
     const double t = value.sin_psi, dt = slope.sin_psi;
 
@@ -99,8 +102,10 @@ namespace moraine
   DruckerPrager::yield_function(const Tensor<1, 3> &stress,
                                 const double       *internal) const
   {
-    const Cone cone =
-      cone_at(internal, strengths.segment_at(internal[0])).value;
+    const Cone cone = cone_at(internal[0],
+                              strengths.segment_at(internal[0]),
+                              internal + n_history)
+                        .value;
     Tensor<1, 3> s = stress;
     return make_deviatoric(s) + cone.eta * mean_of(stress) - cone.k;
   }
@@ -108,25 +113,25 @@ namespace moraine
 
 
   SoilReturn
-  DruckerPrager::return_to(const ChangingCone &changing,
-                           const Tensor<1, 3> &trial_strain) const
+  DruckerPrager::return_to(const ChangingCone  &changing,
+                           const LameConstants &C,
+                           const Tensor<1, 3>  &trial_strain) const
   {
     const auto &[cone, change] = changing;
-    const double G             = stiffness.mu;
-    const double K             = stiffness.lambda + 2. / 3. * G;
+    const double G             = C.mu;
+    const double K             = C.lambda + 2. / 3. * G;
     SoilReturn   answer;
-    answer.stress  = principal_stress(stiffness, trial_strain);
+    answer.stress  = principal_stress(C, trial_strain);
     answer.elastic = trial_strain;
     for (unsigned int A = 0; A < 3; ++A)
       for (unsigned int B = 0; B < 3; ++B)
-        answer.tangent[A][B] = stiffness.lambda + (A == B ? 2 * G : 0.);
+        answer.tangent[A][B] = C.lambda + (A == B ? 2 * G : 0.);
 
     const double p = mean_of(answer.stress);
     Tensor<1, 3> m = answer.stress;
     const double q = make_deviatoric(m);
     const double f = q + cone.eta * p - cone.k;
-    answer.yields =
-      !(f <= 0 || f <= yield_tolerance(stiffness, trial_strain, cone.k));
+    answer.yields  = !(f <= 0 || f <= yield_round_off(C, trial_strain, cone.k));
     if (!answer.yields)
       return answer;
 
@@ -142,7 +147,7 @@ namespace moraine
             answer.slope[A]  = rate;
           }
         answer.tangent = 0;
-        answer.split(stiffness, trial_strain);
+        answer.split(C, trial_strain);
         return answer;
       }
     m /= q;
@@ -160,7 +165,7 @@ namespace moraine
             flow * (G * m[B] + K * cone.eta) / modulus +
             along * ((A == B ? 1. : 0.) - 1. / 3. - 0.5 * m[A] * m[B]);
       }
-    answer.split(stiffness, trial_strain);
+    answer.split(C, trial_strain);
     return answer;
   }
 
@@ -172,24 +177,53 @@ namespace moraine
   {
     for (PrincipalState &point : points)
       {
+        const LameConstants C      = stiffness_at(point.internal);
         double              kappa  = point.internal[0];
         const Tensor<1, 3> &strain = point.strain;
         const auto give = [&](const double k, const unsigned int segment) {
-          return return_to(cone_at(&k, segment), strain);
+          return return_to(cone_at(k, segment, point.internal + n_history),
+                           C,
+                           strain);
         };
         SoilReturn answer;
-        if (strengths.are_constant())
+        if (is_constant())
           {
-            answer = return_to(constant, strain);
+            answer = return_to(constant, C, strain);
             if (answer.yields)
               kappa += answer.plastic_strain();
           }
         else
-          answer = close_return(strengths, stiffness, give, kappa);
+          answer = close_return(strengths, C, give, kappa);
         point.internal[0] = kappa;
         point.stress      = answer.stress;
         point.tangent     = answer.tangent;
         point.strain      = answer.elastic;
       }
+  }
+
+
+
+  MaterialModel
+  drucker_prager_model()
+  {
+    std::vector<MaterialKey> keys = soil_keys();
+    keys.push_back(
+      {"Cone",
+       "What the cone has in common with Mohr and Coulomb's pyramid. plane "
+       "strain: collapse in plane strain. outer: triaxial compression; in "
+       "plane strain a friction angle of 30 degrees is then one of 44 to 49.",
+       "plane strain",
+       patterns::selection({"plane strain", "outer"})});
+    return {"Drucker-Prager",
+            "linear elastic up to a cone that is matched to Mohr-Coulomb, then "
+            "plastic with the dilation angle",
+            keys,
+            [](MaterialInput &input) {
+              return std::make_shared<DruckerPrager>(
+                read_soil(input),
+                input.text("Cone") == "outer" ?
+                  DruckerPrager::Match::outer_cone :
+                  DruckerPrager::Match::plane_strain);
+            }};
   }
 } // namespace moraine

@@ -125,7 +125,7 @@ namespace moraine
 
 
   std::vector<LinearTable::Row>
-  MaterialInput::table(const std::string &key) const
+  MaterialInput::table(const std::string &key)
   {
     std::vector<LinearTable::Row> rows =
       LinearTable(text(key), moraine::place(section, key), "kappa").rows();
@@ -143,7 +143,8 @@ namespace moraine
                            return next.second < row.second;
                          });
     if (falls == rows.end())
-      refuse_softening_length();
+      return rows;
+    any_falls         = true;
     const double peak = falls->first;
     for (auto row = falls; place.cell_size > 0 && row != rows.end(); ++row)
       row->first = peak + length / place.cell_size * (row->first - peak);
@@ -153,9 +154,9 @@ namespace moraine
 
 
   void
-  MaterialInput::refuse_softening_length() const
+  MaterialInput::check_softening_length() const
   {
-    if (number("Softening length") > 0)
+    if (number("Softening length") > 0 && !any_falls)
       refuse("Softening length", "nothing; no strength falls");
   }
 

@@ -7,7 +7,9 @@
 #include <moraine/core/patterns.h>
 #include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
+#include <moraine/material/drucker_prager.h>
 #include <moraine/material/linear_elastic.h>
+#include <moraine/material/mohr_coulomb.h>
 #include <moraine/material/neo_hookean.h>
 #include <moraine/material/von_mises.h>
 
@@ -61,7 +63,10 @@ namespace moraine
   {
     static const std::vector<MaterialModel> models{linear_elastic_model(),
                                                    neo_hookean_model(),
-                                                   von_mises_model()};
+                                                   von_mises_model(),
+                                                   mohr_coulomb_model(),
+                                                   tresca_model(),
+                                                   drucker_prager_model()};
     return models;
   }
 

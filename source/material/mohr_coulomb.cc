@@ -87,19 +87,9 @@ namespace moraine
     : SoilMaterial(parameters)
     , largest_dilation(parameters.largest_dilation)
   {
-    const double at_start = 0;
-    constant = MohrCoulombReturn(strength_at(&at_start, 0).value, stiffness);
-  }
-
-
-
-  std::vector<InternalVariable>
-  MohrCoulomb::internal_variables() const
-  {
-    auto variables = SoilMaterial::internal_variables();
-    if (dilation_ends())
-      variables.push_back({"plastic_dilation", "-"});
-    return variables;
+    if (is_constant())
+      constant =
+        MohrCoulombReturn(strengths.at(0, 0, nullptr).value, stiffness);
   }
 
 
@@ -107,11 +97,11 @@ namespace moraine
   std::shared_ptr<const Material>
   MohrCoulomb::with_strength_over(const double factor) const
   {
-    auto weaker           = std::make_shared<MohrCoulomb>(*this);
-    weaker->strengths     = strengths.over(factor);
-    const double at_start = 0;
-    const auto   strength = weaker->strength_at(&at_start, 0).value;
-    weaker->constant      = MohrCoulombReturn(strength, stiffness);
+    auto weaker       = std::make_shared<MohrCoulomb>(*this);
+    weaker->strengths = strengths.over(factor);
+    if (is_constant())
+      weaker->constant =
+        MohrCoulombReturn(weaker->strengths.at(0, 0, nullptr).value, stiffness);
     return weaker;
   }
 
@@ -124,7 +114,7 @@ namespace moraine
     const double largest = largest_of(stress), least = least_of(stress);
     const auto   strength =
       strength_at(internal, strengths.segment_at(internal[0])).value;
-    return MohrCoulombReturn(strength, stiffness)
+    return MohrCoulombReturn(strength, stiffness_at(internal))
       .yield_function(largest, least);
   }
 
@@ -132,24 +122,25 @@ namespace moraine
 
   SoilReturn
   MohrCoulomb::return_to(const SoilStrengthTables::Row &strength,
+                         const LameConstants           &C,
                          const Tensor<1, 3>            &trial_strain) const
   {
-    const MohrCoulombReturn planes(strength.value, stiffness);
-    const Tensor<1, 3>      trial = principal_stress(stiffness, trial_strain);
+    const MohrCoulombReturn planes(strength.value, C);
+    const Tensor<1, 3>      trial = principal_stress(C, trial_strain);
     SoilReturn              answer;
     answer.stress  = trial;
     answer.tangent = planes.elastic_tangent();
     answer.elastic = trial_strain;
     answer.yields =
       !(planes.yield_function(trial[0], trial[2]) <=
-        yield_tolerance(stiffness, trial_strain, strength.value.cohesion));
+        yield_round_off(C, trial_strain, strength.value.cohesion));
     if (!answer.yields)
       return answer;
     const auto region = planes.project(answer.stress);
     answer.tangent    = planes.tangent(region);
     answer.slope =
       planes.derivative(region, trial, answer.stress, strength.slope);
-    answer.split(stiffness, trial_strain);
+    answer.split(C, trial_strain);
     return answer;
   }
 
@@ -157,6 +148,7 @@ namespace moraine
 
   SoilReturn
   MohrCoulomb::return_with_dilation(SoilStrengthTables::Row strength,
+                                    const LameConstants    &C,
                                     const Tensor<1, 3>     &trial_strain,
                                     const double            dilation) const
   {
@@ -164,7 +156,7 @@ namespace moraine
     SoilReturn   answer;
     if (left > 1e-12 * largest_dilation)
       {
-        answer = return_to(strength, trial_strain);
+        answer = return_to(strength, C, trial_strain);
         if (!answer.yields || sum(answer.plastic) <= left)
           return answer;
       }
@@ -172,7 +164,7 @@ namespace moraine
     strength.slope.sin_psi = 0;
     const auto with        = [&](const double sin_psi) {
       strength.value.sin_psi = sin_psi;
-      answer                 = return_to(strength, trial_strain);
+      answer                 = return_to(strength, C, trial_strain);
       return sum(answer.plastic) - left;
     };
     if (with(0) >= 0 || !(left > 1e-12 * largest_dilation))
@@ -183,9 +175,9 @@ namespace moraine
       SoilStrengthTables::Row row = strength;
       row.slope                   = SoilStrength();
       row.slope.sin_psi           = 1;
-      return return_to(row, trial_strain).slope;
+      return return_to(row, C, trial_strain).slope;
     };
-    const double K_3 = 3 * stiffness.lambda + 2 * stiffness.mu;
+    const double K_3 = 3 * C.lambda + 2 * C.mu;
     double       low = 0, high = most, sin_psi = 0.5 * most;
     Tensor<1, 3> slope;
     for (unsigned int iteration = 0; iteration < 100; ++iteration)
@@ -216,16 +208,16 @@ namespace moraine
   MohrCoulomb::respond_sorted(const Tensor<1, 3> &trial_strain,
                               double             *internal) const
   {
-    const double kappa_n = internal[0];
-    double       kappa   = kappa_n;
-    const auto   give    = [&](const double k, const unsigned int segment) {
+    const LameConstants C     = stiffness_at(internal);
+    double              kappa = internal[0];
+    const auto          give = [&](const double k, const unsigned int segment) {
       internal[0]         = k;
       const auto strength = strength_at(internal, segment);
       return dilation_ends() ?
-                    return_with_dilation(strength, trial_strain, internal[1]) :
-                    return_to(strength, trial_strain);
+                        return_with_dilation(strength, C, trial_strain, internal[1]) :
+                        return_to(strength, C, trial_strain);
     };
-    const SoilReturn answer = close_return(strengths, stiffness, give, kappa);
+    const SoilReturn answer = close_return(strengths, C, give, kappa);
     internal[0]             = kappa;
     if (dilation_ends())
       internal[1] += sum(answer.plastic);
@@ -243,7 +235,7 @@ namespace moraine
                  least   = least_of(point.stress);
     const double f       = constant.yield_function(largest, least);
     if (f <= 0 ||
-        f <= yield_tolerance(stiffness, strain, constant.cohesion_term()))
+        f <= yield_round_off(stiffness, strain, constant.cohesion_term()))
       {
         point.tangent = constant.elastic_tangent();
         return;
@@ -273,7 +265,7 @@ namespace moraine
   MohrCoulomb::respond(const StepTime &,
                        const ArrayView<PrincipalState> &points) const
   {
-    const bool simple = strengths.are_constant() && !dilation_ends();
+    const bool simple = is_constant() && !dilation_ends();
     for (PrincipalState &point : points)
       if (simple)
         respond_constant(point);
@@ -286,5 +278,60 @@ namespace moraine
           for (unsigned int a = 0; a < 3; ++a)
             point.strain[order[a]] = answer.elastic[a];
         }
+  }
+
+
+
+  MaterialModel
+  mohr_coulomb_model()
+  {
+    std::vector<MaterialKey> keys = soil_keys();
+    keys.push_back({"Tensile strength",
+                    "The largest principal stress (stress): a number up to c "
+                    "cot(phi), an expression in x, y, z, or a table over the "
+                    "accumulated plastic strain. none: no limit beside the "
+                    "apex.",
+                    "0"});
+    keys.push_back({"Largest plastic dilation",
+                    "The volumetric plastic strain from which on the dilation "
+                    "angle is 0. Empty: dilation does not end."});
+    return {"Mohr-Coulomb",
+            "linear elastic up to the friction law |tau| = c - sigma tan(phi) "
+            "on any plane and a limit of tension, then plastic with the "
+            "dilation angle",
+            keys,
+            [](MaterialInput &input) {
+              SoilParameters parameters = read_soil(input);
+              read_tension(input, parameters);
+              return std::make_shared<MohrCoulomb>(parameters);
+            }};
+  }
+
+
+
+  MaterialModel
+  tresca_model()
+  {
+    std::vector<MaterialKey> keys = elastic_keys();
+    keys.push_back({"Shear strength",
+                    "The undrained shear strength s_u > 0 (stress): a number "
+                    "or an expression in x, y, z, as '5 + 1.5*(10 - y)'. "
+                    "Required."});
+    return {"Tresca",
+            "linear elastic up to the largest shear stress s_u, then plastic "
+            "at constant volume: Mohr-Coulomb without friction and without a "
+            "limit of tension, for undrained clay",
+            keys,
+            [](MaterialInput &input) {
+              SoilParameters parameters;
+              parameters.elasticity = read_elasticity(input);
+              parameters.cohesion   = {{0., 1.}};
+              parameters.scales[0] =
+                input.parameter("Shear strength", {0.}, "stress");
+              parameters.elasticity.fields = input.fields();
+              parameters.tensile_strength  = {
+                 {0., std::numeric_limits<double>::infinity()}};
+              return std::make_shared<MohrCoulomb>(parameters);
+            }};
   }
 } // namespace moraine

@@ -3,6 +3,9 @@
 
 #include <moraine/material/soil_strength.h>
 
+#include <moraine/core/arithmetic.h>
+#include <moraine/core/words.h>
+
 #include <algorithm>
 #include <set>
 
@@ -33,6 +36,7 @@ namespace moraine
 
 
   SoilStrengthTables::SoilStrengthTables(const SoilParameters &parameters)
+    : scales(parameters.scales)
   {
     const std::array<const SoilParameters::Table *, 4> tables{
       {&parameters.cohesion,
@@ -95,14 +99,21 @@ namespace moraine
 
 
   SoilStrengthTables::Row
-  SoilStrengthTables::at(const double kappa, const unsigned int segment) const
+  SoilStrengthTables::at(const double       kappa,
+                         const unsigned int segment,
+                         const double      *fields) const
   {
-    const Segment        &start = segments[segment];
+    Segment               start = segments[segment];
     std::array<double, 4> value;
     for (unsigned int i = 0; i < 4; ++i)
-      value[i] =
-        start.value[i] +
-        (start.slope[i] == 0 ? 0. : start.slope[i] * (kappa - start.kappa));
+      {
+        const double scale = scales[i].at(fields);
+        start.slope[i] *= scale;
+        value[i] = scale * start.value[i];
+        // Infinity does not change.
+        if (start.slope[i] != 0)
+          value[i] += start.slope[i] * (kappa - start.kappa);
+      }
     Row row;
     row.value.cohesion = value[0] / reduction;
     row.slope.cohesion = start.slope[0] / reduction;
@@ -125,5 +136,178 @@ namespace moraine
     row.slope.sin_psi =
       as_friction ? row.slope.sin_phi : std::cos(value[2]) * start.slope[2];
     return row;
+  }
+
+
+
+  namespace
+  {
+    /** A strength and what multiplies it, from a number, a table over kappa or
+     * an expression. */
+    void
+    read_strength(MaterialInput         &input,
+                  const std::string     &key,
+                  const NumberRange     &range,
+                  const std::string     &unit,
+                  SoilParameters::Table &table,
+                  Parameter             &scale)
+    {
+      if (input.is_table(key))
+        {
+          table = input.table(key);
+          for (const auto &[kappa, value] : table)
+            if (!range.contains(value))
+              input.refuse(key,
+                           "values of the table that are each " +
+                             range.describe());
+          return;
+        }
+      const Parameter parameter = input.parameter(key, range, unit);
+      if (parameter.is_field())
+        {
+          table = {{0., 1.}};
+          scale = parameter;
+        }
+      else
+        table = {{0., parameter.nominal()}};
+    }
+
+
+
+    /** Angles below are radians. */
+    constexpr double least_angle = 1;
+
+    void
+    refuse_radians(const MaterialInput         &input,
+                   const std::string           &key,
+                   const SoilParameters::Table &table,
+                   const Parameter             &scale)
+    {
+      for (const auto &[kappa, angle] : table)
+        if (!scale.is_field() && angle > 0 && angle < least_angle)
+          input.refuse(key,
+                       "0, or degrees from 1 on; " + text_of(angle) +
+                         " rad are " + text_of(angle / degree, 3) + " degrees");
+    }
+
+
+
+    const NumberRange strength_range{0.,
+                                     std::numeric_limits<double>::infinity(),
+                                     true};
+    const NumberRange angle_range{0., 60., true, true};
+  } // namespace
+
+
+
+  std::vector<MaterialKey>
+  soil_keys()
+  {
+    const std::string forms =
+      ": a number, an expression in x, y, z, or a table 'kappa: value, kappa: "
+      "value, ...' over the accumulated plastic strain.";
+    std::vector<MaterialKey> keys = elastic_keys();
+    keys.push_back({"Cohesion",
+                    "Cohesion c (stress)" + forms +
+                      " Larger than 0 where the friction angle is 0.",
+                    "0"});
+    keys.push_back({"Friction angle",
+                    "Angle of internal friction phi (degrees, 0 to 60)" + forms,
+                    "0"});
+    keys.push_back(
+      {"Dilation angle",
+       "Dilation angle psi (degrees, at most the friction angle)" + forms,
+       "0"});
+    keys.push_back(softening_key());
+    return keys;
+  }
+
+
+
+  SoilParameters
+  read_soil(MaterialInput &input)
+  {
+    SoilParameters result;
+    result.elasticity = read_elasticity(input);
+    read_strength(input,
+                  "Cohesion",
+                  strength_range,
+                  "stress",
+                  result.cohesion,
+                  result.scales[0]);
+    read_strength(input,
+                  "Friction angle",
+                  angle_range,
+                  "degree",
+                  result.friction_angle,
+                  result.scales[1]);
+    refuse_radians(input,
+                   "Friction angle",
+                   result.friction_angle,
+                   result.scales[1]);
+    read_strength(input,
+                  "Dilation angle",
+                  angle_range,
+                  "degree",
+                  result.dilation_angle,
+                  result.scales[2]);
+    refuse_radians(input,
+                   "Dilation angle",
+                   result.dilation_angle,
+                   result.scales[2]);
+    input.check_softening_length();
+    if (!result.scales[0].is_field() && !result.scales[1].is_field() &&
+        result.cohesion[0].second == 0 && result.friction_angle[0].second == 0)
+      input.refuse("Cohesion", "a number > 0, as 'Friction angle' is 0");
+    const auto &phi = result.friction_angle;
+    if (!result.scales[1].is_field() && !result.scales[2].is_field())
+      for (const auto &[kappa, psi] : result.dilation_angle)
+        if (psi > value_of(phi, kappa))
+          input.refuse("Dilation angle",
+                       "0 to 'Friction angle' = " +
+                         text_of(value_of(phi, kappa)));
+    result.elasticity.fields = input.fields();
+    return result;
+  }
+
+
+
+  void
+  read_tension(MaterialInput &input, SoilParameters &parameters)
+  {
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+    if (input.has("Largest plastic dilation"))
+      {
+        const auto number = number_from(input.text("Largest plastic dilation"));
+        if (!number || !(*number > 0))
+          input.refuse("Largest plastic dilation", "nothing, or a number > 0");
+        parameters.largest_dilation = *number;
+      }
+    const std::string key = "Tensile strength";
+    const double      phi = parameters.friction_angle[0].second;
+    const double      psi = parameters.dilation_angle[0].second;
+    if (input.text(key) == "none")
+      {
+        if (phi > 0 && psi == 0)
+          input.refuse(key,
+                       "a number >= 0; 'none' needs a dilation angle > 0 or no "
+                       "friction");
+        parameters.tensile_strength = {{0., no_limit}};
+        return;
+      }
+    read_strength(input,
+                  key,
+                  strength_range,
+                  "stress",
+                  parameters.tensile_strength,
+                  parameters.scales[3]);
+    parameters.elasticity.fields = input.fields();
+    const auto &scales           = parameters.scales;
+    if (scales[0].is_field() || scales[1].is_field() || scales[3].is_field() ||
+        phi == 0)
+      return;
+    const double apex = parameters.cohesion[0].second / std::tan(phi * degree);
+    if (parameters.tensile_strength[0].second > apex)
+      input.refuse(key, "up to c cot(phi) = " + text_of(apex, 4));
   }
 } // namespace moraine

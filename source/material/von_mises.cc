@@ -76,7 +76,7 @@ namespace moraine
      * @throw InputError for what cannot be a yield stress, or falls so steeply
      * that no stress returns to it. */
     std::vector<LinearTable::Row>
-    read_yield_radius(const MaterialInput       &input,
+    read_yield_radius(MaterialInput             &input,
                       const YieldKey            &key,
                       const IsotropicElasticity &elasticity)
     {
@@ -282,10 +282,13 @@ namespace moraine
       IsotropicElasticity elasticity = read_elasticity(input);
       const YieldKey     &key        = given_yield_key(input);
       if (input.is_table(key.name))
-        return std::make_shared<VonMises>(
-          elasticity, read_yield_radius(input, key, elasticity));
+        {
+          const auto rows = read_yield_radius(input, key, elasticity);
+          input.check_softening_length();
+          return std::make_shared<VonMises>(elasticity, rows);
+        }
       const Parameter yield_stress = input.parameter(key.name, {0.}, "stress");
-      input.refuse_softening_length();
+      input.check_softening_length();
       elasticity.fields = input.fields();
       if (!yield_stress.is_field())
         return std::make_shared<VonMises>(

@@ -424,14 +424,19 @@ namespace moraine
                  "Softening length",
                  input.get("Materials/" + name, "Softening length", ""),
                  "nothing; only a mesh of type 'box' has cells of one size");
-        if (!make_material(material, "Materials/" + name)
-               ->has_small_strain_limit() &&
-            method.strain == "small")
+        const auto made = make_material(material, "Materials/" + name);
+        if (!made->has_small_strain_limit() && method.strain == "small")
           reject("Materials/" + name,
                  "Model",
                  material.model,
                  "a model for small strain; key 'Strain' of section 'Method' "
                  "is 'small'");
+        if (!made->has_symmetric_tangent() && linear_solver.solver == "amg-cg")
+          reject("Solver",
+                 "Solver",
+                 linear_solver.solver,
+                 "auto, direct or gmres: the tangent of material '" + name +
+                   "' is not symmetric");
       }
     const auto operands = operands_of(*this);
     for (const auto &[name, body] : bodies)

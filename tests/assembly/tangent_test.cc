@@ -7,7 +7,9 @@
 #include <moraine/assembly/rayleigh_damping.h>
 #include <moraine/basis/cpdi1_basis.h>
 #include <moraine/basis/cpdi2_basis.h>
+#include <moraine/material/drucker_prager.h>
 #include <moraine/material/linear_elastic.h>
+#include <moraine/material/mohr_coulomb.h>
 #include <moraine/material/von_mises.h>
 
 #include <deal.II/base/mpi.h>
@@ -81,7 +83,15 @@ namespace
         const Forces           forces     = Forces::at_the_end,
         const StrainMeasure    measure    = StrainMeasure::finite,
         const VolumetricStrain volumetric = VolumetricStrain::pointwise)
-      : law(material(plastic))
+      : Box(method, material(plastic), forces, measure, volumetric)
+    {}
+
+    Box(const Method                          method,
+        const std::shared_ptr<const Material> law,
+        const Forces                          forces,
+        const StrainMeasure                   measure,
+        const VolumetricStrain                volumetric)
+      : law(law)
       , mesh(unit_cells<dim>(3), MPI_COMM_WORLD)
       , space(mesh, method == Method::quadratic_elements ? 2 : 1)
       , points(mesh, fields(method, law, measure))
@@ -375,6 +385,58 @@ namespace
                 check_cell_means<3>(method, plastic, measure, grouped);
               }
           }
+  }
+
+
+
+  /** Soils whose flow is not associated, perfectly plastic and softening. */
+  std::vector<std::shared_ptr<const Material>>
+  soils()
+  {
+    SoilParameters soil;
+    soil.elasticity       = {1000., 0.3, 1.};
+    soil.cohesion         = {{0., 5.}};
+    soil.friction_angle   = {{0., 30.}};
+    soil.dilation_angle   = {{0., 10.}};
+    SoilParameters softer = soil;
+    softer.cohesion       = {{0., 5.}, {0.5, 3.}};
+    return {std::make_shared<MohrCoulomb>(soil),
+            std::make_shared<MohrCoulomb>(softer),
+            std::make_shared<DruckerPrager>(soil)};
+  }
+
+  TEST(Soils, UnsymmetricTangentIsTheDerivativeOfTheForces)
+  {
+    for (const auto method : {Method::material_point,
+                              Method::linear_elements,
+                              Method::quadratic_elements,
+                              Method::gimp,
+                              Method::cpdi1,
+                              Method::cpdi2})
+      for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+        for (const auto volumetric :
+             {VolumetricStrain::pointwise, VolumetricStrain::cell_mean})
+          for (const auto &soil : soils())
+            {
+              if (method == Method::quadratic_elements &&
+                  volumetric == VolumetricStrain::cell_mean)
+                continue;
+              SCOPED_TRACE(
+                std::to_string(static_cast<int>(method)) +
+                (measure == StrainMeasure::finite ? " finite" : "") +
+                (volumetric == VolumetricStrain::cell_mean ? " means" : ""));
+              Box<2> box(method, soil, Forces::at_the_end, measure, volumetric);
+              EXPECT_FALSE(box.system->symmetric());
+              check_tangent(box);
+              EXPECT_GT(asymmetry(box), 1e-4);
+              box.deform();
+              check_tangent(box);
+              if (method != Method::gimp)
+                continue;
+              Box<3> cube(
+                method, soil, Forces::at_the_end, measure, volumetric);
+              check_tangent(cube);
+            }
   }
 
 

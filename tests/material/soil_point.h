@@ -32,9 +32,7 @@ namespace soil_point
   soil(const double c, const double phi, const double psi, const double tension)
   {
     SoilParameters result;
-    result.E                = 20000;
-    result.nu               = 0.3;
-    result.rho              = 2;
+    result.elasticity       = {20000., 0.3, 2.};
     result.cohesion         = {{0, c}};
     result.friction_angle   = {{0, phi}};
     result.dilation_angle   = {{0, psi}};

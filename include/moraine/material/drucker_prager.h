@@ -96,15 +96,21 @@ namespace moraine
     /** The only place where strengths at a point are read, for @f$\kappa@f$ in
      * a segment of the tables. */
     ChangingCone
-    cone_at(const double *internal, const unsigned int segment) const;
+    cone_at(const double       kappa,
+            const unsigned int segment,
+            const double      *fields) const;
 
     SoilReturn
     return_to(const ChangingCone         &cone,
+              const LameConstants        &C,
               const dealii::Tensor<1, 3> &trial_strain) const;
 
     const Match  match;
     ChangingCone constant; ///< the cone if strengths are constant
   };
+
+  MaterialModel
+  drucker_prager_model();
 } // namespace moraine
 
 #endif

@@ -100,11 +100,11 @@ namespace moraine
      * `Softening length` over the cell size stretches the strains beyond the
      * row from which the values fall. */
     std::vector<LinearTable::Row>
-    table(const std::string &key) const;
+    table(const std::string &key);
 
-    /** If `Softening length` is given: nothing falls. */
+    /** After the tables: refuse `Softening length` if no strength falls. */
     void
-    refuse_softening_length() const;
+    check_softening_length() const;
 
     /** Whether it is a table, not a number or an expression. */
     bool
@@ -127,6 +127,7 @@ namespace moraine
   private:
     const MaterialParameters     &parameters;
     std::vector<InternalVariable> variables;
+    bool                          any_falls = false; ///< of tables so far
   };
 
   /** What the library knows of a model. */

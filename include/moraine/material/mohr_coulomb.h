@@ -59,10 +59,6 @@ namespace moraine
       return SoilMaterial::has_symmetric_tangent() && !dilation_ends();
     }
 
-    /** @f$\kappa@f$, and v if dilation ends. */
-    std::vector<InternalVariable>
-    internal_variables() const override;
-
     /** c, @f$\tan\varphi@f$ and @f$\sigma_t@f$ are divided; @f$\psi@f$ is at
      * most the new @f$\varphi@f$. */
     std::shared_ptr<const Material>
@@ -79,7 +75,7 @@ namespace moraine
     SoilStrengthTables::Row
     strength_at(const double *internal, const unsigned int segment) const
     {
-      return strengths.at(internal[0], segment);
+      return strengths.at(internal[0], segment, internal + n_history);
     }
 
     bool
@@ -95,11 +91,13 @@ namespace moraine
     /** Return to @p strength, which changes as said, for sorted strains. */
     SoilReturn
     return_to(const SoilStrengthTables::Row &strength,
+              const LameConstants           &C,
               const dealii::Tensor<1, 3>    &trial_strain) const;
 
     /** The same with the end of dilation. */
     SoilReturn
     return_with_dilation(SoilStrengthTables::Row     strength,
+                         const LameConstants        &C,
                          const dealii::Tensor<1, 3> &trial_strain,
                          const double                dilation) const;
 
@@ -112,6 +110,12 @@ namespace moraine
     const double      largest_dilation;
     MohrCoulombReturn constant; ///< the return if strengths are constant
   };
+
+  MaterialModel
+  mohr_coulomb_model();
+
+  MaterialModel
+  tresca_model();
 } // namespace moraine
 
 #endif

@@ -4,8 +4,9 @@
 #ifndef moraine_material_soil_strength_h
 #define moraine_material_soil_strength_h
 
-#include <moraine/material/material.h>
+#include <moraine/material/material_input.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -24,9 +25,7 @@ namespace moraine
   {
     using Table = std::vector<std::pair<double, double>>;
 
-    double E   = 0; ///< Young's modulus > 0 [stress]
-    double nu  = 0; ///< Poisson's ratio in (-1, 0.5)
-    double rho = 0; ///< mass per initial volume
+    IsotropicElasticity elasticity;
 
     Table cohesion       = {{0., 0.}}; ///< c >= 0 [stress]
     Table friction_angle = {{0., 0.}}; ///< in degrees, c > 0 where it is 0
@@ -38,6 +37,9 @@ namespace moraine
     /** The accumulated volumetric plastic strain from which on there is no
      * dilation angle; infinity: dilation does not end. */
     double largest_dilation = std::numeric_limits<double>::infinity();
+
+    /** What multiplies the tables, in their order. */
+    std::array<Parameter, 4> scales{{1, 1, 1, 1}};
   };
 
   /** The strength of a soil at one point, or its derivative. */
@@ -67,10 +69,14 @@ namespace moraine
     SoilStrengthTables
     over(const double factor) const;
 
+    /** Whether they are the same at all points and at any strain. */
     bool
     are_constant() const
     {
-      return segments.size() == 1;
+      return segments.size() == 1 &&
+             std::none_of(scales.begin(), scales.end(), [](const auto &scale) {
+               return scale.is_field();
+             });
     }
 
     /** The segment that @p kappa >= 0 lies in; at a kink, the later one. */
@@ -86,9 +92,11 @@ namespace moraine
                std::numeric_limits<double>::infinity();
     }
 
-    /** At @p kappa, as @p segment says. */
+    /** At @p kappa, as @p segment says, at a point with these @p fields. */
     Row
-    at(const double kappa, const unsigned int segment) const;
+    at(const double       kappa,
+       const unsigned int segment,
+       const double      *fields) const;
 
   private:
     /** Cohesion, angles in radians and tension at its start and their slopes.
@@ -99,8 +107,9 @@ namespace moraine
       std::array<double, 4> value, slope;
     };
 
-    std::vector<Segment> segments;
-    double               reduction = 1;
+    std::vector<Segment>     segments;
+    std::array<Parameter, 4> scales;
+    double                   reduction = 1;
   };
 
   /** Hooke's law in principal values. */
@@ -137,7 +146,7 @@ namespace moraine
    * @param cohesion the yield function at no stress, or any part of it
    */
   inline double
-  yield_tolerance(const LameConstants        &C,
+  yield_round_off(const LameConstants        &C,
                   const dealii::Tensor<1, 3> &strain,
                   const double                cohesion)
   {
@@ -278,15 +287,10 @@ namespace moraine
     bool
     has_symmetric_tangent() const override
     {
-      const SoilStrength at_start = strengths.at(0, 0).value;
-      return strengths.are_constant() && at_start.sin_psi == at_start.sin_phi;
-    }
-
-    /** The accumulated plastic strain @f$\kappa@f$. */
-    std::vector<InternalVariable>
-    internal_variables() const override
-    {
-      return {{"plastic_strain", "-"}};
+      if (!strengths.are_constant())
+        return false;
+      const SoilStrength at_start = strengths.at(0, 0, nullptr).value;
+      return at_start.sin_psi == at_start.sin_phi;
     }
 
     std::string
@@ -297,13 +301,47 @@ namespace moraine
     }
 
   protected:
+    /** With the accumulated plastic strain @f$\kappa@f$ and, if dilation
+     * ends, the volumetric one. */
     explicit SoilMaterial(const SoilParameters &parameters)
-      : IsotropicMaterial(parameters.E, parameters.nu, parameters.rho)
+      : IsotropicMaterial(parameters.elasticity, history_of(parameters))
       , strengths(parameters)
     {}
 
+    /** Whether elasticity and strength are the same at all points and at any
+     * strain. */
+    bool
+    is_constant() const
+    {
+      return strengths.are_constant() && has_uniform_stiffness();
+    }
+
     SoilStrengthTables strengths;
+
+  private:
+    static std::vector<InternalVariable>
+    history_of(const SoilParameters &parameters)
+    {
+      std::vector<InternalVariable> variables{{"plastic_strain", "-"}};
+      if (std::isfinite(parameters.largest_dilation))
+        variables.push_back({"plastic_dilation", "-"});
+      return variables;
+    }
   };
+
+  /** Elasticity, `Cohesion`, `Friction angle` and `Dilation angle`, as tables
+   * perhaps. */
+  std::vector<MaterialKey>
+  soil_keys();
+
+  /** Read them. @throws InputError for what a soil cannot have. */
+  SoilParameters
+  read_soil(MaterialInput &input);
+
+  /** Read `Largest plastic dilation` and `Tensile strength`, and check what
+   * they have to do with the others. */
+  void
+  read_tension(MaterialInput &input, SoilParameters &parameters);
 } // namespace moraine
 
 #endif

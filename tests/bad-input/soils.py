@@ -1,0 +1,43 @@
+# ranks: 1
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Numbers that soils cannot have."""
+
+
+def refused(name, settings, model="Mohr-Coulomb"):
+    result = run("tests/bad-input/base.prm",
+                 {"Materials/soil/Model": model,
+                  **{(key if "/" in key else f"Materials/soil/{key}"): value
+                     for key, value in settings.items()}}, expect=2)
+    text(name, plain(" | ".join(
+        line.strip() for line in result.output.splitlines()
+        if line.startswith("moraine: "))))
+
+
+refused("radians", {"Friction angle": 0.52})
+refused("dilation in radians", {"Friction angle": 30, "Dilation angle": 0.17})
+refused("too much friction", {"Friction angle": 61})
+refused("dilation above friction", {"Friction angle": 30, "Dilation angle": 35})
+refused("dilation above friction later", {
+    "Friction angle": "0: 40, 0.1: 20", "Dilation angle": "0: 30, 0.1: 25"})
+refused("no strength", {})
+refused("negative cohesion", {"Cohesion": -1})
+refused("tension beyond the apex", {
+    "Cohesion": 10, "Friction angle": 30, "Tensile strength": 30})
+refused("no limit of tension", {
+    "Cohesion": 10, "Friction angle": 30, "Tensile strength": "none"})
+refused("dilation that ends at once", {
+    "Friction angle": 30, "Largest plastic dilation": 0})
+refused("nothing that softens", {"Cohesion": 10, "Softening length": 1})
+refused("conjugate gradients", {"Cohesion": 10, "Friction angle": 30,
+                                "Solver/Solver": "amg-cg"})
+refused("negative shear strength somewhere", {"Shear strength": "3 - y"},
+        "Tresca")
+refused("no shear strength", {}, "Tresca")
+refused("cohesion of Tresca", {"Shear strength": 3, "Cohesion": 3}, "Tresca")
+refused("unknown cone", {"Friction angle": 30, "Cone": "inner"},
+        "Drucker-Prager")
+refused("tension of a cone", {"Friction angle": 30, "Tensile strength": 1},
+        "Drucker-Prager")
+refused("negative modulus somewhere", {
+    "Young modulus": "1000*(2 - y)", "Cohesion": 10})
