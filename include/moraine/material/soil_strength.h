@@ -182,13 +182,42 @@ namespace moraine
     }
   };
 
+  /** The value of a function and its slope, or 0 for what round-off leaves. */
+  struct Residual
+  {
+    double value, slope;
+  };
+
+  /** The zero of a function from a value < 0 at @p low to one >= 0 at @p high,
+   * by Newton's method within bounds that come closer. */
+  template <typename Function>
+  double
+  zero_between(const Function &f,
+               double          low,
+               const double    f_low,
+               double          high,
+               const double    f_high)
+  {
+    double x = low - f_low * (high - low) / (f_high - f_low);
+    for (unsigned int iteration = 0; iteration < 100; ++iteration)
+      {
+        const Residual at = f(x);
+        if (at.value == 0 || !(high - low > 1e-16 * high))
+          break;
+        (at.value < 0 ? low : high) = x;
+        x -= at.value / at.slope;
+        if (!(x > low && x < high))
+          x = 0.5 * (low + high);
+      }
+    return x;
+  }
+
   /**
    * Close a return: find the @f$\kappa@f$ at which @f$r(\kappa) = \kappa -
    * \kappa_n - \Delta\kappa(\kappa) = 0@f$, where @f$\Delta\kappa =
    * \sqrt{2/3}\, \|\varepsilon^{tr} - C^{-1} \sigma(\kappa)\|@f$ and @p give
-   * returns to the strength at @f$\kappa@f$. Segment by segment, so that it is
-   * the first one; in a segment by Newton's method within bounds. The tangent
-   * becomes
+   * returns to the strength at @f$\kappa@f$; segment by segment, so that it is
+   * the first one. The tangent becomes
    * @f[
    *   \frac{\partial\sigma}{\partial\varepsilon} +
    *   \frac{\partial\sigma}{\partial\kappa} \otimes
@@ -212,55 +241,36 @@ namespace moraine
     const double     kappa_n = kappa;
     unsigned int     segment = tables.segment_at(kappa);
     SoilReturn       at;
-    double           slope    = 1;
-    const auto       residual = [&](const double k) {
-      at                     = give(k, segment);
-      const double increment = at.plastic_strain();
-      const double along =
-        at.plastic * principal_strain(C, at.slope) * (2. / 3.);
-      slope = increment > 0 ? 1 + along / increment : 1;
-      return k - kappa_n - increment;
+    double           increment = 0;
+    const auto       residual  = [&](const double k) {
+      at               = give(k, segment);
+      increment        = at.plastic_strain();
+      const double r   = k - kappa_n - increment;
+      const double all = at.plastic * principal_strain(C, at.slope);
+      return Residual{std::abs(r) <= 1e-15 * (k + at.elastic.norm()) ? 0. : r,
+                      increment > 0 ? 1 + 2. / 3. * all / increment : 1.};
     };
 
-    double low = kappa_n, r_low = residual(low);
+    double low = kappa_n, r_low = residual(low).value;
     if (!at.yields)
       return at;
-    for (;; ++segment)
+    for (kappa = nan;; ++segment)
       {
         const double end = tables.end_of(segment);
         if (std::isinf(end))
           {
-            r_low = residual(low);
-            kappa = low - r_low;
+            kappa = kappa_n + increment; // as at low
             break;
           }
-        const double r_end = residual(end);
+        const double r_end = residual(end).value;
         if (r_end >= 0)
-          {
-            double high = end, r_high = r_end;
-            kappa = low - r_low * (high - low) / (r_high - r_low);
-            for (unsigned int iteration = 0; iteration < 100; ++iteration)
-              {
-                const double r = residual(kappa);
-                if (std::abs(r) <= 1e-15 * (kappa + at.elastic.norm()))
-                  break;
-                (r < 0 ? low : high) = kappa;
-                kappa -= r / slope;
-                if (!(kappa > low && kappa < high))
-                  kappa = 0.5 * (low + high);
-              }
-            break;
-          }
-        if (!(r_end > r_low))
-          {
-            kappa = nan;
-            break;
-          }
+          kappa = zero_between(residual, low, r_low, end, r_end);
+        if (r_end >= 0 || !(r_end > r_low))
+          break;
         low   = end;
         r_low = r_end;
       }
-    residual(kappa);
-    const double increment = at.plastic_strain();
+    const double slope = residual(kappa).slope;
     if (!(slope > 0))
       kappa = nan;
     if (std::isnan(kappa))
@@ -273,6 +283,7 @@ namespace moraine
                         (2. / 3. / (increment * slope)));
     return at;
   }
+
   /** A material with the strength of a soil. */
   class SoilMaterial : public IsotropicMaterial
   {
