@@ -152,46 +152,41 @@ namespace moraine
                                     const Tensor<1, 3>     &trial_strain,
                                     const double            dilation) const
   {
-    const double left = largest_dilation - dilation;
+    const double left  = largest_dilation - dilation;
+    const bool   ended = !(left > 1e-12 * largest_dilation);
     SoilReturn   answer;
-    if (left > 1e-12 * largest_dilation)
+    double       f_high = 0;
+    if (!ended)
       {
         answer = return_to(strength, C, trial_strain);
-        if (!answer.yields || sum(answer.plastic) <= left)
+        f_high = sum(answer.plastic) - left;
+        if (!answer.yields || f_high <= 0)
           return answer;
       }
     const double most      = strength.value.sin_psi;
     strength.slope.sin_psi = 0;
-    const auto with        = [&](const double sin_psi) {
-      strength.value.sin_psi = sin_psi;
-      answer                 = return_to(strength, C, trial_strain);
-      return sum(answer.plastic) - left;
-    };
-    if (with(0) >= 0 || !(left > 1e-12 * largest_dilation))
+    strength.value.sin_psi = 0;
+    answer                 = return_to(strength, C, trial_strain);
+    const double f_low     = sum(answer.plastic) - left;
+    if (ended || f_low >= 0)
       return answer;
 
-    // The derivative of the stress by sin(psi)
-    const auto by_dilation = [&] {
+    // The volumetric plastic strain at an angle in between, and its derivative
+    const double K_3 = 3 * C.lambda + 2 * C.mu;
+    Tensor<1, 3> slope;
+    const auto   excess = [&](const double sin_psi) {
+      strength.value.sin_psi      = sin_psi;
       SoilStrengthTables::Row row = strength;
       row.slope                   = SoilStrength();
       row.slope.sin_psi           = 1;
-      return return_to(row, C, trial_strain).slope;
+      slope                       = return_to(row, C, trial_strain).slope;
+      answer                      = return_to(strength, C, trial_strain);
+      const double f              = sum(answer.plastic) - left;
+      return Residual{std::abs(f) <= 1e-15 * (left + trial_strain.norm()) ? 0. :
+                                                                              f,
+                      -sum(slope) / K_3};
     };
-    const double K_3 = 3 * C.lambda + 2 * C.mu;
-    double       low = 0, high = most, sin_psi = 0.5 * most;
-    Tensor<1, 3> slope;
-    for (unsigned int iteration = 0; iteration < 100; ++iteration)
-      {
-        const double excess = with(sin_psi);
-        slope               = by_dilation();
-        if (std::abs(excess) <= 1e-15 * (left + trial_strain.norm()) ||
-            high - low <= 1e-16)
-          break;
-        (excess < 0 ? low : high) = sin_psi;
-        sin_psi += excess * K_3 / sum(slope);
-        if (!(sin_psi > low && sin_psi < high))
-          sin_psi = 0.5 * (low + high);
-      }
+    excess(zero_between(excess, 0, f_low, most, f_high));
     // Keep the volumetric plastic strain: tr(d stress) = 3K tr(d strain).
     Tensor<1, 3> rate({K_3, K_3, K_3});
     for (unsigned int B = 0; B < 3; ++B)
