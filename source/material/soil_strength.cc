@@ -6,6 +6,8 @@
 #include <moraine/core/arithmetic.h>
 #include <moraine/core/words.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
 #include <set>
 
@@ -30,7 +32,7 @@ namespace moraine
 
 
 
-    constexpr double degree = 3.14159265358979323846 / 180;
+    constexpr double per_degree = numbers::PI / 180;
   } // namespace
 
 
@@ -43,7 +45,7 @@ namespace moraine
        &parameters.friction_angle,
        &parameters.dilation_angle,
        &parameters.tensile_strength}};
-    const std::array<double, 4> units{{1, degree, degree, 1}};
+    const std::array<double, 4> units{{1, per_degree, per_degree, 1}};
 
     std::set<double> kinks;
     for (const auto *table : tables)
