@@ -6,6 +6,7 @@
     moraine plot OUTPUT --field stress --component xy
     moraine plot OUTPUT --history "u_y at top" reaction --against t
     moraine plot A.vtu B.vtu --columns 2 --field displacement -o both.png
+    moraine plot material-test-clay.csv --measured laboratory.csv
 
 OUTPUT is the folder of a run. Without -o pictures go into OUTPUT/plots.
 """
@@ -30,7 +31,8 @@ def arguments():
         description="Make PNG pictures of a finished run: the displacement "
         "and the whole history if nothing else is asked for.")
     parser.add_argument("files", nargs="+", metavar="OUTPUT",
-                        help="folder of a run; or VTU files, one per panel")
+                        help="folder of a run; or VTU files, one per panel; "
+                        "or the CSV file of a material test")
     parser.add_argument("--field",
                         help="colour points by this field of the VTU files")
     parser.add_argument("--of", choices=["points", "domains", "mesh"],
@@ -42,6 +44,9 @@ def arguments():
                         "that have these words in their name")
     parser.add_argument("--against", default="t", metavar="COLUMN",
                         help="column on the horizontal axis")
+    parser.add_argument("--measured", metavar="FILE.csv",
+                        help="drawn over a material test, by columns of the "
+                        "same names")
     render.add_arguments(parser)
     parser.add_argument("-o", "--output", help="PNG file, or CSV file of a "
                         "field's values")
@@ -116,6 +121,45 @@ def draw_history(args, run, path):
                        unit_of(against), str(path))
 
 
+def table_of(path):
+    """Numbers of a CSV file by names of columns, and the units of these."""
+    with open(path, encoding="utf-8-sig") as file:
+        rows = [row for row in csv.reader(file) if row]
+    try:
+        columns = {name_of(column).strip(): [float(row[i]) for row in rows[1:]]
+                   for i, column in enumerate(rows[0])}
+    except (IndexError, ValueError) as error:
+        render.fail(f"{path} is no table of numbers under names: {error}")
+    units = {name_of(column).strip(): unit_of(column) for column in rows[0]}
+    for name, other in (("p", "p_compression"), ("p_compression", "p"),
+                        ("eps_zz", "axial_compression"),
+                        ("axial_compression", "eps_zz")):
+        if name in columns and other not in columns:
+            columns[other] = [-value for value in columns[name]]
+    return columns, units
+
+
+def draw_test(path, measured, output):
+    """A material test: q over p and over the strain, volume over ln p."""
+    computed, units = table_of(path)
+    others = table_of(measured)[0] if measured else {}
+    unknown = [name for name in others if name not in computed]
+    if unknown:
+        render.fail(f"{measured}: found column '{unknown[0]}', allowed: "
+                    f"{', '.join(computed)}")
+    strain = next(name for name in ("gamma_xz", "axial_compression", "eps_q")
+                  if name in computed)
+    panels = [("p_compression", "q"),
+              (strain, "sigma_xz" if strain == "gamma_xz" else "q"),
+              ("p_compression", "eps_v")]
+    if others and not any(a in others and b in others for a, b in panels):
+        render.fail(f"{measured}: found no two columns that a panel shows: " +
+                    ", ".join(f"{b} over {a}" for a, b in panels))
+    render.draw_over(panels, computed, units, others,
+                     {2} if max(computed["p_compression"]) > 0 else set(),
+                     str(output))
+
+
 def file_name(args, first):
     """Another one for each picture of a run: the words of the command."""
     words = [first] + [word.removeprefix("--") for word in sys.argv[1:]
@@ -129,6 +173,11 @@ def main():
     run = pathlib.Path(args.files[0])
     if not run.exists():
         render.fail(f"there is no folder or file '{run}'")
+    if run.suffix == ".csv":
+        output = args.output or run.with_suffix(".png")
+        draw_test(run, args.measured, output)
+        print(output)
+        return
     if not run.is_dir():
         run = None
         if args.history is not None or not args.output:

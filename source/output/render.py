@@ -31,7 +31,8 @@ try:
     from matplotlib.colors import BoundaryNorm
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
-    from matplotlib.ticker import MaxNLocator
+    from matplotlib.ticker import (LogLocator, MaxNLocator, NullFormatter,
+                                   StrMethodFormatter)
     from matplotlib.transforms import nonsingular
     from scipy import ndimage
 except ImportError:
@@ -524,6 +525,30 @@ def draw_curves(panels, values, name_of_column, against, unit, path):
         place.grid(color="#dddddd")
         place.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
     axes[-1, 0].set_xlabel(with_unit(name_of_column(against), unit))
+    figure.savefig(path, dpi=110)
+
+
+def draw_over(panels, computed, units, measured, logarithmic, path):
+    """Panels (x, y) of columns beside each other, measured values as dots."""
+    figure, axes = plt.subplots(1, len(panels), squeeze=False,
+                                figsize=(4.2 * len(panels), 3.8),
+                                layout="constrained")
+    for i, (place, (x, y)) in enumerate(zip(axes.flat, panels)):
+        place.plot(computed[x], computed[y], lw=1.6, label="computed")
+        place.plot(computed[x][0], computed[y][0], "o", ms=5, color="C0",
+                   mfc="white", label="start")
+        if x in measured and y in measured:
+            place.plot(measured[x], measured[y], "x", ms=5, color="C3",
+                       label="measured")
+        if i in logarithmic:
+            place.set_xscale("log")
+            place.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            place.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            place.xaxis.set_minor_formatter(NullFormatter())
+        place.set_xlabel(with_unit(x, units.get(x, "")))
+        place.set_ylabel(with_unit(y, units.get(y, "")))
+        place.grid(color="#dddddd")
+    axes.flat[0].legend(frameon=False)
     figure.savefig(path, dpi=110)
 
 

@@ -159,7 +159,7 @@ namespace moraine
 
 
   template <int dim>
-  Scene<dim>::Scene(const InputFile &input)
+  Scene<dim>::Scene(const InputFile &input, const bool for_materials)
   {
     take_names(input, "Materials", materials);
     take_names(input, "Bodies", bodies);
@@ -177,6 +177,8 @@ namespace moraine
     refuse_old_names(input);
     const auto given = input.parse(prm);
     output.units     = Units(Utilities::split_string_list(prm.get("Units")));
+    if (for_materials)
+      return;
     locate_files(input);
     complete_stages(given,
                     time,
@@ -436,6 +438,7 @@ namespace moraine
     prm.leave_subsection();
     section("Exact solution", exact);
     section("Strength reduction", strength_reduction);
+    section("Material test", material_test);
     prm.enter_subsection("Study");
     study.add_parameters(prm);
     in_subsections(prm, "Series", study.series, [this](std::string &settings) {

@@ -15,6 +15,7 @@
 #include <moraine/scene/parameter_reference.h>
 #include <moraine/run/resume.h>
 #include <moraine/study/buckling_study.h>
+#include <moraine/study/material_test_command.h>
 #include <moraine/study/safety_study.h>
 #include <moraine/scene/scene.h>
 #include <moraine/run/simulation.h>
@@ -59,6 +60,10 @@ namespace moraine
          "FILE.prm",
          "every combination of {{a|b|c}} entries; factor of safety; buckling",
          {"--set", "--output", "--overwrite"}},
+        {"test-material",
+         "FILE.prm",
+         "triaxial, oedometer, shear and other tests of a material at one point",
+         {"--material", "--set", "--output"}},
         {"parameters",
          "",
          "every parameter with default, allowed values and text",
@@ -90,6 +95,7 @@ namespace moraine
         {"--set",
          "\"Section/Key = value\"",
          "change the scene; may be repeated"},
+        {"--material", "NAME", "of a scene with more than one"},
         {"--from",
          "N|T",
          "the checkpoint after step N, or at time T as in 0.5"},
@@ -152,6 +158,7 @@ namespace moraine
       std::string              file;
       std::vector<std::string> settings;
       std::string              from;
+      std::string              material;
       RunOptions               options;
       bool                     help = false;
     };
@@ -195,6 +202,8 @@ namespace moraine
         arguments.settings.push_back(value());
       else if (option == "--from")
         arguments.from = value();
+      else if (option == "--material")
+        arguments.material = value();
       else if (option == "--output")
         arguments.options.output_directory = value();
       else if (option == "--overwrite")
@@ -412,6 +421,14 @@ namespace moraine
       if (arguments.command == "study")
         return with_input(arguments, [&](const InputFile &input) {
           return study(arguments, input);
+        });
+      if (arguments.command == "test-material")
+        return with_input(arguments, [&](const InputFile &input) {
+          return test_material(
+            input,
+            arguments.material,
+            output_directory(arguments, input.get("Output", "Directory", "")),
+            MPI_COMM_WORLD);
         });
       if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         print_parameter_reference(std::cout);

@@ -14,6 +14,7 @@
 #include <moraine/scene/condition_parameters.h>
 #include <moraine/scene/damping_parameters.h>
 #include <moraine/scene/initial_stress_parameters.h>
+#include <moraine/scene/material_test_parameters.h>
 #include <moraine/scene/method.h>
 #include <moraine/scene/stage_parameters.h>
 #include <moraine/scene/strength_reduction.h>
@@ -99,8 +100,12 @@ namespace moraine
     template <class Parameters>
     using Named = std::vector<std::pair<std::string, Parameters>>;
 
-    /** @throws InputError for anything wrong that can be seen in the text. */
-    explicit Scene(const InputFile &input);
+    /**
+     * @param for_materials whether only materials and their test are of
+     * interest: all else may be missing, and is not checked across sections.
+     * @throws InputError for anything wrong that can be seen in the text.
+     */
+    explicit Scene(const InputFile &input, const bool for_materials = false);
 
     /**
      * No scene, but all parameters with their defaults; everything that the
@@ -134,6 +139,7 @@ namespace moraine
     std::vector<ProbeParameters<dim>>   probes;
     ExactSolutionParameters<dim>        exact;
     StrengthReductionParameters         strength_reduction;
+    MaterialTestParameters              material_test;
     StudyParameters                     study;
 
     /** Whether there is a stage with inertia. */

@@ -10,8 +10,8 @@
 namespace moraine
 {
   /**
-   * The program behind `moraine`: run, resume, check, study, parameters. Errors
-   * are shown once, on rank 0, and become the exit code.
+   * The program behind `moraine`: run, resume, check, study, test-material,
+   * parameters. Errors are shown once, on rank 0, and become the exit code.
    */
   int
   main_program(const std::vector<std::string> &arguments);
