@@ -548,7 +548,7 @@ def draw_over(panels, computed, units, measured, logarithmic, path):
         place.set_xlabel(with_unit(x, units.get(x, "")))
         place.set_ylabel(with_unit(y, units.get(y, "")))
         place.grid(color="#dddddd")
-    axes.flat[0].legend(frameon=False)
+    max(axes.flat, key=lambda place: len(place.lines)).legend(frameon=False)
     figure.savefig(path, dpi=110)
 
 

@@ -141,12 +141,12 @@ namespace moraine
                                  parameters.has_axis());
       };
       row.push_back({"p", "stress", p});
-      row.push_back({"p_compression", "stress", -p});
+      row.push_back({"p_compression", "stress", 0. - p});
       row.push_back({"q", "stress", signed_size(1.5, stress)});
       row.push_back({"eps_v", "-", trace(strain)});
       row.push_back({"eps_q", "-", signed_size(2. / 3, strain)});
       if (parameters.has_axis())
-        row.push_back({"axial_compression", "-", -strain[2][2]});
+        row.push_back({"axial_compression", "-", 0. - strain[2][2]});
       if (parameters.shears())
         row.push_back({"gamma_xz", "-", test.strain()[4]});
       if (const int d = parameters.drained_component(); d >= 0)
@@ -245,10 +245,9 @@ namespace moraine
             error.what() + "; the steps before are in " + file + ".csv");
         }
     console << of.test.kind << " test of '" << name << "': " << legs.size()
-            << " legs, " << step << " steps\n  results in " << file
-            << ".csv" << std::endl;
-    on_root(communicator,
-            [&]() { draw_test(file, measured, console); });
+            << " legs, " << step << " steps\n  results in " << file << ".csv"
+            << std::endl;
+    on_root(communicator, [&]() { draw_test(file, measured, console); });
     return done;
   }
 } // namespace moraine
