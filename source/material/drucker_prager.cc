@@ -123,9 +123,7 @@ namespace moraine
     SoilReturn   answer;
     answer.stress  = principal_stress(C, trial_strain);
     answer.elastic = trial_strain;
-    for (unsigned int A = 0; A < 3; ++A)
-      for (unsigned int B = 0; B < 3; ++B)
-        answer.tangent[A][B] = C.lambda + (A == B ? 2 * G : 0.);
+    answer.tangent = principal_tangent(C);
 
     const double p = mean_of(answer.stress);
     Tensor<1, 3> m = answer.stress;

@@ -114,8 +114,7 @@ namespace moraine
     const double largest = largest_of(stress), least = least_of(stress);
     const auto   strength =
       strength_at(internal, strengths.segment_at(internal[0])).value;
-    return MohrCoulombReturn(strength, stiffness_at(internal))
-      .yield_function(largest, least);
+    return MohrCoulombReturn::yield_function(strength, largest, least);
   }
 
 
@@ -125,19 +124,19 @@ namespace moraine
                          const LameConstants           &C,
                          const Tensor<1, 3>            &trial_strain) const
   {
-    const MohrCoulombReturn planes(strength.value, C);
-    const Tensor<1, 3>      trial = principal_stress(C, trial_strain);
-    SoilReturn              answer;
+    const Tensor<1, 3> trial = principal_stress(C, trial_strain);
+    SoilReturn         answer;
     answer.stress  = trial;
-    answer.tangent = planes.elastic_tangent();
+    answer.tangent = principal_tangent(C);
     answer.elastic = trial_strain;
     answer.yields =
-      !(planes.yield_function(trial[0], trial[2]) <=
+      !(MohrCoulombReturn::yield_function(strength.value, trial[0], trial[2]) <=
         yield_round_off(C, trial_strain, strength.value.cohesion));
     if (!answer.yields)
       return answer;
-    const auto region = planes.project(answer.stress);
-    answer.tangent    = planes.tangent(region);
+    const MohrCoulombReturn planes(strength.value, C);
+    const auto              region = planes.project(answer.stress);
+    answer.tangent                 = planes.tangent(region);
     answer.slope =
       planes.derivative(region, trial, answer.stress, strength.slope);
     answer.split(C, trial_strain);

@@ -189,7 +189,8 @@ namespace moraine
         if (!scale.is_field() && angle > 0 && angle < least_angle)
           input.refuse(key,
                        "0, or degrees from 1 on; " + text_of(angle) +
-                         " rad are " + text_of(angle / per_degree, 3) + " degrees");
+                         " rad are " + text_of(angle / per_degree, 3) +
+                         " degrees");
     }
 
 
@@ -308,7 +309,8 @@ namespace moraine
     if (scales[0].is_field() || scales[1].is_field() || scales[3].is_field() ||
         phi == 0)
       return;
-    const double apex = parameters.cohesion[0].second / std::tan(phi * per_degree);
+    const double apex =
+      parameters.cohesion[0].second / std::tan(phi * per_degree);
     if (parameters.tensile_strength[0].second > apex)
       input.refuse(key, "up to c cot(phi) = " + text_of(apex, 4));
   }

@@ -62,6 +62,18 @@ namespace moraine
 
     MohrCoulombReturn(const SoilStrength &strength, const LameConstants &C);
 
+    /** yield_function() before there is a return: the apex is in f. */
+    static double
+    yield_function(const SoilStrength &strength,
+                   const double        largest,
+                   const double        least)
+    {
+      return std::max((1 + strength.sin_phi) * largest -
+                        (1 - strength.sin_phi) * least -
+                        2 * strength.cohesion * strength.cos_phi,
+                      largest - strength.tension);
+    }
+
     /** The largest of all functions, of the largest and the least stress. */
     double
     yield_function(const double largest, const double least) const

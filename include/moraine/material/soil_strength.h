@@ -123,6 +123,17 @@ namespace moraine
     return stress;
   }
 
+  /** The derivative of principal_stress(). */
+  inline dealii::Tensor<2, 3>
+  principal_tangent(const LameConstants &C)
+  {
+    dealii::Tensor<2, 3> D;
+    for (unsigned int A = 0; A < 3; ++A)
+      for (unsigned int B = 0; B < 3; ++B)
+        D[A][B] = C.lambda + (A == B ? 2 * C.mu : 0.);
+    return D;
+  }
+
   /** The inverse of principal_stress(). */
   inline dealii::Tensor<1, 3>
   principal_strain(const LameConstants &C, const dealii::Tensor<1, 3> &stress)
