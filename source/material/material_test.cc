@@ -137,17 +137,23 @@ namespace moraine
 
 
   SymmetricTensor<2, 3>
-  MaterialTest::slope(const unsigned int component) const
+  MaterialTest::slope(const unsigned int component, const bool elastic) const
   {
-    SixNumbers unit{};
+    const bool   finite = point.strain_measure() == StrainMeasure::finite;
+    const auto   pair   = voigt_pairs<3>()[component];
+    SixNumbers   unit{};
+    Tensor<2, 3> l;
     unit[component] = 1;
-    if (point.strain_measure() == StrainMeasure::small)
-      return point.stress_rate(deformation(StrainMeasure::small, unit));
-    const auto [k, m] = voigt_pairs<3>()[component];
-    Tensor<2, 3> dF;
-    dF[k][m] = k == m ? std::exp(trial_strain[component]) : 1.;
-    return point.stress_rate(
-      dF * invert(deformation(StrainMeasure::finite, trial_strain)));
+    if (!finite)
+      l = deformation(StrainMeasure::small, unit);
+    else
+      {
+        l[pair[0]][pair[1]] =
+          pair[0] == pair[1] ? std::exp(trial_strain[component]) : 1.;
+        l = l * invert(deformation(StrainMeasure::finite, trial_strain));
+      }
+    return elastic ? point.law().elastic_stiffness() * symmetrize(l) :
+                     point.stress_rate(l);
   }
 
 
@@ -155,7 +161,8 @@ namespace moraine
   bool
   MaterialTest::try_values(const StepTime                       &step,
                            const std::array<StressStrainSum, 6> &sums,
-                           const SixNumbers                     &values)
+                           const SixNumbers                     &values,
+                           const bool                            elastic_first)
   {
     // Of sums with stresses: in units of strain.
     SixNumbers scale{};
@@ -181,7 +188,8 @@ namespace moraine
         std::array<SixNumbers, 6> matrix;
         for (unsigned int j = 0; j < 6; ++j)
           {
-            const SymmetricTensor<2, 3> change = slope(j);
+            const SymmetricTensor<2, 3> change =
+              slope(j, elastic_first && n == 0);
             for (unsigned int i = 0; i < 6; ++i)
               {
                 matrix[i][j] = scale[i] * sums[i].of_strain[j];
@@ -225,7 +233,10 @@ namespace moraine
             for (unsigned int i = 0; i < 6; ++i)
               target[i] = (1 - share) * first[i] + share * last[i];
             const StepTime step{time + (n + at) / n_steps, time + share};
-            if (try_values(step, leg.sums, target))
+            // Where it has flowed the tangent may be singular, though it
+            // unloads.
+            if (try_values(step, leg.sums, target, false) ||
+                try_values(step, leg.sums, target, true))
               {
                 at += size;
                 if (at >= 1)
@@ -253,7 +264,7 @@ namespace moraine
     const SymmetricTensor<2, 3>          stress = point.stress();
     std::array<SymmetricTensor<2, 3>, 6> slopes;
     for (unsigned int j = 0; j < 6; ++j)
-      slopes[j] = slope(j);
+      slopes[j] = slope(j, false);
     double largest = 0, size = 0;
     for (unsigned int j = 0; j < 6; ++j)
       {
@@ -291,7 +302,8 @@ namespace moraine
     throw ComputationError(
       "no step leads on from " + (place.empty() ? "the initial state" : place) +
       ", not even a 1024th of one; " +
-      (has_stress ? "the stress asked for may be beyond the strength" :
-                    point.law().why_no_stress()));
+      (has_stress ?
+         "what is asked for may be out of reach, as beyond the strength" :
+         point.law().why_no_stress()));
   }
 } // namespace moraine

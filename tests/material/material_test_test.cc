@@ -122,6 +122,25 @@ namespace
     const double                most;
   };
 
+  /** The same, but for a step of no strain the tangent is 0, as at an apex. */
+  class AtApex : public AnyStiffness
+  {
+  public:
+    using AnyStiffness::AnyStiffness;
+    using Material::respond;
+
+    void
+    respond(const StepTime               &time,
+            const StrainMeasure           measure,
+            const ArrayView<TensorState> &points) const override
+    {
+      AnyStiffness::respond(time, measure, points);
+      for (TensorState &point : points)
+        if (point.strain_increment.norm() == 0)
+          point.tangent = SymmetricTensor<4, 3>();
+    }
+  };
+
   SymmetricTensor<4, 3>
   not_symmetric()
   {
@@ -268,6 +287,31 @@ TEST(MaterialTest, UntilAndCycles)
 
 
 
+TEST(MaterialTest, UnloadsFromYieldByStress)
+{
+  using Rows           = std::vector<std::pair<double, double>>;
+  const double  radius = std::sqrt(2. / 3) * yield;
+  const Pointer harder = std::make_shared<VonMises>(
+    young, ratio, 0., Rows{{0, radius}, {1, radius * (1 + 1e-3)}});
+  const Pointer softer = std::make_shared<VonMises>(
+    young, ratio, 0., Rows{{0, radius}, {1, radius * (1 - 1e-3)}});
+  for (const StrainMeasure measure :
+       {StrainMeasure::small, StrainMeasure::finite})
+    for (const Pointer &material : {perfect, harder, softer})
+      for (unsigned int n = 1; n < 30; ++n)
+        {
+          auto test     = test_of("triaxial drained",
+                              "to strain -0.03, to stress -2.5",
+                              {-3, -3, -3});
+          test.steps    = n;
+          const End end = driven(material, test, measure);
+          EXPECT_NEAR(end.stress[2][2], -2.5, 1e-10);
+          EXPECT_NEAR(end.strain[2], -0.03 + (yield + 0.5) / young, 1e-6) << n;
+        }
+}
+
+
+
 TEST(MaterialTest, GeneralOfAnyStiffness)
 {
   const std::vector<double> initial{-1, -2, -3, 0.1, 0.2, 0.3};
@@ -296,6 +340,20 @@ TEST(MaterialTest, GeneralOfAnyStiffness)
   EXPECT_NEAR(mixed.stress[0][0], 0.01 * young, 1e-12);
   EXPECT_NEAR(mixed.strain[1], -0.01 * ratio, 1e-13);
   EXPECT_NEAR(mixed.stress[1][2], 0.02 * shear, 1e-12);
+}
+
+
+
+TEST(MaterialTest, LeavesAnApexByStress)
+{
+  const auto            C   = not_symmetric();
+  const End             end = driven(std::make_shared<AtApex>(C),
+                         test_of("general", "to 1", {0, 0, 0}, "stress xx -1"));
+  SymmetricTensor<2, 3> stress;
+  stress[0][0]                       = -1;
+  const SymmetricTensor<2, 3> strain = invert(C) * stress;
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(end.strain[i], strain[i][i], 1e-13);
 }
 
 

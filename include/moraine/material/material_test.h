@@ -107,15 +107,18 @@ namespace moraine
     bool
     try_strain(const StepTime &time, const SixNumbers &strain);
 
-    /** How the stress changes with a strain, in the trial state. */
+    /** How the stress changes with a strain, in the trial state; @p elastic: by
+     * the elastic stiffness. */
     dealii::SymmetricTensor<2, 3>
-    slope(const unsigned int component) const;
+    slope(const unsigned int component, const bool elastic) const;
 
-    /** @return whether there are strains with these values. */
+    /** @param elastic_first whether the first correction is elastic
+     * @return whether there are strains with these values. */
     bool
     try_values(const StepTime                       &time,
                const std::array<StressStrainSum, 6> &sums,
-               const SixNumbers                     &values);
+               const SixNumbers                     &values,
+               const bool                            elastic_first);
 
     void
     find_error_of_tangent(const StepTime &time);
