@@ -438,7 +438,7 @@ namespace moraine
     prm.leave_subsection();
     section("Exact solution", exact);
     section("Strength reduction", strength_reduction);
-    section("Material test", material_test);
+    section("Material test", study.material_test);
     prm.enter_subsection("Study");
     study.add_parameters(prm);
     in_subsections(prm, "Series", study.series, [this](std::string &settings) {

@@ -50,7 +50,7 @@ namespace moraine
         if (known == name)
           return {scene.strength_reduction.reduced(
                     name, make_material(parameters, "Materials/" + name)),
-                  scene.material_test,
+                  scene.study.material_test,
                   scene.method.strain_measure(),
                   scene.output.units};
       throw InputError("section 'Materials': option '--material': found '" +

@@ -14,7 +14,6 @@
 #include <moraine/scene/condition_parameters.h>
 #include <moraine/scene/damping_parameters.h>
 #include <moraine/scene/initial_stress_parameters.h>
-#include <moraine/scene/material_test_parameters.h>
 #include <moraine/scene/method.h>
 #include <moraine/scene/stage_parameters.h>
 #include <moraine/scene/strength_reduction.h>
@@ -139,7 +138,6 @@ namespace moraine
     std::vector<ProbeParameters<dim>>   probes;
     ExactSolutionParameters<dim>        exact;
     StrengthReductionParameters         strength_reduction;
-    MaterialTestParameters              material_test;
     StudyParameters                     study;
 
     /** Whether there is a stage with inertia. */

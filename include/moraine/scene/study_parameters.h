@@ -5,6 +5,7 @@
 #define moraine_scene_study_parameters_h
 
 #include <moraine/core/input_file.h>
+#include <moraine/scene/material_test_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -25,6 +26,8 @@ namespace moraine
     std::string title;
     /** Settings of section `Study/Series/<name>`. */
     std::vector<std::pair<std::string, std::string>> series;
+    /** Section `Material test`, declared apart. */
+    MaterialTestParameters material_test;
 
     void
     add_parameters(dealii::ParameterHandler &prm);
