@@ -185,13 +185,14 @@ namespace moraine
 
 
 
-    /** Add the tangents of a run of points; gradients of nodes from @p n_own on
-     * are zero. */
+    /** Add the tangents of a run of points and the @p least stiffness;
+     * gradients of nodes from @p n_own on are zero. */
     template <int dim>
     void
-    add_tangents(const unsigned int n_own,
-                 const bool         all_pairs,
-                 LocalSystem<dim>  &local)
+    add_tangents(const unsigned int   n_own,
+                 const bool           all_pairs,
+                 const LameConstants &least,
+                 LocalSystem<dim>    &local)
     {
       const TrialPoints<dim> &trial     = local.trial_points;
       const bool              has_means = trial.n_means() > 0;
@@ -199,7 +200,14 @@ namespace moraine
       SymmetricTensor<2, 3>   rest;
       for (unsigned int p = 0; p < trial.n_points(); ++p)
         {
-          VoigtMatrix<dim>             c   = trial.tangent(p);
+          VoigtMatrix<dim> c = trial.tangent(p);
+          if (least.mu > 0)
+            for (unsigned int I = 0; I < n_voigt<dim>; ++I)
+              {
+                c[I][I] += (I < dim ? 2 : 1) * least.mu;
+                for (unsigned int J = 0; I < dim && J < dim; ++J)
+                  c[I][J] += least.lambda;
+              }
           const SymmetricTensor<2, 3> *tau = nullptr;
           if (trial.is_finite())
             tau = &trial.stress(p);
@@ -414,7 +422,14 @@ namespace moraine
               local.moments, block.n_nodes, C, all_pairs, local.matrix);
           }
         else if (with_tangent)
-          add_tangents(block.n_own_nodes, all_pairs, local);
+          {
+            const double        part = material.least_stiffness();
+            const LameConstants C    = material.elastic_stiffness();
+            add_tangents(block.n_own_nodes,
+                         all_pairs,
+                         {part * C.lambda, part * C.mu},
+                         local);
+          }
         if (has_means)
           local.dilatation.end(with_tangent, local.force, local.matrix);
         if (with_tangent && !all_pairs)

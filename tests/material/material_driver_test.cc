@@ -329,7 +329,7 @@ TEST(Materials, AllModelsAreDriven)
   std::ostringstream described;
   prm.print_parameters(described, ParameterHandler::JSON);
   EXPECT_NE(described.str().find("[Selection linear elastic|neo-Hookean|von "
-                                 "Mises ]"),
+                                 "Mises|Mohr-Coulomb|Tresca|Drucker-Prager ]"),
             std::string::npos)
     << "another model: drive it too. " << described.str();
   for (const auto &[name, material] : all_materials())
@@ -523,10 +523,10 @@ TEST(VonMises, MeaningOfTheKeys)
   };
   auto uniaxial = parameters("von Mises", "0: 1, 1: 5");
   EXPECT_DOUBLE_EQ(radius(uniaxial), 3 * std::sqrt(2. / 3.));
-  auto shear               = parameters("von Mises");
+  auto shear                        = parameters("von Mises");
   shear.texts["Shear yield stress"] = "3";
   EXPECT_DOUBLE_EQ(radius(shear), 3 * std::sqrt(2.));
-  auto direct         = parameters("von Mises");
+  auto direct                  = parameters("von Mises");
   direct.texts["Yield radius"] = "3";
   EXPECT_DOUBLE_EQ(radius(direct), 3);
 
@@ -777,11 +777,11 @@ namespace
 
 TEST(MaterialLibrary, ElasticConstants)
 {
-  auto p          = parameters("linear elastic");
+  auto p                   = parameters("linear elastic");
   p.texts["Young modulus"] = "0";
   EXPECT_EQ(complaint(p),
             about("Young modulus", "0") + ", allowed: a number > 0");
-  p               = parameters("neo-Hookean");
+  p                        = parameters("neo-Hookean");
   p.texts["Poisson ratio"] = "0.5";
   EXPECT_EQ(complaint(p),
             about("Poisson ratio", "0.5") +
@@ -796,22 +796,23 @@ TEST(MaterialLibrary, YieldKeys)
             about(uniaxial, "") +
               ", allowed: a yield stress > 0, in this key, in 'Shear yield "
               "stress' or in 'Yield radius'");
-  auto two         = parameters("von Mises", "2");
+  auto two                  = parameters("von Mises", "2");
   two.texts["Yield radius"] = "3";
   EXPECT_EQ(complaint(two),
             about("Yield radius", "3") +
               ", allowed: nothing; 'Uniaxial yield stress' gives the yield "
               "stress");
-  auto elastic               = parameters("linear elastic");
+  auto elastic                        = parameters("linear elastic");
   elastic.texts["Shear yield stress"] = "3";
   EXPECT_EQ(complaint(elastic),
             about("Shear yield stress", "3") +
               ", allowed: nothing; the keys of 'linear elastic' are Density, "
               "Young modulus, Poisson ratio");
-  EXPECT_EQ(complaint(parameters("neo-Hookean", "3")),
-            about(uniaxial, "3") +
-              ", allowed: nothing; the keys of 'neo-Hookean' are Density, Young "
-              "modulus, Poisson ratio");
+  EXPECT_EQ(
+    complaint(parameters("neo-Hookean", "3")),
+    about(uniaxial, "3") +
+      ", allowed: nothing; the keys of 'neo-Hookean' are Density, Young "
+      "modulus, Poisson ratio");
 }
 
 TEST(MaterialLibrary, YieldTables)
@@ -860,13 +861,11 @@ TEST(MaterialLibrary, SteepSoftening)
     p.texts[key] = text;
     return complaint(p);
   };
-  EXPECT_NE(of("Shear yield stress", "0: 10, 0.01: 8.3")
-              .find("above -166.543,"),
-            std::string::npos);
-  EXPECT_EQ(of("Shear yield stress", "0: 10, 0.01: 8.4"),
-            "");
-  EXPECT_NE(of("Yield radius", "0: 10, 0.01: 7.6")
-              .find("above -235.528,"),
+  EXPECT_NE(
+    of("Shear yield stress", "0: 10, 0.01: 8.3").find("above -166.543,"),
+    std::string::npos);
+  EXPECT_EQ(of("Shear yield stress", "0: 10, 0.01: 8.4"), "");
+  EXPECT_NE(of("Yield radius", "0: 10, 0.01: 7.6").find("above -235.528,"),
             std::string::npos);
   EXPECT_EQ(of("Yield radius", "0: 10, 0.01: 7.7"), "");
 }

@@ -218,6 +218,14 @@ namespace moraine
       return true;
     }
 
+    /** The part of the elastic stiffness that Newton's matrix has in addition
+     * to the tangent, which may vanish: at an apex, in tension. */
+    virtual double
+    least_stiffness() const
+    {
+      return 0;
+    }
+
     /** Whether it makes sense at small strain. */
     virtual bool
     has_small_strain_limit() const

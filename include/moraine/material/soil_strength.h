@@ -315,6 +315,12 @@ namespace moraine
       return at_start.sin_psi == at_start.sin_phi;
     }
 
+    double
+    least_stiffness() const override
+    {
+      return 1e-8;
+    }
+
     std::string
     why_no_stress() const override
     {
