@@ -248,7 +248,8 @@ namespace moraine
           {
             const Material &material = *model.materials[body];
             const auto      internal = material.internal_at(point_in_space(x));
-            const LameConstants C = material.elastic_stiffness(internal.data());
+            const LameConstants C =
+              material.elastic_stiffness_at(internal.data());
             return C.lambda / (C.lambda + 2 * C.mu);
           }
         const double share = K0->value(x);

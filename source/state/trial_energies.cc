@@ -83,7 +83,7 @@ namespace moraine
     for (unsigned int i = 0;
          i < points.size() && !material.has_uniform_stiffness();
          ++i)
-      stiffness[i] = material.elastic_stiffness(&internal[i * n_internal]);
+      stiffness[i] = material.elastic_stiffness_at(&internal[i * n_internal]);
     dissipates = material.dissipates();
     energy_points.resize(points.size());
     if (measure == StrainMeasure::small)

@@ -272,7 +272,7 @@ namespace moraine
         const unsigned int p  = block.points[begin + i];
         TrialPoint        &at = points[i];
         if (!is_uniform)
-          C = material.elastic_stiffness(&internal[i * n_internal]);
+          C = material.elastic_stiffness_at(&internal[i * n_internal]);
         at.J_increment = 1;
         at.weight      = block.share(begin + i) * state.integration_volume(p);
         at.principal =

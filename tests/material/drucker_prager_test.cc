@@ -7,9 +7,8 @@
 
 #include "soil_point.h"
 
-namespace drucker_prager_test
+namespace soil_point
 {
-  using namespace soil_point;
   using moraine::DruckerPrager;
 
   namespace
@@ -138,4 +137,4 @@ namespace drucker_prager_test
         EXPECT_EQ(std::isnan(at.stress.norm()), factor > 1);
       }
   }
-} // namespace drucker_prager_test
+} // namespace soil_point

@@ -12,9 +12,8 @@
 
 #include "soil_point.h"
 
-namespace mohr_coulomb_test
+namespace soil_point
 {
-  using namespace soil_point;
   using moraine::MohrCoulomb;
   using moraine::MohrCoulombReturn;
   using moraine::SoilStrengthTables;
@@ -199,7 +198,8 @@ namespace mohr_coulomb_test
         SCOPED_TRACE(testing::PrintToString(row));
         const MohrCoulomb        material(soil_of(row));
         const SoilStrengthTables strengths(soil_of(row));
-        const MohrCoulombReturn  planes(strengths.at(0, 0).value, {lambda, G});
+        const MohrCoulombReturn  planes(strengths.at(0, 0, nullptr).value,
+                                       {lambda, G});
         Random                   random;
         for (unsigned int i = 0; i < 1000; ++i, ++n)
           {
@@ -262,7 +262,8 @@ namespace mohr_coulomb_test
         const auto   strain = to_strain(random.vector(-20, 100));
         const auto   at     = respond(material, strain);
         const double kappa  = at.variables[0];
-        const auto end = strengths.at(kappa, strengths.segment_at(kappa)).value;
+        const auto   end =
+          strengths.at(kappa, strengths.segment_at(kappa), nullptr).value;
         const MohrCoulomb perfect(soil(end.cohesion,
                                        std::asin(end.sin_phi) / degree,
                                        std::asin(end.sin_psi) / degree,
@@ -509,4 +510,4 @@ namespace mohr_coulomb_test
     EXPECT_NEAR(shear(10, 0.5, 500), 53.9221, 1e-4);
     EXPECT_NEAR(shear(30, 0.5, 500), 57.7350, 1e-4);
   }
-} // namespace mohr_coulomb_test
+} // namespace soil_point

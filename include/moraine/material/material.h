@@ -189,7 +189,7 @@ namespace moraine
 
     /** The same at a point with these @p internal variables. */
     virtual LameConstants
-    elastic_stiffness(const double * /*internal*/) const
+    elastic_stiffness_at(const double * /*internal*/) const
     {
       return elastic_stiffness();
     }
@@ -244,8 +244,8 @@ namespace moraine
     {
       for (unsigned int i = 0; i < energies.size(); ++i)
         {
-          const LameConstants         C = elastic_stiffness(points[i].internal);
-          const dealii::Tensor<1, 3> &e = points[i].strain;
+          const LameConstants C = elastic_stiffness_at(points[i].internal);
+          const dealii::Tensor<1, 3> &e          = points[i].strain;
           const double                volumetric = e[0] + e[1] + e[2];
           energies[i] =
             0.5 * C.lambda * volumetric * volumetric + C.mu * (e * e);
@@ -320,7 +320,7 @@ namespace moraine
     }
 
     LameConstants
-    elastic_stiffness(const double *internal) const override
+    elastic_stiffness_at(const double *internal) const override
     {
       return stiffness_at(internal);
     }

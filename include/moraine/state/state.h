@@ -428,7 +428,7 @@ namespace moraine
     if (material.has_uniform_stiffness())
       return material.elastic_stiffness();
     const auto internal = state.fields().internal_of(body, points.values(p));
-    return material.elastic_stiffness(internal.data());
+    return material.elastic_stiffness_at(internal.data());
   }
 } // namespace moraine
 
