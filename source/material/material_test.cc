@@ -7,6 +7,9 @@
 #include <moraine/core/words.h>
 #include <moraine/material/spectral.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +22,9 @@ namespace moraine
     constexpr unsigned int most_test_iterations = 30;
     constexpr double       smallest_test_part   = 1. / 1024;
     constexpr double       quotient_size        = 1e-7;
+
+    /** Singular values are zero below this part of the largest. */
+    constexpr double no_singular_value = 1e-12;
 
 
 
@@ -33,32 +39,21 @@ namespace moraine
 
 
 
-    /** The solution of A x = b by elimination with pivots, in @p b.
-     * @return whether there is one. */
-    bool
-    solve_six(std::array<SixNumbers, 6> A, SixNumbers &b)
+    /** The least solution of A x = b, by singular values: at an edge or apex of
+     * a yield surface A has none for some. */
+    SixNumbers
+    solve_six(const std::array<SixNumbers, 6> &A, const SixNumbers &b)
     {
-      for (unsigned int k = 0; k < 6; ++k)
-        {
-          unsigned int pivot = k;
-          for (unsigned int i = k + 1; i < 6; ++i)
-            if (std::abs(A[i][k]) > std::abs(A[pivot][k]))
-              pivot = i;
-          std::swap(A[k], A[pivot]);
-          std::swap(b[k], b[pivot]);
-          if (!(std::abs(A[k][k]) > 1e-14))
-            return false;
-          for (unsigned int i = 0; i < 6; ++i)
-            {
-              const double factor = i == k ? 0. : A[i][k] / A[k][k];
-              for (unsigned int j = k; j < 6; ++j)
-                A[i][j] -= factor * A[k][j];
-              b[i] -= factor * b[k];
-            }
-        }
-      for (unsigned int k = 0; k < 6; ++k)
-        b[k] /= A[k][k];
-      return true;
+      LAPACKFullMatrix<double> inverse(6);
+      Vector<double>           x(6), right(b.begin(), b.end());
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          inverse(i, j) = A[i][j];
+      inverse.compute_inverse_svd(no_singular_value);
+      inverse.vmult(x, right);
+      SixNumbers result;
+      std::copy(x.begin(), x.end(), result.begin());
+      return result;
     }
 
 
@@ -198,10 +193,9 @@ namespace moraine
                     scale[i] * sums[i].of_stress[I] * component_of(change, I);
               }
           }
-        if (!solve_six(matrix, residual))
-          return false;
+        const SixNumbers change = solve_six(matrix, residual);
         for (unsigned int j = 0; j < 6; ++j)
-          strain[j] += residual[j];
+          strain[j] += change[j];
         ++iterations;
       }
     return false;

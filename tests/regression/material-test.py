@@ -122,3 +122,18 @@ for name, content in (("other-names", "time,force\n1,2\n"),
                         "Material test/Measured": f"{name}.csv"},
                 command="test-material", extra=["--output", folder / "wrong"])
     text(name, plain(wrong.output.strip().splitlines()[-1]))
+
+# Soils, c = 10, friction 30 degrees, confined by 100: closed forms.
+SOIL = {"Materials/clay/Uniaxial yield stress": "",
+        "Materials/clay/Young modulus": 20000, "Materials/clay/Cohesion": 10,
+        "Materials/clay/Friction angle": 30,
+        "Material test/Initial stress": "-100, -100, -100"}
+for model, compression, extension in (
+        ("Mohr-Coulomb", 234.641016, -78.213672),
+        ("Drucker-Prager", 135.081404, -76.421150)):
+    for legs, q in (("to strain -0.1", compression),
+                    ("to strain 0.1", extension)):
+        _, _, rows = test("triaxial drained", legs, {
+            **SOIL, "Materials/clay/Model": model,
+            "Materials/clay/Dilation angle": 30})
+        bound(f"  {model}: q over exact - 1", abs(rows[-1]["q"] / q - 1), 1e-8)
