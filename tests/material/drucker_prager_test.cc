@@ -17,7 +17,7 @@ namespace soil_point
     constexpr auto plane = DruckerPrager::Match::plane_strain;
 
     SoilParameters
-    softening()
+    softening_cone()
     {
       SoilParameters result = soil(10, 30, 10, none);
       result.cohesion       = {{0, 10}, {0.01, 12}, {0.05, 2}};
@@ -82,7 +82,7 @@ namespace soil_point
     for (const auto &parameters : {soil(10, 30, 30, none),
                                    soil(10, 30, 0, none),
                                    soil(10, 0, 0, none),
-                                   softening()})
+                                   softening_cone()})
       for (const auto match : {plane, outer})
         {
           const DruckerPrager material(parameters, match);
@@ -107,7 +107,7 @@ namespace soil_point
       for (const auto match : {plane, outer})
         walk(DruckerPrager(soil(10, 30, psi, none), match), 10000, 3e-3);
     walk(DruckerPrager(soil(0, 30, 0, none)), 10000, 3e-3);
-    walk(DruckerPrager(softening()), 30000, 3e-3);
+    walk(DruckerPrager(softening_cone()), 30000, 3e-3);
   }
 
   TEST(DruckerPrager, StrengthReductionAndSteepSoftening)

@@ -78,7 +78,7 @@ namespace soil_point
   {
     return {true, value};
   }
-  using Controls = std::array<Control, 6>;
+  using Controls = std::vector<Control>; ///< six
 
   /** A point at small strain. */
   class Sample
