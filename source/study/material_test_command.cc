@@ -62,6 +62,20 @@ namespace moraine
 
 
 
+    /** @throw InputError if a parameter depends on place: a point of a test is
+     * nowhere. */
+    void
+    check_places(const Material &material, const std::string &section)
+    {
+      for (const InternalVariable &variable : material.internal_variables())
+        if (variable.initial_at)
+          throw InputError("section '" + section + "': '" + variable.name +
+                           "' depends on place, allowed in a material test: a "
+                           "number");
+    }
+
+
+
     /** @throw InputError for an initial stress that @p test does not have. */
     void
     check_initial_stress(const TestedMaterial &of, const MaterialTest &test)
@@ -209,13 +223,14 @@ namespace moraine
                 const std::string &folder,
                 const MPI_Comm     communicator)
   {
-    std::string          name     = material;
-    const TestedMaterial of       = input.get("", "Dimension", "2") == "3" ?
-                                      read_tested_material<3>(input, name) :
-                                      read_tested_material<2>(input, name);
-    const auto           legs     = of.test.all_legs();
-    const std::string    measured = measured_values(input, of.test.measured);
-    MaterialTest         test(of.material, of.measure, of.test.stress());
+    std::string          name = material;
+    const TestedMaterial of   = input.get("", "Dimension", "2") == "3" ?
+                                  read_tested_material<3>(input, name) :
+                                  read_tested_material<2>(input, name);
+    check_places(*of.material, "Materials/" + name);
+    const auto        legs     = of.test.all_legs();
+    const std::string measured = measured_values(input, of.test.measured);
+    MaterialTest      test(of.material, of.measure, of.test.stress());
     check_initial_stress(of, test);
 
     Console           console(communicator);

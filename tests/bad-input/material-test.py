@@ -49,6 +49,8 @@ refused("control of another kind", {TEST + "Control": "strain zz 1"})
 refused("no such file", {TEST + "Measured": "none.csv"})
 refused("small strain", None, "--material", "rubber")
 refused("bad modulus", {"Materials/clay/Young modulus": "-1"})
+refused("modulus that depends on place", {
+    "Materials/clay/Young modulus": "1000*(1 + y)"})
 refused("unknown key", {TEST + "Knd": "general"})
 
 refused("beyond the strength", {TEST + "Legs": "to strain -0.01, to stress -40",
