@@ -258,7 +258,7 @@ namespace material_test_test
     const End plane = driven(elastic, test_of("biaxial", "to strain -0.01"));
     EXPECT_NEAR(plane.stress[2][2], -0.01 * young / (1 - ratio * ratio), 1e-12);
     EXPECT_NEAR(plane.stress[0][0], 0, 1e-14);
-    EXPECT_EQ(plane.strain[1], 0);
+    EXPECT_NEAR(plane.strain[1], 0, 1e-17);
     const End all =
       driven(elastic, test_of("isotropic", "to stress -7", {-1, -2, -3}));
     for (unsigned int i = 0; i < 3; ++i)

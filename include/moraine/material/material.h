@@ -293,7 +293,10 @@ namespace moraine
   class IsotropicMaterial : public Material
   {
   public:
-    /** @param history the internal variables that change in time */
+    /**
+     * @param elasticity elastic constants, density, fields
+     * @param history the internal variables that change in time
+     */
     IsotropicMaterial(const IsotropicElasticity    &elasticity,
                       std::vector<InternalVariable> history = {})
       : elasticity(elasticity)

@@ -63,7 +63,11 @@ namespace moraine
   class MaterialInput
   {
   public:
-    /** @param section of messages, as "Materials/clay" */
+    /**
+     * @param parameters the texts of the keys
+     * @param section of messages, as "Materials/clay"
+     * @param place where the material is
+     */
     MaterialInput(const MaterialParameters &parameters,
                   const std::string        &section,
                   const MaterialPlace      &place);

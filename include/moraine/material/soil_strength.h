@@ -153,6 +153,7 @@ namespace moraine
    * a fraction of the strain, and what is lost next to 1 where strains are
    * logarithms of stretches.
    *
+   * @param C the elastic stiffness
    * @param strain the trial strain
    * @param cohesion the yield function at no stress, or any part of it
    */
@@ -236,6 +237,8 @@ namespace moraine
    *        {1 - \partial\Delta\kappa/\partial\kappa} .
    * @f]
    *
+   * @param tables the strengths
+   * @param C the elastic stiffness
    * @param kappa in: at the start of the step, out: at its end; nan if r does
    * not grow over a segment before, so that there is no return
    * @param give a function of @f$\kappa@f$ and segment that answers with a

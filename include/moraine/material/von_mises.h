@@ -54,7 +54,11 @@ namespace moraine
              const double                                  rho,
              const std::vector<std::pair<double, double>> &yield_radius);
 
-    /** @param scale multiplies the yield radius */
+    /**
+     * @param elasticity elastic constants, density, fields
+     * @param yield_radius as above
+     * @param scale multiplies the yield radius
+     */
     VonMises(const IsotropicElasticity                    &elasticity,
              const std::vector<std::pair<double, double>> &yield_radius,
              const Parameter                              &scale = 1);

@@ -100,6 +100,7 @@ namespace moraine
     using Named = std::vector<std::pair<std::string, Parameters>>;
 
     /**
+     * @param input the scene file
      * @param for_materials whether only materials and their test are of
      * interest: all else may be missing, and is not checked across sections.
      * @throws InputError for anything wrong that can be seen in the text.

@@ -13,10 +13,13 @@
 namespace moraine
 {
   /**
-   * Do the material test of a scene, and write material-test-NAME.csv and .png
-   * into @p folder. Collective.
+   * Do the material test of a scene, and write material-test-NAME.csv and .png.
+   * Collective.
    *
+   * @param input the scene file
    * @param material its name; may be empty if there is one only
+   * @param folder where the files go
+   * @param communicator all ranks
    * @return the exit code: done
    * @throw InputError for what is wrong in sections `Materials` and `Material
    * test`, ComputationError where the test cannot go on; the CSV file has the
