@@ -266,6 +266,8 @@ def make_case(folder, seed, number):
     source = rng.choice(scenes)
     for pattern in ("*.msh", "*.csv"):
         for file in (root / "prm").rglob(pattern):
+            if "studies" in file.parts:
+                continue
             text = file.read_text()
             if rng.random() < 0.1:
                 text = mutated(rng, text)
