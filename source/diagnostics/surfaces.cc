@@ -380,7 +380,7 @@ namespace moraine
     {
       Worst worst("nitsche-flux", 0);
       if (facts.of.state.strain_measure() == StrainMeasure::finite ||
-          facts.of.scene.any_yields())
+          facts.of.state.dissipates())
         for (const auto &boundary : facts.of.boundaries)
           worst.take(boundary.name(), boundary.enforcement().w_constrained);
       return worst.with("the flux of Nitsche's method is elastic and of small "

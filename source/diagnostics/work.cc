@@ -110,7 +110,7 @@ namespace moraine
         number("begun") == 0 ? facts.of.scene.start_time() : number("time");
       number("begun") = 1;
       number("time")  = facts.now.t;
-      if (!facts.of.scene.any_yields() || facts.has_inertia() ||
+      if (!facts.of.state.dissipates() || facts.has_inertia() ||
           facts.now.follows_path ||
           facts.of.state.mesh_after_step() == MeshAfterStep::keep)
         return {};

@@ -207,9 +207,9 @@ namespace moraine
     std::vector<MaterialKey> keys = soil_keys();
     keys.push_back(
       {"Cone",
-       "What the cone has in common with Mohr and Coulomb's pyramid. plane "
-       "strain: collapse in plane strain. outer: triaxial compression; in "
-       "plane strain a friction angle of 30 degrees is then one of 44 to 49.",
+       "Where the cone has the strength of Mohr-Coulomb. plane strain: at "
+       "collapse in plane strain. outer: in triaxial compression; in plane "
+       "strain 30 degrees then act as 44 to 49.",
        "plane strain",
        patterns::selection({"plane strain", "outer"})});
     return {"Drucker-Prager",
@@ -218,7 +218,7 @@ namespace moraine
             keys,
             [](MaterialInput &input) {
               return std::make_shared<DruckerPrager>(
-                read_soil(input),
+                read_soil(input, /* has_tension = */ false),
                 input.text("Cone") == "outer" ?
                   DruckerPrager::Match::outer_cone :
                   DruckerPrager::Match::plane_strain);

@@ -295,9 +295,8 @@ namespace moraine
             "dilation angle",
             keys,
             [](MaterialInput &input) {
-              SoilParameters parameters = read_soil(input);
-              read_tension(input, parameters);
-              return std::make_shared<MohrCoulomb>(parameters);
+              return std::make_shared<MohrCoulomb>(
+                read_soil(input, /* has_tension = */ true));
             }};
   }
 

@@ -4,6 +4,7 @@
 #include <moraine/material/soil_strength.h>
 
 #include <moraine/core/arithmetic.h>
+#include <moraine/core/exceptions.h>
 #include <moraine/core/words.h>
 
 #include <deal.II/base/numbers.h>
@@ -176,15 +177,21 @@ namespace moraine
 
 
 
+    const NumberRange strength_range{0.,
+                                     std::numeric_limits<double>::infinity(),
+                                     true};
+    const NumberRange angle_range{0., 60., true, true};
+
     /** Angles below are radians. */
     constexpr double least_angle = 1;
 
     void
-    refuse_radians(const MaterialInput         &input,
-                   const std::string           &key,
-                   const SoilParameters::Table &table,
-                   const Parameter             &scale)
+    read_angle(MaterialInput         &input,
+               const std::string     &key,
+               SoilParameters::Table &table,
+               Parameter             &scale)
     {
+      read_strength(input, key, angle_range, "degree", table, scale);
       for (const auto &[kappa, angle] : table)
         if (!scale.is_field() && angle > 0 && angle < least_angle)
           input.refuse(key,
@@ -195,10 +202,85 @@ namespace moraine
 
 
 
-    const NumberRange strength_range{0.,
-                                     std::numeric_limits<double>::infinity(),
-                                     true};
-    const NumberRange angle_range{0., 60., true, true};
+    /** Refuse a dilation angle above the friction angle: in tables, and of
+     * fields where points start. */
+    void
+    check_dilation(const MaterialInput &input, SoilParameters &soil)
+    {
+      const std::string      key     = "Dilation angle";
+      const std::string      allowed = "0 to 'Friction angle' = ";
+      SoilParameters::Table &phi     = soil.friction_angle;
+      SoilParameters::Table &psi     = soil.dilation_angle;
+      const Parameter        of_phi = soil.scales[1], of_psi = soil.scales[2];
+      if (!of_phi.is_field() && !of_psi.is_field())
+        {
+          for (const auto *table : {&phi, &psi})
+            for (const auto &row : *table)
+              if (value_of(psi, row.first) > value_of(phi, row.first))
+                input.refuse(key, allowed + text_of(value_of(phi, row.first)));
+          return;
+        }
+      std::vector<InternalVariable> &fields = soil.elasticity.fields;
+      fields.back().initial_at =
+        [=, section = input.section, all = fields](const Point<3> &x) {
+          std::vector<double> values;
+          for (const InternalVariable &field : all)
+            values.push_back(field.initial_at(x));
+          const double friction = phi[0].second * of_phi.at(values.data());
+          const double dilation = psi[0].second * of_psi.at(values.data());
+          if (dilation > friction)
+            throw InputError(place(section, key) + ": found " +
+                             text_of(dilation) + " at (" +
+                             coordinates(x, 6, ", ") +
+                             "), allowed: " + allowed + text_of(friction));
+          return values.back();
+        };
+    }
+
+
+
+    /** `Tensile strength` and `Largest plastic dilation`. */
+    void
+    read_tension(MaterialInput &input, SoilParameters &parameters)
+    {
+      constexpr double no_limit = std::numeric_limits<double>::infinity();
+      if (input.has("Largest plastic dilation"))
+        {
+          const auto number =
+            number_from(input.text("Largest plastic dilation"));
+          if (!number || !(*number > 0))
+            input.refuse("Largest plastic dilation",
+                         "nothing, or a number > 0");
+          parameters.largest_dilation = *number;
+        }
+      const std::string key = "Tensile strength";
+      const double      phi = parameters.friction_angle[0].second;
+      const double      psi = parameters.dilation_angle[0].second;
+      if (input.text(key) == "none")
+        {
+          if (phi > 0 && psi == 0)
+            input.refuse(
+              key,
+              "a number >= 0; 'none' needs a dilation angle > 0 or no "
+              "friction");
+          parameters.tensile_strength = {{0., no_limit}};
+          return;
+        }
+      read_strength(input,
+                    key,
+                    strength_range,
+                    "stress",
+                    parameters.tensile_strength,
+                    parameters.scales[3]);
+      const auto &scales = parameters.scales;
+      if (scales[0].is_field() || scales[1].is_field() ||
+          scales[3].is_field() || phi == 0)
+        return;
+      const double apex =
+        parameters.cohesion[0].second / std::tan(phi * per_degree);
+      if (parameters.tensile_strength[0].second > apex)
+        input.refuse(key, "up to c cot(phi) = " + text_of(apex, 4));
+    }
   } // namespace
 
 
@@ -228,7 +310,7 @@ namespace moraine
 
 
   SoilParameters
-  read_soil(MaterialInput &input)
+  read_soil(MaterialInput &input, const bool has_tension)
   {
     SoilParameters result;
     result.elasticity = read_elasticity(input);
@@ -238,80 +320,22 @@ namespace moraine
                   "stress",
                   result.cohesion,
                   result.scales[0]);
-    read_strength(input,
-                  "Friction angle",
-                  angle_range,
-                  "degree",
-                  result.friction_angle,
-                  result.scales[1]);
-    refuse_radians(input,
-                   "Friction angle",
-                   result.friction_angle,
-                   result.scales[1]);
-    read_strength(input,
-                  "Dilation angle",
-                  angle_range,
-                  "degree",
-                  result.dilation_angle,
-                  result.scales[2]);
-    refuse_radians(input,
-                   "Dilation angle",
-                   result.dilation_angle,
-                   result.scales[2]);
-    input.check_softening_length();
+    read_angle(input,
+               "Friction angle",
+               result.friction_angle,
+               result.scales[1]);
+    read_angle(input,
+               "Dilation angle",
+               result.dilation_angle,
+               result.scales[2]);
     if (!result.scales[0].is_field() && !result.scales[1].is_field() &&
         result.cohesion[0].second == 0 && result.friction_angle[0].second == 0)
       input.refuse("Cohesion", "a number > 0, as 'Friction angle' is 0");
-    const auto &phi = result.friction_angle;
-    if (!result.scales[1].is_field() && !result.scales[2].is_field())
-      for (const auto &[kappa, psi] : result.dilation_angle)
-        if (psi > value_of(phi, kappa))
-          input.refuse("Dilation angle",
-                       "0 to 'Friction angle' = " +
-                         text_of(value_of(phi, kappa)));
+    if (has_tension)
+      read_tension(input, result);
+    input.check_softening_length();
     result.elasticity.fields = input.fields();
+    check_dilation(input, result);
     return result;
-  }
-
-
-
-  void
-  read_tension(MaterialInput &input, SoilParameters &parameters)
-  {
-    constexpr double no_limit = std::numeric_limits<double>::infinity();
-    if (input.has("Largest plastic dilation"))
-      {
-        const auto number = number_from(input.text("Largest plastic dilation"));
-        if (!number || !(*number > 0))
-          input.refuse("Largest plastic dilation", "nothing, or a number > 0");
-        parameters.largest_dilation = *number;
-      }
-    const std::string key = "Tensile strength";
-    const double      phi = parameters.friction_angle[0].second;
-    const double      psi = parameters.dilation_angle[0].second;
-    if (input.text(key) == "none")
-      {
-        if (phi > 0 && psi == 0)
-          input.refuse(key,
-                       "a number >= 0; 'none' needs a dilation angle > 0 or no "
-                       "friction");
-        parameters.tensile_strength = {{0., no_limit}};
-        return;
-      }
-    read_strength(input,
-                  key,
-                  strength_range,
-                  "stress",
-                  parameters.tensile_strength,
-                  parameters.scales[3]);
-    parameters.elasticity.fields = input.fields();
-    const auto &scales           = parameters.scales;
-    if (scales[0].is_field() || scales[1].is_field() || scales[3].is_field() ||
-        phi == 0)
-      return;
-    const double apex =
-      parameters.cohesion[0].second / std::tan(phi * per_degree);
-    if (parameters.tensile_strength[0].second > apex)
-      input.refuse(key, "up to c cot(phi) = " + text_of(apex, 4));
   }
 } // namespace moraine

@@ -266,10 +266,9 @@ namespace moraine
              "One of three ways to give the yield stress of von Mises "
              "(stress): ") +
              key.meaning +
-             ". A number or an expression in x, y, z; or a table 'kappa: "
-             "value, kappa: value, ...' over the accumulated plastic strain "
-             "kappa (that of uniaxial tension), from kappa = 0 on, linear in "
-             "between and constant after the last."});
+             ". A number, an expression in x, y, z, or a table 'kappa: value, "
+             "kappa: value, ...' over the plastic strain kappa of uniaxial "
+             "tension, from 0 on."});
       keys.push_back(softening_key());
       return keys;
     }

@@ -33,11 +33,9 @@ namespace moraine
      * fills a cell: too few points are no cause there. Collective. */
     template <int dim>
     bool
-    yields_in_full_cell(const Scene<dim>   &scene,
-                        const Model<dim>   &model,
-                        const NewtonReport &report)
+    yields_in_full_cell(const Model<dim> &model, const NewtonReport &report)
     {
-      if (!scene.any_yields() ||
+      if (!model.state->dissipates() ||
           (report.status != NewtonStatus::diverged &&
            report.status != NewtonStatus::too_many_iterations))
         return false;
@@ -64,7 +62,7 @@ namespace moraine
     const bool supported =
       model.state->mesh_after_step() == MeshAfterStep::reset &&
       (in_vain || n_rejections == rejections_before_support) &&
-      ((!yields_in_full_cell(scene, model, report) && hold_empty_parts()) ||
+      ((!yields_in_full_cell(model, report) && hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
     const bool repeats = time_control.reject(reason);
     if (supported)
@@ -128,7 +126,7 @@ namespace moraine
             .of_forces > largest_empty_share)
       return std::string("what points leave empty would carry the load: too "
                          "few points in the cells, ") +
-             (scene.any_yields() ?
+             (model.state->dissipates() ?
                 "a body that is not held, or a limit load of material that "
                 "yields" :
                 "or a body that is not held");

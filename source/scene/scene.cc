@@ -187,7 +187,11 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
-    if (method.strain_measure() == StrainMeasure::finite || any_yields() ||
+    const bool any_yields = any_of(materials, [](const auto &named) {
+      return make_material(named.second, "Materials/" + named.first)
+        ->dissipates();
+    });
+    if (method.strain_measure() == StrainMeasure::finite || any_yields ||
         conserves_energy())
       choose_enforcement("augmented Lagrangian", input);
     else if (is_dynamic())
@@ -209,18 +213,6 @@ namespace moraine
       if (stage.time.integrator.dynamic())
         return stage;
     return stages.front().second;
-  }
-
-
-
-  template <int dim>
-  bool
-  Scene<dim>::any_yields() const
-  {
-    return any_of(materials, [](const auto &named) {
-      return make_material(named.second, "Materials/" + named.first)
-        ->dissipates();
-    });
   }
 
 

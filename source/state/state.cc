@@ -49,6 +49,10 @@ namespace moraine
     , after_step(mesh_after_step)
     , measure(measure)
     , keeps_parts(measure == StrainMeasure::finite && basis.has_domains())
+    , symmetric_tangents(
+        std::all_of(materials.begin(),
+                    materials.end(),
+                    [](const auto &m) { return m->has_symmetric_tangent(); }))
     , fitted_weights(weights == PointWeights::fitted_to_cells ?
                        std::make_optional<FittedWeights<dim>>(points) :
                        std::nullopt)
@@ -88,10 +92,15 @@ namespace moraine
     const auto      internal = state_fields.internal_of(points.body(p), values);
     points.stress_field().store(stress, values);
     if (!material.is_isotropic())
-      return stress_unstrained(material, measure, stress, internal);
+      return stress_unstrained(material,
+                               measure,
+                               stress,
+                               {internal.begin(), internal.end()});
     const Spectrum     principal = spectrum<dim>(stress);
     const ElasticState found =
-      elastic_state(material, principal.values, internal);
+      elastic_state(material,
+                    principal.values,
+                    {internal.begin(), internal.end()});
     if (measure == StrainMeasure::finite)
       {
         Tensor<1, 3> b;
@@ -169,10 +178,10 @@ namespace moraine
 
   template <int dim>
   bool
-  State<dim>::has_symmetric_tangents() const
+  State<dim>::dissipates() const
   {
-    return std::all_of(materials.begin(), materials.end(), [](const auto &m) {
-      return m->has_symmetric_tangent();
+    return std::any_of(materials.begin(), materials.end(), [](const auto &m) {
+      return m->dissipates();
     });
   }
 

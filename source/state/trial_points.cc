@@ -144,10 +144,16 @@ namespace moraine
                                         const unsigned int       begin)
   {
     means.parts.resize(points.size());
+    const Material &material =
+      state.material(state.material_points().body(block.points[begin]));
+    const bool    is_uniform = material.has_uniform_stiffness();
+    LameConstants C          = material.elastic_stiffness();
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const unsigned int p = block.points[begin + i];
-        means.parts[i]       = state.mean_part(p, elastic_stiffness(state, p));
+        if (!is_uniform)
+          C = elastic_stiffness(state, p);
+        means.parts[i] = state.mean_part(p, C);
       }
   }
 

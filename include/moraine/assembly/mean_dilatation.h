@@ -47,8 +47,7 @@ namespace moraine
    *     T = \tfrac{w}{n} (\mathrm{dev}\,t + 2\, \mathrm{dev}\,\tau), \quad
    *     \kappa = w \left(\tfrac{k}{n^2} + (\tfrac2n - 1)\, p\right). @f]
    *
-   * What is added to the matrix is added to the upper triangle of node pairs,
-   * or to all pairs.
+   * The matrix is filled for pairs a <= b of nodes, or for all pairs.
    *
    * Where the means are the part a of the change of volume of a point,
    * TrialPoints::mean_part(), a p is what works on their gradients,
@@ -68,7 +67,7 @@ namespace moraine
     struct Coupling
     {
       dealii::SymmetricTensor<2, dim> T;
-      dealii::SymmetricTensor<2, dim> T_left; ///< T of @f$1 : c@f$
+      dealii::SymmetricTensor<2, dim> T_left;         ///< T of @f$1 : c@f$
       double                          modulus;        ///< @f$\kappa@f$
       const dealii::Tensor<1, dim>   *mean_gradients; ///< @f$\hat g@f$
     };
@@ -118,7 +117,7 @@ namespace moraine
 
     /** Add @f$\omega_{pc} T g_a@f$ of the i-th point. */
     void
-    add_to_cells(const unsigned int                   i,
+    add_to_cells(const unsigned int                     i,
                  const dealii::SymmetricTensor<2, dim> &T,
                  std::vector<dealii::Tensor<1, dim>>   &of_cells) const;
 
@@ -130,14 +129,14 @@ namespace moraine
     void
     add_products(dealii::FullMatrix<double> &matrix);
 
-    const TrialPoints<dim>             *trial     = nullptr;
-    unsigned int                        n_nodes   = 0;
-    bool                                finite    = false;
-    bool                                by_points = false;
-    bool                                all_pairs = false;
-    Coupling                            of_point;
-    std::vector<double>                 P;
-    std::vector<double>                 k; ///< of pairs of cells
+    const TrialPoints<dim> *trial     = nullptr;
+    unsigned int            n_nodes   = 0;
+    bool                    finite    = false;
+    bool                    by_points = false;
+    bool                    all_pairs = false;
+    Coupling                of_point;
+    std::vector<double>     P;
+    std::vector<double>     k; ///< of pairs of cells
     /** Of cells and nodes, over n; Q_left of @f$1 : c@f$, for all pairs. */
     std::vector<dealii::Tensor<1, dim>> Q, Q_left;
     /** Scratch of nodes: @f$\hat g@f$ or @f$\bar g_c@f$, and what it is

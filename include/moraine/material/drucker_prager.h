@@ -53,14 +53,14 @@ namespace moraine
   class DruckerPrager : public SoilMaterial
   {
   public:
-    /** What the cone has in common with Mohr and Coulomb's pyramid. */
+    /** Where cone and Mohr-Coulomb pyramid have the same strength. */
     enum class Match
     {
-      plane_strain, ///< collapse in plane strain
-      outer_cone    ///< triaxial compression
+      plane_strain, ///< at collapse in plane strain
+      outer_cone    ///< in triaxial compression
     };
 
-    /** Without tensile strength and largest dilation, which it has not. */
+    /** Tensile strength and largest dilation are ignored. */
     explicit DruckerPrager(const SoilParameters &parameters,
                            const Match           match = Match::plane_strain);
 

@@ -285,7 +285,7 @@ namespace moraine
     Parameter young_modulus; ///< E > 0 [stress]
     Parameter poisson_ratio; ///< @f$\nu \in (-1, 0.5)@f$
     double    density = 0;
-    /** What points keep of these and of other parameters of the material. */
+    /** Parameters with a value at each point. */
     std::vector<InternalVariable> fields = {};
   };
 

@@ -134,7 +134,7 @@ namespace moraine
     bool                          any_falls = false; ///< of tables so far
   };
 
-  /** What the library knows of a model. */
+  /** A constitutive model: its keys, and how to make a material from them. */
   struct MaterialModel
   {
     std::string              name;    ///< the value of key `Model`

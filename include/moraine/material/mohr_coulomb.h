@@ -24,7 +24,7 @@ namespace moraine
    * dilation angle @f$\psi@f$ instead of @f$\varphi@f$, and with associated
    * flow in tension. @f$\varphi = \psi = 0@f$ without a limit of tension is
    * Tresca's plasticity with the shear strength c. Where @f$\psi = 0@f$ and
-   * there is no limit of tension, what is beyond the apex returns to it.
+   * there is no limit of tension, stresses beyond the apex return to it.
    *
    * Strengths are functions of the accumulated plastic strain,
    * @f$\dot\kappa = \sqrt{2/3\; \dot\varepsilon^p : \dot\varepsilon^p}@f$. The

@@ -17,7 +17,7 @@
 namespace moraine
 {
   /**
-   * What a soil is given by. Strengths are tables: pairs of the accumulated
+   * The parameters of a soil. Strengths are tables: pairs of the accumulated
    * plastic strain @f$\kappa@f$ and a value, linear in between, constant after
    * the last; the first @f$\kappa@f$ is 0, and they increase.
    */
@@ -38,7 +38,8 @@ namespace moraine
      * dilation angle; infinity: dilation does not end. */
     double largest_dilation = std::numeric_limits<double>::infinity();
 
-    /** What multiplies the tables, in their order. */
+    /** Factors of cohesion, friction angle, dilation angle and tensile
+     * strength; one that is a field has the table {0, 1}. */
     std::array<Parameter, 4> scales{{1, 1, 1, 1}};
   };
 
@@ -168,7 +169,7 @@ namespace moraine
            (std::abs(C.lambda) + 2 * C.mu) * (1e-12 * size + 2e-15);
   }
 
-  /** What a return mapping with strengths at a given @f$\kappa@f$ answers. */
+  /** The result of a return mapping with the strengths at one @f$\kappa@f$. */
   struct SoilReturn
   {
     bool                 yields = false;
@@ -360,19 +361,15 @@ namespace moraine
     }
   };
 
-  /** Elasticity, `Cohesion`, `Friction angle` and `Dilation angle`, as tables
-   * perhaps. */
+  /** Elasticity, `Cohesion`, `Friction angle`, `Dilation angle` and `Softening
+   * length`. */
   std::vector<MaterialKey>
   soil_keys();
 
-  /** Read them. @throws InputError for what a soil cannot have. */
+  /** Read them and, with @p has_tension, `Tensile strength` and `Largest
+   * plastic dilation`. @throws InputError for what a soil cannot have. */
   SoilParameters
-  read_soil(MaterialInput &input);
-
-  /** Read `Largest plastic dilation` and `Tensile strength`, and check what
-   * they have to do with the others. */
-  void
-  read_tension(MaterialInput &input, SoilParameters &parameters);
+  read_soil(MaterialInput &input, const bool has_tension);
 } // namespace moraine
 
 #endif

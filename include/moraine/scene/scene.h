@@ -145,10 +145,6 @@ namespace moraine
     bool
     is_dynamic() const;
 
-    /** Whether a material yields. */
-    bool
-    any_yields() const;
-
     /** Whether some integrator has the energy of the motion as it was. */
     bool
     conserves_energy() const;

@@ -344,9 +344,16 @@ namespace moraine
     bool
     is_linear() const;
 
-    /** Whether the tangents of all materials are. */
+    /** Whether the tangents of all materials are symmetric. */
     bool
-    has_symmetric_tangents() const;
+    has_symmetric_tangents() const
+    {
+      return symmetric_tangents;
+    }
+
+    /** Whether a material dissipates energy: whether it yields. */
+    bool
+    dissipates() const;
 
   private:
     /** Tie the nodes of cut cells; @p active are the cells of this rank. */
@@ -402,6 +409,7 @@ namespace moraine
     const MeshAfterStep                                after_step;
     const StrainMeasure                                measure;
     const bool                                         keeps_parts; ///< a < 1
+    const bool                                         symmetric_tangents;
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
     std::optional<CellMeans<dim>>                      cell_means;

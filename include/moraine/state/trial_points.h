@@ -10,6 +10,8 @@
 #include <moraine/points/point_fields.h>
 
 #include <memory>
+#include <boost/container/small_vector.hpp>
+
 #include <vector>
 
 namespace moraine
@@ -44,10 +46,10 @@ namespace moraine
     std::vector<std::vector<PointField<dim, double>>> internal;
 
     /** The internal variables of a point of @p body with these @p values. */
-    std::vector<double>
+    boost::container::small_vector<double, 16>
     internal_of(const unsigned int body, const double *values) const
     {
-      std::vector<double> result;
+      boost::container::small_vector<double, 16> result;
       for (const auto &field : internal[body])
         result.push_back(field(values));
       return result;
