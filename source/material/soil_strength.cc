@@ -221,20 +221,23 @@ namespace moraine
           return;
         }
       std::vector<InternalVariable> &fields = soil.elasticity.fields;
-      fields.back().initial_at =
-        [=, section = input.section, all = fields](const Point<3> &x) {
-          std::vector<double> values;
-          for (const InternalVariable &field : all)
-            values.push_back(field.initial_at(x));
-          const double friction = phi[0].second * of_phi.at(values.data());
-          const double dilation = psi[0].second * of_psi.at(values.data());
-          if (dilation > friction)
-            throw InputError(place(section, key) + ": found " +
-                             text_of(dilation) + " at (" +
-                             coordinates(x, 6, ", ") +
-                             "), allowed: " + allowed + text_of(friction));
-          return values.back();
-        };
+      fields.back().initial_at              = [        =,
+                                  section = input.section,
+                                  dim     = input.dim(),
+                                  all     = fields](const Point<3> &x) {
+        std::vector<double> values;
+        for (const InternalVariable &field : all)
+          values.push_back(field.initial_at(x));
+        const double friction = phi[0].second * of_phi.at(values.data());
+        const double dilation = psi[0].second * of_psi.at(values.data());
+        if (dilation > friction)
+          throw InputError(
+            place(section, key) + ": found " + text_of(dilation) + " at (" +
+            (dim == 2 ? coordinates(Point<2>(x[0], x[1]), 6, ", ") :
+                                     coordinates(x, 6, ", ")) +
+            "), allowed: " + allowed + text_of(friction));
+        return values.back();
+      };
     }
 
 

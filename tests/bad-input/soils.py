@@ -20,6 +20,10 @@ refused("too much friction", {"Friction angle": 61})
 refused("dilation above friction", {"Friction angle": 30, "Dilation angle": 35})
 refused("dilation above friction later", {
     "Friction angle": "0: 40, 0.1: 20", "Dilation angle": "0: 30, 0.1: 25"})
+refused("dilation above friction somewhere", {
+    "Friction angle": "40 - 5*y", "Dilation angle": 25})
+refused("friction that falls below dilation", {
+    "Friction angle": "0: 40, 0.1: 20", "Dilation angle": 25})
 refused("no strength", {})
 refused("negative cohesion", {"Cohesion": -1})
 refused("tension beyond the apex", {

@@ -78,6 +78,13 @@ namespace moraine
       return parameters.texts.at(key);
     }
 
+    /** Of the scene. */
+    unsigned int
+    dim() const
+    {
+      return parameters.dim;
+    }
+
     /** Whether the scene gives it. */
     bool
     has(const std::string &key) const
