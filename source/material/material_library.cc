@@ -11,6 +11,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/material/mohr_coulomb.h>
 #include <moraine/material/neo_hookean.h>
+#include <moraine/material/umat.h>
 #include <moraine/material/von_mises.h>
 
 #include <algorithm>
@@ -66,7 +67,8 @@ namespace moraine
                                                    von_mises_model(),
                                                    mohr_coulomb_model(),
                                                    tresca_model(),
-                                                   drucker_prager_model()};
+                                                   drucker_prager_model(),
+                                                   umat_model()};
     return models;
   }
 

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_material_umat_h
+#define moraine_material_umat_h
+
+#include <moraine/material/material_input.h>
+#include <moraine/material/umat_library.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * A law in a subroutine UMAT as for Abaqus/Standard: from stress, state
+   * variables and strain increment to stress, state variables and
+   * @f$D = \partial\Delta\sigma/\partial\Delta\varepsilon@f$. It always gets
+   * six components; plane strain is the 3D law.
+   *
+   * At finite strain, with @f$\Delta F = F_{n+1} F_n^{-1}@f$ and
+   * @f$\Delta C = \Delta F^T \Delta F@f$, the strain increment is that of the
+   * step in the frame of its start,
+   * @f$\Delta\varepsilon = \frac12 \ln \Delta C@f$; the UMAT makes T of
+   * @f$\sigma_n@f$, and
+   * @f[
+   *   \sigma_{n+1} = \Delta F \left(T :
+   *     \frac{\partial \ln \Delta C}{\partial \Delta C}\right) \Delta F^T,
+   *   \qquad \tau = J \sigma_{n+1} .
+   * @f]
+   * The total logarithmic strain in its place loses half of the shear stress
+   * at a shear of 5 (Miehe, Apel and Lambrecht 2002 have it for small plastic
+   * strains). DROT is 1 then. State variables that are components of tensors
+   * are not turned.
+   *
+   * By the rate of Hughes and Winget (1980), as in Abaqus, the strain
+   * increment and the rotation Q of the step are the parts of the gradient at
+   * its middle; the UMAT gets @f$Q\sigma_n Q^T@f$ and Q, and answers in the
+   * frame of the end.
+   */
+  class Umat : public Material
+  {
+  public:
+    enum class Rate
+    {
+      logarithm,    ///< of the step
+      hughes_winget ///< as Abaqus
+    };
+
+    struct Parameters
+    {
+      std::string         file, symbol = "umat";
+      std::vector<double> constants;
+      std::vector<double> state;             ///< at the start
+      bool                by_sdvini = false; ///< SDVINI sets the state
+      Rate                rate      = Rate::logarithm;
+      double              density   = 0;
+      std::string         name; ///< `CMNAME`
+    };
+
+    /** @throws InputError if there is no such UMAT, or if it has no stiffness
+     * at the start. */
+    explicit Umat(const Parameters &parameters);
+
+    using Material::respond;
+
+    void
+    respond(const StepTime                       &time,
+            const StrainMeasure                   measure,
+            const dealii::ArrayView<TensorState> &points) const override;
+
+    bool
+    is_isotropic() const override
+    {
+      return false;
+    }
+
+    /** The state variables, then the strain (`STRAN`). */
+    std::vector<InternalVariable>
+    internal_variables() const override;
+
+    /** As stiff as the stiffest direction, without strain at the start. */
+    LameConstants
+    elastic_stiffness() const override
+    {
+      return stiffness;
+    }
+
+    double
+    density() const override
+    {
+      return parameters.density;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return false;
+    }
+
+    /** Never: at finite strain the volume multiplies the stress. */
+    bool
+    has_symmetric_tangent() const override
+    {
+      return false;
+    }
+
+    bool
+    dissipates() const override
+    {
+      return true;
+    }
+
+    double
+    least_stiffness() const override
+    {
+      return 1e-8;
+    }
+
+    std::string
+    why_no_stress() const override;
+
+    /** How its file was compiled; empty if it was given as a library. */
+    const std::string &
+    compilation() const
+    {
+      return library->compilation();
+    }
+
+  private:
+    /** Of the last call that gave no stress. */
+    struct Failure
+    {
+      double new_step = 1; ///< `PNEWDT`
+    };
+
+    void
+    find_stiffness();
+
+    /** @return whether there is a stress, as in the others. */
+    bool
+    respond_small(UmatCall &call, TensorState &point) const;
+
+    bool
+    respond_by_logarithm(UmatCall &call, TensorState &point) const;
+
+    bool
+    respond_by_hughes_winget(UmatCall &call, TensorState &point) const;
+
+    /** Call it. @return whether it takes the step and its stress is a number.
+     */
+    bool
+    ask(UmatCall &call) const;
+
+    const Parameters                   parameters;
+    std::shared_ptr<const UmatLibrary> library;
+    LameConstants                      stiffness{0, 0};
+    std::shared_ptr<Failure>           last_failure;
+  };
+
+  MaterialModel
+  umat_model();
+} // namespace moraine
+
+#endif
