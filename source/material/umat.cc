@@ -316,27 +316,37 @@ namespace moraine
                 const StrainMeasure           measure,
                 const ArrayView<TensorState> &points) const
   {
-    const bool finite = measure == StrainMeasure::finite;
-    for (TensorState &point : points)
+    const bool   finite = measure == StrainMeasure::finite;
+    unsigned int n_done = 0;
+    try
       {
-        UmatCall call;
-        call.state   = point.internal;
-        call.n_state = parameters.state.size();
-        call.time    = time.start;
-        // Some divide by it.
-        call.step      = time.size() > 0 ? time.size() : 1;
-        call.is_finite = finite;
-        std::copy_n(point.internal + call.n_state, 6, call.strain.begin());
-        if (!(finite ? (parameters.rate == Rate::logarithm ?
-                          respond_by_logarithm(call, point) :
-                          respond_by_hughes_winget(call, point)) :
-                       respond_small(call, point)))
+        for (TensorState &point : points)
           {
-            point.stress  = Stress();
-            point.tangent = SymmetricTensor<4, 3>();
-            for (unsigned int d = 0; d < 3; ++d)
-              point.stress[d][d] = no_number;
+            UmatCall call;
+            call.state   = point.internal;
+            call.n_state = parameters.state.size();
+            call.time    = time.start;
+            // Some divide by it.
+            call.step      = time.size() > 0 ? time.size() : 1;
+            call.is_finite = finite;
+            std::copy_n(point.internal + call.n_state, 6, call.strain.begin());
+            if (!(finite ? (parameters.rate == Rate::logarithm ?
+                              respond_by_logarithm(call, point) :
+                              respond_by_hughes_winget(call, point)) :
+                           respond_small(call, point)))
+              {
+                point.stress  = Stress();
+                point.tangent = SymmetricTensor<4, 3>();
+                for (unsigned int d = 0; d < 3; ++d)
+                  point.stress[d][d] = no_number;
+              }
+            ++n_done;
           }
+      }
+    catch (UmatExit &exit)
+      {
+        exit.point = n_done;
+        throw;
       }
   }
 

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace moraine
@@ -421,6 +422,11 @@ namespace moraine
               begin_first_step(*scene, *model, *diagnostics);
               report->describe();
             }
+          std::set<std::string> made;
+          for (const auto &material : model->materials)
+            if (const std::string how = material->how_made();
+                !how.empty() && made.insert(how).second)
+              report->note("compiled: " + how);
           if (folder.directory)
             observers.push_back(
               &files.emplace(*scene, *model, *folder.directory, times.parts));

@@ -431,6 +431,12 @@ namespace moraine
                  material.model,
                  "a model for small strain; key 'Strain' of section 'Method' "
                  "is 'small'");
+        if (!made->is_isotropic() && is_dynamic())
+          reject("Materials/" + name,
+                 "Model",
+                 material.model,
+                 "without inertia; in dynamics a model whose elastic energy is "
+                 "known");
         if (!made->has_symmetric_tangent() && linear_solver.solver == "amg-cg")
           reject("Solver",
                  "Solver",

@@ -3,6 +3,8 @@
 
 #include <moraine/state/trial_points.h>
 
+#include <moraine/core/words.h>
+#include <moraine/material/umat_library.h>
 #include <moraine/state/state.h>
 
 #include <deal.II/physics/elasticity/kinematics.h>
@@ -415,9 +417,19 @@ namespace moraine
         to.stress   = set.stress_field()(set.values(p));
         to.internal = internal.data() + i * n_internal;
       }
-    material.respond(state.step_time(),
-                     measure,
-                     make_array_view(tensor_answers));
+    try
+      {
+        material.respond(state.step_time(),
+                         measure,
+                         make_array_view(tensor_answers));
+      }
+    catch (const UmatExit &exit)
+      {
+        const unsigned int p = block.points[begin + exit.point];
+        throw ComputationError("point " + std::to_string(set.id(p)) + " at (" +
+                               coordinates(set.position(p)) +
+                               "): " + exit.what());
+      }
     failure = points.size();
     for (unsigned int i = points.size(); i-- > 0;)
       {

@@ -277,6 +277,13 @@ namespace moraine
     {
       return "its material has no stress at this strain";
     }
+
+    /** For the log: how a law of the user's was compiled, if it was. */
+    virtual std::string
+    how_made() const
+    {
+      return "";
+    }
   };
 
   /** Isotropic elasticity, and the density, as a scene gives them. */

@@ -121,9 +121,8 @@ namespace moraine
     std::string
     why_no_stress() const override;
 
-    /** How its file was compiled; empty if it was given as a library. */
-    const std::string &
-    compilation() const
+    std::string
+    how_made() const override
     {
       return library->compilation();
     }

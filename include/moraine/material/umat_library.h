@@ -18,6 +18,8 @@ namespace moraine
   {
   public:
     using ComputationError::ComputationError;
+
+    unsigned int point = 0; ///< among those of Material::respond()
   };
 
   /**
