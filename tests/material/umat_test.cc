@@ -7,6 +7,7 @@
 #include <moraine/material/linear_elastic.h>
 #include <moraine/material/material_library.h>
 #include <moraine/material/material_point.h>
+#include <moraine/material/material_test.h>
 #include <moraine/material/umat.h>
 
 #include "../core/message.h"
@@ -268,6 +269,52 @@ namespace umat_test
                   moraine::DruckerPrager::Match::outer_cone),
                 size,
                 true);
+  }
+
+  // The stress of DruckerPrager.Triaxial; true strains hardly change it.
+  TEST(Umat, TriaxialTest)
+  {
+    Stress initial;
+    for (unsigned int d = 0; d < 3; ++d)
+      initial[d][d] = -100;
+    moraine::MaterialTestLeg leg;
+    leg.n_steps = 20;
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        leg.sums[i].of_stress[i] = i == 1 || i == 2;
+        leg.sums[i].of_strain[i] = i != 1 && i != 2;
+      }
+    leg.values[0] = -0.1;
+    for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
+      for (const auto rate : {Umat::Rate::logarithm, Umat::Rate::hughes_winget})
+        {
+          auto of = outer_cone(10, 30, 30);
+          of.rate = rate;
+          moraine::MaterialTest test(std::make_shared<Umat>(of),
+                                     measure,
+                                     initial);
+          unsigned int          most_iterations = 0;
+          test.lead(leg, [&] {
+            most_iterations = std::max(most_iterations, test.n_iterations());
+            // That of Hughes and Winget is not exact for spins.
+            EXPECT_LT(test.tangent_error(),
+                      measure == StrainMeasure::finite &&
+                          rate == Umat::Rate::hughes_winget ?
+                        2e-3 :
+                        1e-6);
+          });
+          const double J =
+            measure == StrainMeasure::small ?
+              1 :
+              std::exp(test.strain()[0] + test.strain()[1] + test.strain()[2]);
+          // At constant Kirchhoff stress Cauchy's is -100 / J across.
+          const double across = test.stress()[1][1] / J;
+          EXPECT_NEAR(test.stress()[1][1], -100, 1e-6);
+          EXPECT_NEAR(test.stress()[0][0] / J,
+                      3 * across - 2 * std::sqrt(3.) * 10,
+                      1e-4);
+          EXPECT_LE(most_iterations, 8);
+        }
   }
 
   TEST(Umat, KnowsItsStiffness)

@@ -37,7 +37,8 @@ namespace moraine
    * By the rate of Hughes and Winget (1980), as in Abaqus, the strain
    * increment and the rotation Q of the step are the parts of the gradient at
    * its middle; the UMAT gets @f$Q\sigma_n Q^T@f$ and Q, and answers in the
-   * frame of the end.
+   * frame of the end. As that strain is not the same after any rotation, the
+   * tangent is exact for an isotropic law and without spin only.
    */
   class Umat : public Material
   {
