@@ -9,11 +9,14 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <sstream>
+#include <string>
 
 namespace moraine
 {

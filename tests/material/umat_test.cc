@@ -17,6 +17,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+
+#include <unistd.h>
 
 namespace umat_test
 {
