@@ -12,20 +12,31 @@
 
 namespace moraine
 {
+  std::string
+  lower_case(std::string text)
+  {
+    std::transform(text.begin(),
+                   text.end(),
+                   text.begin(),
+                   [](const unsigned char c) { return std::tolower(c); });
+    return text;
+  }
+
+
+
+  std::string
+  one_word(const std::string &text)
+  {
+    std::string word = "'";
+    for (const char c : text)
+      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+  }
+
+
+
   namespace
   {
-    std::string
-    lower(std::string text)
-    {
-      std::transform(text.begin(),
-                     text.end(),
-                     text.begin(),
-                     [](const unsigned char c) { return std::tolower(c); });
-      return text;
-    }
-
-
-
     std::size_t
     edit_distance(const std::string &a, const std::string &b)
     {
@@ -65,7 +76,7 @@ namespace moraine
     for (const std::string &candidate : known)
       {
         const std::size_t distance =
-          edit_distance(lower(word), lower(candidate));
+          edit_distance(lower_case(word), lower_case(candidate));
         if (distance < best_distance)
           {
             best          = candidate;

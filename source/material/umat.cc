@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace moraine
 {
@@ -18,34 +19,18 @@ namespace moraine
 
   namespace
   {
-    constexpr auto pairs = voigt_pairs<3>();
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
     using Stress = SymmetricTensor<2, 3>;
     using Matrix = Tensor<2, 3>;
 
-    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
 
 
     std::array<double, 6>
-    components(const Stress &tensor, const double shear_factor = 1)
+    components(const Stress &tensor, const double shear = 1)
     {
       std::array<double, 6> result;
-      for (unsigned int I = 0; I < 6; ++I)
-        result[I] =
-          (I < 3 ? 1 : shear_factor) * tensor[pairs[I][0]][pairs[I][1]];
-      return result;
-    }
-
-
-
-    Stress
-    tensor_of(const double *values, const double shear_factor = 1)
-    {
-      Stress result;
-      for (unsigned int I = 0; I < 6; ++I)
-        result[pairs[I][0]][pairs[I][1]] =
-          (I < 3 ? 1 : shear_factor) * values[I];
+      components_for_umat(tensor, result.data(), shear);
       return result;
     }
 
@@ -55,9 +40,8 @@ namespace moraine
     by_columns(const Matrix &matrix)
     {
       std::array<double, 9> result;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          result[i + 3 * j] = matrix[i][j];
+      for (unsigned int i = 0; i < 9; ++i)
+        result[i] = matrix[i % 3][i / 3];
       return result;
     }
 
@@ -68,11 +52,11 @@ namespace moraine
     stress_by(const std::array<double, 36> &D, const Stress &strain)
     {
       const std::array<double, 6> e = components(strain, 2);
-      std::array<double, 6>       s{};
+      Stress                      result;
       for (unsigned int J = 0; J < 6; ++J)
         for (unsigned int I = 0; I < 6; ++I)
-          s[I] += D[I + 6 * J] * e[J];
-      return tensor_of(s.data());
+          result.access_raw_entry(I) += D[I + 6 * J] * e[J];
+      return result;
     }
 
 
@@ -82,17 +66,30 @@ namespace moraine
     SymmetricTensor<4, 3>
     tangent_by(const Give &give)
     {
+      constexpr auto        pairs = voigt_pairs<3>();
       SymmetricTensor<4, 3> c;
       for (unsigned int J = 0; J < 6; ++J)
         {
           Stress d;
-          d[pairs[J][0]][pairs[J][1]] = J < 3 ? 1 : 0.5;
-          const Stress rate           = give(d);
+          d.access_raw_entry(J) = J < 3 ? 1 : 0.5;
+          const Stress rate     = give(d);
           for (unsigned int I = 0; I < 6; ++I)
             c[pairs[I][0]][pairs[I][1]][pairs[J][0]][pairs[J][1]] =
-              rate[pairs[I][0]][pairs[I][1]];
+              rate.access_raw_entry(I);
         }
       return c;
+    }
+
+
+
+    /** Leave of a tangent the part with @f$c_{ijkl} = c_{klij}@f$. */
+    void
+    symmetrise(SymmetricTensor<4, 3> &c)
+    {
+      constexpr auto pairs = voigt_pairs<3>();
+      for (const auto &[i, j] : pairs)
+        for (const auto &[k, l] : pairs)
+          c[i][j][k][l] = c[k][l][i][j] = 0.5 * (c[i][j][k][l] + c[k][l][i][j]);
     }
 
 
@@ -118,16 +115,15 @@ namespace moraine
     /** The second divided difference of ln. Where its three places are nearly
      * equal, a quotient of differences would lose digits. */
     double
-    second_log_difference(double x, double y, double z)
+    second_log_difference(const double x, const double y, const double z)
     {
-      if (x > y)
-        std::swap(x, y);
-      if (y > z)
-        std::swap(y, z);
-      if (x > y)
-        std::swap(x, y);
-      if (z - x > 1e-3 * z)
-        return (log_difference(x, y) - log_difference(y, z)) / (x - z);
+      const auto [low, high] = std::minmax({x, y, z});
+      if (high - low > 1e-3 * high)
+        {
+          const double middle = x + y + z - low - high;
+          return (log_difference(low, middle) - log_difference(middle, high)) /
+                 (low - high);
+        }
       const double m = (x + y + z) / 3;
       const double a = x / m - 1, b = y / m - 1, c = z / m - 1;
       return (-0.5 - (a * a + b * b + c * c) / 8 + a * b * c / 5) / (m * m);
@@ -140,8 +136,7 @@ namespace moraine
     {
     public:
       explicit LogarithmicStep(const Matrix &dF)
-        : dF(dF)
-        , at(spectrum<3>(symmetrize(transpose(dF) * dF)))
+        : at(spectrum<3>(symmetrize(transpose(dF) * dF)))
       {
         Tensor<1, 3> logarithms;
         for (unsigned int A = 0; A < 3; ++A)
@@ -172,28 +167,33 @@ namespace moraine
                            times_theta(transformed(at.directions, T)));
       }
 
-      /** @f$L_v\sigma@f$ for d, with T and DDSDDE. */
-      Stress
-      rate(const Stress                 &T,
-           const std::array<double, 36> &D,
-           const Stress                 &d) const
+      /** The tangent of @f$\sigma@f$, @f$L_v\sigma = c : d@f$, with T and
+       * DDSDDE. */
+      SymmetricTensor<4, 3>
+      tangent(const Stress &T, const std::array<double, 36> &D) const
       {
-        const Stress in_frame = transformed(turned, d);
-        const Stress strain_rate =
-          transformed(transpose(at.directions), times_theta(in_frame));
         const Stress T_frame = transformed(at.directions, T);
-        Stress       result =
-          times_theta(transformed(at.directions, stress_by(D, strain_rate)));
+        double       second[3][3][3];
         for (unsigned int A = 0; A < 3; ++A)
-          for (unsigned int B = A; B < 3; ++B)
+          for (unsigned int B = 0; B < 3; ++B)
             for (unsigned int C = 0; C < 3; ++C)
-              result[A][B] += 2 * root[A] * root[B] * root[C] *
-                              second_log_difference(at.values[A],
-                                                    at.values[B],
-                                                    at.values[C]) *
-                              (root[B] * T_frame[A][C] * in_frame[C][B] +
-                               root[A] * in_frame[A][C] * T_frame[C][B]);
-        return transformed(transpose(turned), result);
+              second[A][B][C] =
+                2 * root[A] * root[B] * root[C] *
+                second_log_difference(at.values[A], at.values[B], at.values[C]);
+        return tangent_by([&](const Stress &d) {
+          const Stress in_frame = transformed(turned, d);
+          const Stress strain_rate =
+            transformed(transpose(at.directions), times_theta(in_frame));
+          Stress rate =
+            times_theta(transformed(at.directions, stress_by(D, strain_rate)));
+          for (unsigned int A = 0; A < 3; ++A)
+            for (unsigned int B = A; B < 3; ++B)
+              for (unsigned int C = 0; C < 3; ++C)
+                rate[A][B] +=
+                  second[A][B][C] * (root[B] * T_frame[A][C] * in_frame[C][B] +
+                                     root[A] * in_frame[A][C] * T_frame[C][B]);
+          return transformed(transpose(turned), rate);
+        });
       }
 
       Stress strain;
@@ -208,7 +208,6 @@ namespace moraine
         return s;
       }
 
-      const Matrix   dF;
       const Spectrum at;
       Tensor<1, 3>   root;   ///< stretches
       Matrix         turned; ///< rows: @f$\Delta F N_A / \lambda_A^{1/2}@f$
@@ -218,47 +217,32 @@ namespace moraine
 
 
 
-  Umat::Umat(const Parameters &parameters)
-    : parameters(parameters)
-    , library(std::make_shared<UmatLibrary>(parameters.file, parameters.symbol))
-    , last_failure(std::make_shared<Failure>())
+  Umat::Umat(const Parameters &of)
+    : parameters(of)
+    , library(std::make_shared<UmatLibrary>(of.file, of.symbol))
+    , failure(std::make_shared<Failure>())
   {
-    if (parameters.by_sdvini && !library->sets_state())
-      throw InputError("'" + parameters.file + "' has no SDVINI");
-    find_stiffness();
-  }
+    if (of.by_sdvini && !library->has_sdvini())
+      throw InputError("'" + of.file + "' has no SDVINI");
+    parameters.name.resize(80, ' ');
 
-
-
-  void
-  Umat::find_stiffness()
-  {
     std::vector<double> state = internal_at(Point<3>());
     UmatCall            call;
-    call.state   = state.data();
-    call.n_state = parameters.state.size();
-    library->call(call,
-                  parameters.constants.data(),
-                  parameters.constants.size(),
-                  parameters.name);
-    const auto diagonal = [&](const unsigned int first) {
-      double largest = 0;
-      for (unsigned int I = first; I < first + 3; ++I)
-        {
-          const double entry = call.tangent[7 * I];
-          largest = std::isfinite(entry) ? std::max(largest, entry) : no_number;
-        }
-      return largest;
+    call.state          = state.data();
+    call.n_state        = of.state.size();
+    const bool answers  = ask(call);
+    const auto stiffest = [&](const unsigned int I) {
+      const auto &D = call.tangent;
+      return std::max({D[7 * I], D[7 * I + 7], D[7 * I + 14]});
     };
-    stiffness.mu     = diagonal(3);
-    stiffness.lambda = std::max(0., diagonal(0) - 2 * stiffness.mu);
-    if (!(stiffness.mu > 0) || !(diagonal(0) > 0) ||
-        !std::isfinite(stiffness.mu + stiffness.lambda))
-      throw InputError("the UMAT in '" + parameters.file +
+    const double normal = stiffest(0), shear = stiffest(3);
+    stiffness = {std::max(0., normal - 2 * shear), shear};
+    if (!answers || !(normal > 0 && shear > 0))
+      throw InputError("the UMAT in '" + of.file +
                        "' has no stiffness without stress and strain: DDSDDE "
                        "has " +
-                       text_of(diagonal(0)) + " for normal strains, " +
-                       text_of(stiffness.mu) + " for shear");
+                       text_of(normal) + " for normal strains, " +
+                       text_of(shear) + " for shear");
   }
 
 
@@ -270,19 +254,17 @@ namespace moraine
     const unsigned int            n = parameters.state.size();
     for (unsigned int i = 0; i < n; ++i)
       {
-        InternalVariable variable{"statev_" + std::to_string(i + 1),
-                                  "-",
-                                  parameters.state[i]};
-        if (parameters.by_sdvini)
-          {
-            variable.initial_at = [library = library, i, n](const Point<3> &x) {
-              std::vector<double> state(n);
-              library->set_state(state.data(), n, {x[0], x[1], x[2]});
-              return state[i];
-            };
-            variable.initial = variable.initial_at(Point<3>());
-          }
-        result.push_back(variable);
+        result.push_back(
+          {"statev_" + std::to_string(i + 1), "-", parameters.state[i]});
+        if (!parameters.by_sdvini)
+          continue;
+        result.back().initial_at =
+          [library = library, i, n](const Point<3> &x) {
+            std::vector<double> state(n);
+            library->call_sdvini(state, x);
+            return state[i];
+          };
+        result.back().initial = result.back().initial_at(Point<3>());
       }
     for (const char *name : {"xx", "yy", "zz", "xy", "xz", "yz"})
       result.push_back({std::string("stran_") + name, "-"});
@@ -294,19 +276,11 @@ namespace moraine
   bool
   Umat::ask(UmatCall &call) const
   {
-    library->call(call,
-                  parameters.constants.data(),
-                  parameters.constants.size(),
-                  parameters.name);
-    double sum = 0;
-    for (const double entry : call.stress)
-      sum += entry;
-    for (const double entry : call.tangent)
-      sum += entry;
-    if (call.new_step >= 1 && std::isfinite(sum))
-      return true;
-    last_failure->new_step = call.new_step;
-    return false;
+    library->call(call, parameters.constants, parameters.name);
+    const double sum =
+      std::accumulate(call.stress.begin(), call.stress.end(), 0.) +
+      std::accumulate(call.tangent.begin(), call.tangent.end(), 0.);
+    return call.new_step >= 1 && std::isfinite(sum);
   }
 
 
@@ -316,38 +290,40 @@ namespace moraine
                 const StrainMeasure           measure,
                 const ArrayView<TensorState> &points) const
   {
-    const bool   finite = measure == StrainMeasure::finite;
-    unsigned int n_done = 0;
-    try
+    const auto answer =
+      measure == StrainMeasure::small ? &Umat::respond_small :
+      parameters.hughes_winget        ? &Umat::respond_by_hughes_winget :
+                                        &Umat::respond_by_logarithm;
+    for (unsigned int i = 0; i < points.size(); ++i)
       {
-        for (TensorState &point : points)
+        TensorState &point = points[i];
+        UmatCall     call;
+        call.state   = point.internal;
+        call.n_state = parameters.state.size();
+        call.time    = time.start;
+        // Some divide by it.
+        call.step      = time.size() > 0 ? time.size() : 1;
+        call.is_finite = measure == StrainMeasure::finite;
+        std::copy_n(point.internal + call.n_state, 6, call.strain.begin());
+        try
           {
-            UmatCall call;
-            call.state   = point.internal;
-            call.n_state = parameters.state.size();
-            call.time    = time.start;
-            // Some divide by it.
-            call.step      = time.size() > 0 ? time.size() : 1;
-            call.is_finite = finite;
-            std::copy_n(point.internal + call.n_state, 6, call.strain.begin());
-            if (!(finite ? (parameters.rate == Rate::logarithm ?
-                              respond_by_logarithm(call, point) :
-                              respond_by_hughes_winget(call, point)) :
-                           respond_small(call, point)))
-              {
-                point.stress  = Stress();
-                point.tangent = SymmetricTensor<4, 3>();
-                for (unsigned int d = 0; d < 3; ++d)
-                  point.stress[d][d] = no_number;
-              }
-            ++n_done;
+            if ((this->*answer)(call, point))
+              continue;
           }
+        catch (UmatExit &exit)
+          {
+            exit.point = i;
+            throw;
+          }
+        point.stress = no_number * unit_symmetric_tensor<3>();
+        if (failure->time.start != time.start || failure->time.end != time.end)
+          *failure = {time};
+        failure->least_new_step =
+          std::min(failure->least_new_step, call.new_step);
       }
-    catch (UmatExit &exit)
-      {
-        exit.point = n_done;
-        throw;
-      }
+    if (parameters.symmetrises_tangent)
+      for (TensorState &point : points)
+        symmetrise(point.tangent);
   }
 
 
@@ -355,12 +331,12 @@ namespace moraine
   bool
   Umat::respond_small(UmatCall &call, TensorState &point) const
   {
+    const auto increment  = components(point.strain_increment, 2);
+    call.strain_increment = increment;
     call.stress           = components(point.stress);
-    call.strain_increment = components(point.strain_increment, 2);
-    const auto increment  = call.strain_increment;
     if (!ask(call))
       return false;
-    point.stress = tensor_of(call.stress.data());
+    point.stress = tensor_of_umat(call.stress.data());
     point.tangent =
       tangent_by([&](const Stress &d) { return stress_by(call.tangent, d); });
     for (unsigned int I = 0; I < 6; ++I)
@@ -373,27 +349,26 @@ namespace moraine
   bool
   Umat::respond_by_logarithm(UmatCall &call, TensorState &point) const
   {
-    const double J  = determinant(point.F);
     const Matrix dF = point.F * invert(point.F_n);
     if (!(determinant(dF) > 0))
       return false;
     const LogarithmicStep step(dF);
-    const Stress          strain = tensor_of(call.strain.data(), 0.5);
-    call.stress                  = components(point.stress);
-    call.strain_increment        = components(step.strain, 2);
-    call.F_n                     = by_columns(point.F_n);
-    call.F                       = by_columns(point.F);
+    const Stress strain = tensor_of_umat(call.strain.data(), 0.5) + step.strain;
+    call.stress         = components(point.stress);
+    call.strain_increment = components(step.strain, 2);
+    call.F_n              = by_columns(point.F_n);
+    call.F                = by_columns(point.F);
     if (!ask(call))
       return false;
-    const Stress T     = tensor_of(call.stress.data());
+    const double J     = determinant(point.F);
+    const Stress T     = tensor_of_umat(call.stress.data());
     const Stress sigma = step.stress(T);
     point.stress       = J * sigma;
-    point.tangent      = tangent_by([&](const Stress &d) {
-      return J * (step.rate(T, call.tangent, d) + trace(d) * sigma);
-    });
-    const auto total =
-      components(transformed(step.rotation(), strain + step.strain), 2);
-    std::copy(total.begin(), total.end(), point.internal + call.n_state);
+    point.tangent      = J * (step.tangent(T, call.tangent) +
+                         outer_product(sigma, unit_symmetric_tensor<3>()));
+    components_for_umat(transformed(step.rotation(), strain),
+                        point.internal + call.n_state,
+                        2);
     return true;
   }
 
@@ -403,17 +378,17 @@ namespace moraine
   Umat::respond_by_hughes_winget(UmatCall &call, TensorState &point) const
   {
     const Matrix one = unit_symmetric_tensor<3>();
-    const double J   = determinant(point.F);
     const Matrix dF  = point.F * invert(point.F_n);
     if (!(determinant(dF) > 0) || !(determinant(dF + one) > 0))
       return false;
-    const Matrix middle   = invert(dF + one);
-    const Matrix h        = 2. * (dF - one) * middle;
-    const Stress e        = symmetrize(h);
-    const Matrix omega    = 0.5 * (h - transpose(h));
-    const Matrix before   = invert(one - 0.5 * omega);
-    const Matrix Q        = before * (one + 0.5 * omega);
-    const Stress strain   = transformed(Q, tensor_of(call.strain.data(), 0.5));
+    const Matrix middle = invert(dF + one);
+    const Matrix h      = 2. * (dF - one) * middle;
+    const Stress e      = symmetrize(h);
+    const Matrix omega  = 0.5 * (h - transpose(h));
+    const Matrix before = invert(one - 0.5 * omega);
+    const Matrix Q      = before * (one + 0.5 * omega);
+    const Stress strain =
+      transformed(Q, tensor_of_umat(call.strain.data(), 0.5));
     call.stress           = components(transformed(Q, point.stress));
     call.strain           = components(strain, 2);
     call.strain_increment = components(e, 2);
@@ -422,14 +397,15 @@ namespace moraine
     call.F                = by_columns(point.F);
     if (!ask(call))
       return false;
-    const Stress sigma   = tensor_of(call.stress.data());
+    const double J       = determinant(point.F);
+    const Stress sigma   = tensor_of_umat(call.stress.data());
     const Matrix sigma_m = sigma;
     // A rotation W of stress and strain increment together turns the answer.
     const auto turning = [](const Matrix &W, const Matrix &s) {
       return symmetrize(W * s - s * W);
     };
-    point.stress     = J * sigma;
-    point.tangent    = tangent_by([&](const Stress &d) {
+    point.stress  = J * sigma;
+    point.tangent = tangent_by([&](const Stress &d) {
       const Matrix d_m = d;
       const Matrix d_h = (2. * one - h) * d_m * dF * middle;
       const Matrix d_W = 0.25 * (d_h - transpose(d_h));
@@ -439,8 +415,7 @@ namespace moraine
       return J * (rates + turning(W, sigma_m) + trace(d) * sigma -
                   2. * symmetrize(d_m * sigma_m));
     });
-    const auto total = components(strain + e, 2);
-    std::copy(total.begin(), total.end(), point.internal + call.n_state);
+    components_for_umat(strain + e, point.internal + call.n_state, 2);
     return true;
   }
 
@@ -449,16 +424,36 @@ namespace moraine
   std::string
   Umat::why_no_stress() const
   {
-    return last_failure->new_step < 1 ?
+    return failure->least_new_step < 1 ?
              "has a UMAT that asks for a smaller step (PNEWDT = " +
-               text_of(last_failure->new_step) + ")" :
+               text_of(failure->least_new_step) + ")" :
              "has a UMAT whose stress or DDSDDE is not a number";
+  }
+
+
+
+  double
+  Umat::wanted_cut(const StepTime &time) const
+  {
+    return failure->time.start == time.start && failure->time.end == time.end ?
+             failure->least_new_step :
+             1;
   }
 
 
 
   namespace
   {
+    /** The whole number from 1 to 10 000 in @p text, 0 if there is none. */
+    unsigned int
+    count_in(const std::string &text)
+    {
+      const double n = plain_number(text).value_or(0);
+      return n >= 1 && n <= 10000 && n == std::floor(n) ? n : 0;
+    }
+
+
+
     /** Numbers between commas; "3*0" is "0, 0, 0". */
     std::vector<double>
     read_numbers(const MaterialInput &input, const std::string &key)
@@ -469,18 +464,14 @@ namespace moraine
       for (const std::string &part :
            split_outside_brackets(input.text(key), ","))
         {
-          const auto        star  = part.find('*');
-          const auto        times = star == std::string::npos ?
-                                      std::optional<double>(1) :
-                                      plain_number(part.substr(0, star));
-          const std::string number =
-            star == std::string::npos ? part : part.substr(star + 1);
-          const auto value = number_from(number);
-          if (!value || !times || !(*times >= 1) || *times > 10000 ||
-              *times != std::floor(*times))
+          const auto         star = part.find('*');
+          const bool         many = star != std::string::npos;
+          const unsigned int n    = many ? count_in(part.substr(0, star)) : 1;
+          const auto value = number_from(many ? part.substr(star + 1) : part);
+          if (n == 0 || !value)
             input.refuse(key,
                          "numbers separated by commas; '3*0' is '0, 0, 0'");
-          result.insert(result.end(), static_cast<std::size_t>(*times), *value);
+          result.insert(result.end(), n, *value);
         }
       return result;
     }
@@ -494,31 +485,25 @@ namespace moraine
       if (!input.has("Library"))
         throw InputError(place(input.section, "Library") +
                          ": is not set, and has no default");
-      result.file      = input.text("Library");
-      result.symbol    = input.text("Symbol");
-      result.constants = read_numbers(input, "Constants");
-      result.density   = input.number("Density");
-      result.name      = input.section.substr(input.section.rfind('/') + 1);
-      std::transform(result.name.begin(),
-                     result.name.end(),
-                     result.name.begin(),
-                     [](const unsigned char c) { return std::toupper(c); });
-      if (input.text("Objective rate") == "Hughes-Winget")
-        result.rate = Umat::Rate::hughes_winget;
+      result.file                = input.text("Library");
+      result.symbol              = input.text("Symbol");
+      result.constants           = read_numbers(input, "Constants");
+      result.density             = input.number("Density");
+      result.hughes_winget       = input.text("Objective rate") != "logarithm";
+      result.symmetrises_tangent = input.text("Tangent") == "symmetric";
+      for (const char c : input.section.substr(input.section.rfind('/') + 1))
+        result.name += std::toupper(static_cast<unsigned char>(c));
 
       const std::string  key   = "State variables";
       const std::string &state = input.text(key);
       const auto         by    = state.find("by SDVINI");
-      if (by == std::string::npos)
+      result.by_sdvini         = by != std::string::npos;
+      if (!result.by_sdvini)
         result.state = read_numbers(input, key);
+      else if (const unsigned int n = count_in(state.substr(0, by)))
+        result.state.resize(n);
       else
-        {
-          const auto n = number_from(state.substr(0, by));
-          if (!n || !(*n >= 1) || *n > 10000 || *n != std::floor(*n))
-            input.refuse(key, "a number before 'by SDVINI', as '12 by SDVINI'");
-          result.state.resize(static_cast<std::size_t>(*n));
-          result.by_sdvini = true;
-        }
+        input.refuse(key, "a number before 'by SDVINI', as '12 by SDVINI'");
       try
         {
           return std::make_shared<Umat>(result);
@@ -547,8 +532,8 @@ namespace moraine
         "The file of the UMAT: a shared library (.so), or a source (.f, .for, "
         ".f90), which gfortran compiles once. Required."},
        {"Symbol",
-        "The name of the subroutine. It is also looked for in lower case with "
-        "an underscore and in upper case.",
+        "The name of the subroutine; it is looked for as it is, and in lower "
+        "case with an underscore.",
         "umat"},
        {"Constants", "PROPS: numbers separated by commas. '3*0' is '0, 0, 0'."},
        {"State variables",
@@ -561,7 +546,14 @@ namespace moraine
         "rotation at the middle of the step, as Abaqus gives them; also for a "
         "UMAT that takes its stress from DFGRD1.",
         "logarithm",
-        patterns::selection({"logarithm", "Hughes-Winget"})}},
+        patterns::selection({"logarithm", "Hughes-Winget"})},
+       {"Tangent",
+        "full: all of DDSDDE. symmetric: its symmetric part, as Abaqus takes "
+        "without UNSYMM; conjugate gradients can then solve, but Newton's "
+        "method is slow where the rest matters. At finite strain the rest is "
+        "never quite 0.",
+        "full",
+        patterns::selection({"full", "symmetric"})}},
       read_umat};
   }
 } // namespace moraine

@@ -10,6 +10,7 @@
 #include <moraine/output/on_root.h>
 #include <moraine/diagnostics/catalogue.h>
 #include <moraine/diagnostics/stress.h>
+#include <moraine/material/material_test.h>
 #include <moraine/run/checkpoints.h>
 #include <moraine/run/console_report.h>
 #include <moraine/scene/located.h>
@@ -502,11 +503,23 @@ namespace moraine
     Diagnostics<dim>   diagnostics(model.objects(scene));
     begin_first_step(scene, model, diagnostics);
     report.describe();
+    bool finds = !diagnostics.ledger.findings().empty();
     for (const Finding &finding : diagnostics.ledger.findings())
       report.print(finding);
+    std::set<std::string> tried;
+    for (unsigned int b = 0; b < model.materials.size(); ++b)
+      if (!model.materials[b]->is_isotropic() &&
+          tried.insert(scene.bodies[b].second.material).second)
+        for (const std::string &fault : faults_of(model.materials[b]))
+          {
+            console << "  warning     law of 'Materials/"
+                    << scene.bodies[b].second.material << "': " << fault
+                    << '\n';
+            finds = true;
+          }
     if (scene.stages.size() > 1)
       console << "  later stages are checked as they begin\n";
-    return !diagnostics.ledger.findings().empty();
+    return finds;
   }
 
 

@@ -8,6 +8,9 @@
 #include <moraine/run/step_driver.h>
 #include <moraine/run/step_failure.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +47,20 @@ namespace moraine
                                            model.system->residual());
       return found && found->fullest > full_cell;
     }
+
+
+
+    /** The smallest factor on the step that a material asks for, at most 1.
+     * Collective. */
+    template <int dim>
+    double
+    wanted_cut(const Model<dim> &model)
+    {
+      double cut = 1;
+      for (const auto &material : model.materials)
+        cut = std::min(cut, material->wanted_cut(model.state->step_time()));
+      return Utilities::MPI::min(cut, model.space->communicator());
+    }
   } // namespace
 
 
@@ -64,7 +81,7 @@ namespace moraine
       (in_vain || n_rejections == rejections_before_support) &&
       ((!yields_in_full_cell(model, report) && hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
-    const bool repeats = time_control.reject(reason);
+    const bool repeats = time_control.reject(reason, wanted_cut(model));
     if (supported)
       {
         time_control.take_back_cuts();

@@ -31,17 +31,6 @@ namespace moraine
 
 
 
-  std::string
-  one_word(const std::string &text)
-  {
-    std::string word = "'";
-    for (const char c : text)
-      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return word + "'";
-  }
-
-
-
   namespace
   {
     using Cells = std::vector<std::pair<std::string, std::string>>;

@@ -284,15 +284,20 @@ namespace moraine
 
 
   bool
-  TimeControl::reject(const std::string &reason)
+  TimeControl::reject(const std::string &reason, const double wanted)
   {
     Assert(trial > current, ExcMessage("next() comes before reject()."));
     ++rejected;
-    const bool repeat = can_cut();
+    const bool   repeat = can_cut();
+    const double least =
+      parameters().one_step() * parameters().smallest_step / trial_size();
+    const double cut = wanted < 1. ?
+                         std::clamp(wanted, std::min(least, 0.99), 0.99) :
+                         parameters().cut;
     if (between_parts())
-      parts.cut *= parameters().cut;
+      parts.cut *= cut;
     else
-      size = parameters().cut * trial_size();
+      size = cut * trial_size();
     text = "The step from t = " + in_words(current_time) +
            (follows_path() ? " along the path by " + in_words(trial - current) :
                              " to " + in_words(trial)) +

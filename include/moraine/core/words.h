@@ -34,6 +34,13 @@ namespace moraine
   std::string
   text_of(const double value, const unsigned int digits = 6);
 
+  std::string
+  lower_case(std::string text);
+
+  /** A text in quotes such that the shell takes it as it is. */
+  std::string
+  one_word(const std::string &text);
+
   /** The components of a place or vector. */
   template <int dim>
   std::string

@@ -278,6 +278,14 @@ namespace moraine
       return "its material has no stress at this strain";
     }
 
+    /** The factor on the size of a step that points without a stress ask for;
+     * 1 if they ask for none. */
+    virtual double
+    wanted_cut(const StepTime &) const
+    {
+      return 1;
+    }
+
     /** For the log: how a law of the user's was compiled, if it was. */
     virtual std::string
     how_made() const

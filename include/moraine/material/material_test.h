@@ -72,6 +72,12 @@ namespace moraine
       return point.stress();
     }
 
+    const MaterialPoint &
+    material_point() const
+    {
+      return point;
+    }
+
     const SixNumbers &
     strain() const
     {
@@ -136,6 +142,10 @@ namespace moraine
     unsigned int  iterations       = 0;
     double        error_of_tangent = 0;
   };
+
+  /** What strain paths of one point find wrong with a law, each in one line. */
+  std::vector<std::string>
+  faults_of(const std::shared_ptr<const Material> &material);
 } // namespace moraine
 
 #endif

@@ -31,8 +31,7 @@ namespace moraine
    * @f]
    * The total logarithmic strain in its place loses half of the shear stress
    * at a shear of 5 (Miehe, Apel and Lambrecht 2002 have it for small plastic
-   * strains). DROT is 1 then. State variables that are components of tensors
-   * are not turned.
+   * strains). State variables that are components of tensors are not turned.
    *
    * By the rate of Hughes and Winget (1980), as in Abaqus, the strain
    * increment and the rotation Q of the step are the parts of the gradient at
@@ -43,20 +42,15 @@ namespace moraine
   class Umat : public Material
   {
   public:
-    enum class Rate
-    {
-      logarithm,    ///< of the step
-      hughes_winget ///< as Abaqus
-    };
-
     struct Parameters
     {
       std::string         file, symbol = "umat";
       std::vector<double> constants;
-      std::vector<double> state;             ///< at the start
-      bool                by_sdvini = false; ///< SDVINI sets the state
-      Rate                rate      = Rate::logarithm;
-      double              density   = 0;
+      std::vector<double> state;                       ///< at the start
+      bool                by_sdvini           = false; ///< SDVINI sets it
+      bool                hughes_winget       = false;
+      bool                symmetrises_tangent = false;
+      double              density             = 0;
       std::string         name; ///< `CMNAME`
     };
 
@@ -100,11 +94,10 @@ namespace moraine
       return false;
     }
 
-    /** Never: at finite strain the volume multiplies the stress. */
     bool
     has_symmetric_tangent() const override
     {
-      return false;
+      return parameters.symmetrises_tangent;
     }
 
     bool
@@ -122,6 +115,9 @@ namespace moraine
     std::string
     why_no_stress() const override;
 
+    double
+    wanted_cut(const StepTime &time) const override;
+
     std::string
     how_made() const override
     {
@@ -129,16 +125,18 @@ namespace moraine
     }
 
   private:
-    /** Of the last call that gave no stress. */
+    /** Points that had no stress in the step that was tried last. */
     struct Failure
     {
-      double new_step = 1; ///< `PNEWDT`
+      StepTime time;
+      double   least_new_step = 1; ///< `PNEWDT`
     };
 
-    void
-    find_stiffness();
+    /** Call it. @return whether it takes the step and its stress is a number;
+     * as in the others. */
+    bool
+    ask(UmatCall &call) const;
 
-    /** @return whether there is a stress, as in the others. */
     bool
     respond_small(UmatCall &call, TensorState &point) const;
 
@@ -148,15 +146,10 @@ namespace moraine
     bool
     respond_by_hughes_winget(UmatCall &call, TensorState &point) const;
 
-    /** Call it. @return whether it takes the step and its stress is a number.
-     */
-    bool
-    ask(UmatCall &call) const;
-
-    const Parameters                   parameters;
+    Parameters                         parameters;
     std::shared_ptr<const UmatLibrary> library;
     LameConstants                      stiffness{0, 0};
-    std::shared_ptr<Failure>           last_failure;
+    std::shared_ptr<Failure>           failure;
   };
 
   MaterialModel

@@ -6,14 +6,16 @@
 
 #include <moraine/core/exceptions.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <array>
-#include <cstddef>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace moraine
 {
-  /** A UMAT, or a routine that it calls, has ended the run by XIT or an error
-   * message. */
+  /** A UMAT has ended the run by XIT or an error message. */
   class UmatExit : public ComputationError
   {
   public:
@@ -22,15 +24,43 @@ namespace moraine
     unsigned int point = 0; ///< among those of Material::respond()
   };
 
-  /**
-   * What a UMAT gets and gives at one point, in Abaqus' order 11, 22, 33, 12,
-   * 13, 23 with angles for shear strains, matrices by columns.
-   */
+  /** The tensor with Abaqus' components 11, 22, 33, 12, 13, 23, of which those
+   * of shear are multiplied by @p shear. */
+  inline dealii::SymmetricTensor<2, 3>
+  tensor_of_umat(const double *values,
+                 const double  shear    = 1,
+                 const int     n_normal = 3,
+                 const int     n_shear  = 3)
+  {
+    dealii::SymmetricTensor<2, 3> result;
+    for (int i = 0; i < n_normal; ++i)
+      result.access_raw_entry(i) = values[i];
+    for (int i = 0; i < n_shear; ++i)
+      result.access_raw_entry(3 + i) = shear * values[n_normal + i];
+    return result;
+  }
+
+  /** The reverse. */
+  inline void
+  components_for_umat(const dealii::SymmetricTensor<2, 3> &tensor,
+                      double                              *values,
+                      const double                         shear    = 1,
+                      const int                            n_normal = 3,
+                      const int                            n_shear  = 3)
+  {
+    for (int i = 0; i < n_normal; ++i)
+      values[i] = tensor.access_raw_entry(i);
+    for (int i = 0; i < n_shear; ++i)
+      values[n_normal + i] = shear * tensor.access_raw_entry(3 + i);
+  }
+
+  /** What a UMAT gets and gives at one point; shear strains are angles,
+   * matrices are stored by columns. */
   struct UmatCall
   {
     /** In: at @f$t_n@f$, out: at @f$t_{n+1}@f$. */
     std::array<double, 6> stress{};
-    double               *state   = nullptr; ///< in and out, `STATEV`
+    double               *state   = nullptr; ///< the same, `STATEV`
     int                   n_state = 0;
 
     std::array<double, 36> tangent{}; ///< out, `DDSDDE`
@@ -45,52 +75,40 @@ namespace moraine
     double step      = 1; ///< `DTIME`
     bool   is_finite = false;
 
-    /** Out: < 1 if the step has to be smaller. */
-    double new_step = 1;
+    double new_step = 1; ///< out, `PNEWDT`
   };
 
-  /**
-   * A shared library with a UMAT, open as long as this exists. A file that is
-   * open already is opened as a copy, so that two materials of one file share
-   * no variables (COMMON, SAVE).
-   */
+  /** A shared library with a UMAT, open as long as this exists. */
   class UmatLibrary
   {
   public:
     /**
      * @param file a shared library, or a source in Fortran (.f, .for, .f90)
-     * which gfortran compiles once
-     * @param symbol of the UMAT: as it is, in lower case with an underscore,
-     * or in upper case
+     * which gfortran compiles, once in a run
+     * @param symbol of the UMAT: as it is, or in lower case with an underscore
      * @throws InputError that says what is wrong with which of them
      */
     UmatLibrary(const std::string &file, const std::string &symbol);
-
-    UmatLibrary(const UmatLibrary &) = delete;
-
-    ~UmatLibrary();
 
     /** @param constants `PROPS`
      * @param name `CMNAME`, 80 characters
      * @throws UmatExit if it calls XIT */
     void
-    call(UmatCall          &point,
-         const double      *constants,
-         const int          n_constants,
-         const std::string &name) const;
+    call(UmatCall                  &point,
+         const std::vector<double> &constants,
+         const std::string         &name) const;
 
-    /** Whether it has SDVINI. */
     bool
-    sets_state() const
+    has_sdvini() const
     {
       return sdvini != nullptr;
     }
 
-    /** The state variables that its SDVINI sets at @p x. */
+    /** The state variables that SDVINI sets at the place @p x. */
     void
-    set_state(double *state, const int n, const double (&x)[3]) const;
+    call_sdvini(std::vector<double> &state, dealii::Point<3> x) const;
 
-    /** How the file was compiled; empty if it was given as a library. */
+    /** How a source was compiled; else empty. */
     const std::string &
     compilation() const
     {
@@ -98,11 +116,10 @@ namespace moraine
     }
 
   private:
-    std::string identity; ///< of the file, among those that are open
-    std::string command;
-    void       *handle = nullptr;
-    void       *umat   = nullptr;
-    void       *sdvini = nullptr;
+    std::string                            command;
+    std::unique_ptr<void, int (*)(void *)> handle;
+    void                                  *umat   = nullptr;
+    void                                  *sdvini = nullptr;
   };
 } // namespace moraine
 

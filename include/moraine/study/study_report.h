@@ -58,10 +58,6 @@ namespace moraine
   std::vector<std::string>
   short_names(const std::vector<std::string> &paths);
 
-  /** A text in quotes such that the shell takes it as it is. */
-  std::string
-  one_word(const std::string &text);
-
   /** Write study.csv with a row for each result so far. Collective. */
   void
   write_csv(const StudySetting             &setting,

@@ -228,10 +228,11 @@ namespace moraine
     bool
     can_cut() const;
 
-    /** Forget the trial time and cut the size. False if the size would fall
-     * below the smallest: then message() tells the story. */
+    /** Forget the trial time and cut the size, by the factor @p wanted if it is
+     * below 1. False if a cut would fall below the smallest size: then
+     * message() tells the story. */
     bool
-    reject(const std::string &reason);
+    reject(const std::string &reason, const double wanted = 1.);
 
     /** After reject(): the next trial has the size of the first one since the
      * last accepted step, because something else than its size was mended. */
