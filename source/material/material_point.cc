@@ -4,7 +4,6 @@
 #include <moraine/material/material_point.h>
 
 #include <moraine/material/elastic_state.h>
-#include <moraine/material/spectral.h>
 
 #include <cmath>
 

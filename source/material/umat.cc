@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace moraine
 {
@@ -26,36 +25,24 @@ namespace moraine
 
 
 
-    std::array<double, 6>
-    components(const Stress &tensor, const double shear = 1)
+    /** With shear components times @p factor: 2 makes angles of them. */
+    Stress
+    with_shear(Stress strain, const double factor)
     {
-      std::array<double, 6> result;
-      components_for_umat(tensor, result.data(), shear);
-      return result;
-    }
-
-
-
-    std::array<double, 9>
-    by_columns(const Matrix &matrix)
-    {
-      std::array<double, 9> result;
-      for (unsigned int i = 0; i < 9; ++i)
-        result[i] = matrix[i % 3][i / 3];
-      return result;
+      for (unsigned int I = 3; I < 6; ++I)
+        strain.access_raw_entry(I) *= factor;
+      return strain;
     }
 
 
 
     /** DDSDDE times a strain. */
     Stress
-    stress_by(const std::array<double, 36> &D, const Stress &strain)
+    stress_by(const std::array<Stress, 6> &D, const Stress &strain)
     {
-      const std::array<double, 6> e = components(strain, 2);
-      Stress                      result;
+      Stress result;
       for (unsigned int J = 0; J < 6; ++J)
-        for (unsigned int I = 0; I < 6; ++I)
-          result.access_raw_entry(I) += D[I + 6 * J] * e[J];
+        result += (J < 3 ? 1. : 2.) * strain.access_raw_entry(J) * D[J];
       return result;
     }
 
@@ -170,7 +157,7 @@ namespace moraine
       /** The tangent of @f$\sigma@f$, @f$L_v\sigma = c : d@f$, with T and
        * DDSDDE. */
       SymmetricTensor<4, 3>
-      tangent(const Stress &T, const std::array<double, 36> &D) const
+      tangent(const Stress &T, const std::array<Stress, 6> &D) const
       {
         const Stress T_frame = transformed(at.directions, T);
         double       second[3][3][3];
@@ -231,9 +218,11 @@ namespace moraine
     call.state          = state.data();
     call.n_state        = of.state.size();
     const bool answers  = ask(call);
-    const auto stiffest = [&](const unsigned int I) {
-      const auto &D = call.tangent;
-      return std::max({D[7 * I], D[7 * I + 7], D[7 * I + 14]});
+    const auto stiffest = [&](const unsigned int first) {
+      double largest = 0;
+      for (unsigned int I = first; I < first + 3; ++I)
+        largest = std::max(largest, call.tangent[I].access_raw_entry(I));
+      return largest;
     };
     const double normal = stiffest(0), shear = stiffest(3);
     stiffness = {std::max(0., normal - 2 * shear), shear};
@@ -277,9 +266,9 @@ namespace moraine
   Umat::ask(UmatCall &call) const
   {
     library->call(call, parameters.constants, parameters.name);
-    const double sum =
-      std::accumulate(call.stress.begin(), call.stress.end(), 0.) +
-      std::accumulate(call.tangent.begin(), call.tangent.end(), 0.);
+    double sum = call.stress.norm();
+    for (const Stress &column : call.tangent)
+      sum += column.norm();
     return call.new_step >= 1 && std::isfinite(sum);
   }
 
@@ -304,11 +293,24 @@ namespace moraine
         // Some divide by it.
         call.step      = time.size() > 0 ? time.size() : 1;
         call.is_finite = measure == StrainMeasure::finite;
-        std::copy_n(point.internal + call.n_state, 6, call.strain.begin());
+        if (call.is_finite)
+          {
+            call.F_n = transpose(point.F_n);
+            call.F   = transpose(point.F);
+          }
+        call.stress = point.stress;
+        std::copy_n(point.internal + call.n_state,
+                    6,
+                    &call.strain.access_raw_entry(0));
         try
           {
             if ((this->*answer)(call, point))
-              continue;
+              {
+                std::copy_n(&call.strain.access_raw_entry(0),
+                            6,
+                            point.internal + call.n_state);
+                continue;
+              }
           }
         catch (UmatExit &exit)
           {
@@ -331,16 +333,14 @@ namespace moraine
   bool
   Umat::respond_small(UmatCall &call, TensorState &point) const
   {
-    const auto increment  = components(point.strain_increment, 2);
-    call.strain_increment = increment;
-    call.stress           = components(point.stress);
+    call.strain_increment = with_shear(point.strain_increment, 2);
+    const Stress strain   = call.strain + call.strain_increment;
     if (!ask(call))
       return false;
-    point.stress = tensor_of_umat(call.stress.data());
+    call.strain  = strain;
+    point.stress = call.stress;
     point.tangent =
       tangent_by([&](const Stress &d) { return stress_by(call.tangent, d); });
-    for (unsigned int I = 0; I < 6; ++I)
-      point.internal[call.n_state + I] += increment[I];
     return true;
   }
 
@@ -353,22 +353,16 @@ namespace moraine
     if (!(determinant(dF) > 0))
       return false;
     const LogarithmicStep step(dF);
-    const Stress strain = tensor_of_umat(call.strain.data(), 0.5) + step.strain;
-    call.stress         = components(point.stress);
-    call.strain_increment = components(step.strain, 2);
-    call.F_n              = by_columns(point.F_n);
-    call.F                = by_columns(point.F);
+    const Stress          strain = with_shear(call.strain, 0.5) + step.strain;
+    call.strain_increment        = with_shear(step.strain, 2);
     if (!ask(call))
       return false;
     const double J     = determinant(point.F);
-    const Stress T     = tensor_of_umat(call.stress.data());
-    const Stress sigma = step.stress(T);
+    const Stress sigma = step.stress(call.stress);
+    call.strain        = with_shear(transformed(step.rotation(), strain), 2);
     point.stress       = J * sigma;
-    point.tangent      = J * (step.tangent(T, call.tangent) +
+    point.tangent      = J * (step.tangent(call.stress, call.tangent) +
                          outer_product(sigma, unit_symmetric_tensor<3>()));
-    components_for_umat(transformed(step.rotation(), strain),
-                        point.internal + call.n_state,
-                        2);
     return true;
   }
 
@@ -387,35 +381,29 @@ namespace moraine
     const Matrix omega  = 0.5 * (h - transpose(h));
     const Matrix before = invert(one - 0.5 * omega);
     const Matrix Q      = before * (one + 0.5 * omega);
-    const Stress strain =
-      transformed(Q, tensor_of_umat(call.strain.data(), 0.5));
-    call.stress           = components(transformed(Q, point.stress));
-    call.strain           = components(strain, 2);
-    call.strain_increment = components(e, 2);
-    call.rotation         = by_columns(Q);
-    call.F_n              = by_columns(point.F_n);
-    call.F                = by_columns(point.F);
+    call.stress         = transformed(Q, point.stress);
+    call.strain = with_shear(transformed(Q, with_shear(call.strain, 0.5)), 2);
+    call.strain_increment = with_shear(e, 2);
+    call.rotation         = transpose(Q);
+    const Stress strain   = call.strain + call.strain_increment;
     if (!ask(call))
       return false;
-    const double J       = determinant(point.F);
-    const Stress sigma   = tensor_of_umat(call.stress.data());
-    const Matrix sigma_m = sigma;
+    const double J     = determinant(point.F);
+    const Matrix sigma = call.stress;
     // A rotation W of stress and strain increment together turns the answer.
     const auto turning = [](const Matrix &W, const Matrix &s) {
       return symmetrize(W * s - s * W);
     };
-    point.stress  = J * sigma;
+    call.strain   = strain;
+    point.stress  = J * call.stress;
     point.tangent = tangent_by([&](const Stress &d) {
-      const Matrix d_m = d;
-      const Matrix d_h = (2. * one - h) * d_m * dF * middle;
+      const Matrix d_h = (2. * one - h) * static_cast<Matrix>(d) * dF * middle;
       const Matrix d_W = 0.25 * (d_h - transpose(d_h));
       const Matrix W   = before * d_W * (one + Q) * transpose(Q);
-      const Stress rates =
-        stress_by(call.tangent, symmetrize(d_h) - turning(W, e));
-      return J * (rates + turning(W, sigma_m) + trace(d) * sigma -
-                  2. * symmetrize(d_m * sigma_m));
+      return J * (stress_by(call.tangent, symmetrize(d_h) - turning(W, e)) +
+                  turning(W, sigma) + trace(d) * call.stress -
+                  2. * symmetrize(static_cast<Matrix>(d) * sigma));
     });
-    components_for_umat(strain + e, point.internal + call.n_state, 2);
     return true;
   }
 
@@ -508,12 +496,7 @@ namespace moraine
         {
           return std::make_shared<Umat>(result);
         }
-      catch (const UmatExit &exit)
-        {
-          throw InputError("section '" + input.section +
-                           "': without stress and strain " + exit.what());
-        }
-      catch (const InputError &error)
+      catch (const std::runtime_error &error) // also UmatExit
         {
           throw InputError("section '" + input.section + "': " + error.what());
         }

@@ -21,12 +21,10 @@ namespace moraine
   {
     namespace fs = std::filesystem;
 
-    /** For compiled sources and copies; removed at the end of the program. */
-    class ScratchFolder
+    /** A folder for compiled sources and copies, removed at the end. */
+    struct ScratchFolder
     {
-    public:
       ScratchFolder()
-        : path((fs::temp_directory_path() / "moraine-umat-XXXXXX").string())
       {
         if (mkdtemp(path.data()) == nullptr)
           throw InputError("cannot make the folder '" + path +
@@ -42,7 +40,7 @@ namespace moraine
         fs::remove_all(path, ignored);
       }
 
-      std::string path;
+      std::string path = fs::temp_directory_path() / "moraine-umat-XXXXXX";
     };
 
 
@@ -98,13 +96,15 @@ namespace moraine
     /** Open @p library. If another material has it open, open a copy: they must
      * share no variables (COMMON, SAVE). */
     void *
-    open(std::string library)
+    open(const std::string &library)
     {
+      static unsigned int n_copies = 0; // one name is one library
       void *const open = dlopen(library.c_str(), RTLD_LAZY | RTLD_NOLOAD);
       if (open == nullptr)
         return dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
       dlclose(open);
-      const std::string copy = scratch() + "/copy.so";
+      const std::string copy =
+        scratch() + "/copy-" + std::to_string(n_copies++) + ".so";
       fs::copy_file(library, copy);
       void *const result = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL);
       fs::remove(copy);
@@ -119,6 +119,15 @@ namespace moraine
     call_fortran(void *routine, const Arguments... arguments)
     {
       reinterpret_cast<void (*)(Arguments...)>(routine)(arguments...);
+    }
+
+
+
+    double *
+    first(dealii::SymmetricTensor<2, 3> &tensor)
+    {
+      static_assert(sizeof(tensor) == 6 * sizeof(double));
+      return &tensor.access_raw_entry(0); // 11, 22, 33, 12, 13, 23
     }
   } // namespace
 
@@ -161,9 +170,9 @@ namespace moraine
     const int three = 3, six = 6, one = 1, n_constants = constants.size();
     const int step[4]{1, 1, point.is_finite, 0};
     call_fortran(umat,
-                 point.stress.data(),
+                 first(point.stress),
                  point.n_state > 0 ? point.state : &no_state,
-                 point.tangent.data(),
+                 first(point.tangent[0]),
                  &energies[0],
                  &energies[1],
                  &energies[2],
@@ -171,8 +180,8 @@ namespace moraine
                  &heat_slopes[0],
                  &heat_slopes[6],
                  &heat[1],
-                 point.strain.data(),
-                 point.strain_increment.data(),
+                 first(point.strain),
+                 first(point.strain_increment),
                  times,
                  &point.step,
                  &temperature,
@@ -187,11 +196,11 @@ namespace moraine
                  constants.data(),
                  &n_constants,
                  place,
-                 point.rotation.data(),
+                 point.rotation.begin_raw(),
                  &point.new_step,
                  &length,
-                 point.F_n.data(),
-                 point.F.data(),
+                 point.F_n.begin_raw(),
+                 point.F.begin_raw(),
                  &one,
                  &one,
                  &one,

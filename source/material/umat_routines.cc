@@ -9,13 +9,13 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace moraine
 {
@@ -23,11 +23,15 @@ namespace moraine
 
   namespace
   {
-    /** The factor between angles and strains, if it is a strain. */
-    double
-    half_if_strain(const int kind)
+    /** Of @p n normal and @p m shear components, angles for @p kind 2. */
+    SymmetricTensor<2, 3>
+    tensor_of(const double *values, const int kind, const int n, const int m)
     {
-      return kind == 2 ? 0.5 : 1;
+      SymmetricTensor<2, 3> result;
+      std::copy_n(values, n, &result.access_raw_entry(0));
+      for (int i = 0; i < m; ++i)
+        result.access_raw_entry(3 + i) = values[n + i] / kind;
+      return result;
     }
 
 
@@ -52,23 +56,22 @@ namespace moraine
            const std::size_t  word_length)
     {
       std::ostringstream text;
-      for (std::size_t i = 0; i < form.size(); ++i)
+      for (auto c = form.begin(); c != form.end(); ++c)
         {
-          const char kind = form[i] == '%' && i + 1 < form.size() ?
-                              std::toupper(form[i + 1]) :
-                              0;
-          if (kind == 'I')
+          const char kind = *c == '%' && c + 1 != form.end() ? c[1] : '%';
+          if (kind == 'I' || kind == 'i')
             text << *integers++;
-          else if (kind == 'R')
+          else if (kind == 'R' || kind == 'r')
             text << *numbers++;
-          else if (kind == 'S')
-            {
-              text << trimmed(words, word_length);
-              words += word_length;
-            }
+          else if (kind == 'S' || kind == 's')
+            text << trimmed(std::exchange(words, words + word_length),
+                            word_length);
           else
-            text << form[i];
-          i += kind == 'I' || kind == 'R' || kind == 'S';
+            {
+              text << *c;
+              continue;
+            }
+          ++c;
         }
       return text.str();
     }
@@ -78,6 +81,10 @@ namespace moraine
 
   extern "C"
   {
+    using In      = const double *;
+    using Integer = const int *;
+    using Out     = double *;
+
     void
     xit_()
     {
@@ -87,10 +94,10 @@ namespace moraine
 
 
     void
-    stdb_abqerr_(const int        *kind,
+    stdb_abqerr_(Integer           kind,
                  const char       *form,
-                 const int        *integers,
-                 const double     *numbers,
+                 Integer           integers,
+                 In                numbers,
                  const char       *words,
                  const std::size_t form_length,
                  const std::size_t word_length)
@@ -108,14 +115,12 @@ namespace moraine
 
 
 
+    // kind: 1 stress, 2 strain; n and m: NDI and NSHR
+
     void
-    sinv_(const double *stress,
-          double       *first,
-          double       *second,
-          const int    *n_normal,
-          const int    *n_shear)
+    sinv_(In stress, Out first, Out second, Integer n, Integer m)
     {
-      const auto s = tensor_of_umat(stress, 1, *n_normal, *n_shear);
+      const auto s = tensor_of(stress, 1, *n, *m);
       *first       = trace(s) / 3;
       *second      = std::sqrt(1.5) * deviator(s).norm();
     }
@@ -123,56 +128,39 @@ namespace moraine
 
 
     void
-    sprind_(const double *values,
-            double       *principal,
-            double       *directions,
-            const int    *kind,
-            const int    *n_normal,
-            const int    *n_shear)
+    sprind_(In a, Out values, Out axes, Integer kind, Integer n, Integer m)
     {
-      const Spectrum at = spectrum<3>(
-        tensor_of_umat(values, half_if_strain(*kind), *n_normal, *n_shear));
+      const Spectrum at = spectrum<3>(tensor_of(a, *kind, *n, *m));
       for (unsigned int A = 0; A < 3; ++A)
         {
-          principal[A] = at.values[A];
+          values[A] = at.values[A];
           for (unsigned int i = 0; i < 3; ++i)
-            directions[A + 3 * i] = at.directions[A][i];
+            axes[A + 3 * i] = at.directions[A][i];
         }
     }
 
 
 
     void
-    sprinc_(const double *values,
-            double       *principal,
-            const int    *kind,
-            const int    *n_normal,
-            const int    *n_shear)
+    sprinc_(In a, Out values, Integer kind, Integer n, Integer m)
     {
-      double directions[9];
-      sprind_(values, principal, directions, kind, n_normal, n_shear);
+      double axes[9];
+      sprind_(a, values, axes, kind, n, m);
     }
 
 
 
     void
-    rotsig_(const double *values,
-            const double *rotation,
-            double       *rotated,
-            const int    *kind,
-            const int    *n_normal,
-            const int    *n_shear)
+    rotsig_(In a, In rotation, Out rotated, Integer kind, Integer n, Integer m)
     {
-      const double shear = half_if_strain(*kind);
       Tensor<2, 3> R;
       for (unsigned int i = 0; i < 9; ++i)
         R[i % 3][i / 3] = rotation[i];
-      const Tensor<2, 3> s = tensor_of_umat(values, shear, *n_normal, *n_shear);
-      components_for_umat(symmetrize(R * s * transpose(R)),
-                          rotated,
-                          1 / shear,
-                          *n_normal,
-                          *n_shear);
+      const Tensor<2, 3> s      = tensor_of(a, *kind, *n, *m);
+      const auto         turned = symmetrize(R * s * transpose(R));
+      std::copy_n(&turned.access_raw_entry(0), *n, rotated);
+      for (int i = 0; i < *m; ++i)
+        rotated[*n + i] = *kind * turned.access_raw_entry(3 + i);
     }
 
 

@@ -230,10 +230,10 @@ namespace umat_test
 
     /** tau_12 / k of perfect plasticity in simple shear. */
     double
-    shear_stress(const Umat::Rate rate, const double gamma)
+    shear_stress(const bool hughes_winget, const double gamma)
     {
       auto of = parameters("drucker-prager.f", {1000, 0.3, 0, 0, 1}, 1);
-      of.rate = rate;
+      of.hughes_winget   = hughes_winget;
       auto          umat = std::make_shared<Umat>(of);
       MaterialPoint point(umat, StrainMeasure::finite, Stress());
       Matrix        H;
@@ -289,10 +289,10 @@ namespace umat_test
       }
     leg.values[0] = -0.1;
     for (const auto measure : {StrainMeasure::small, StrainMeasure::finite})
-      for (const auto rate : {Umat::Rate::logarithm, Umat::Rate::hughes_winget})
+      for (const bool hughes_winget : {false, true})
         {
-          auto of = outer_cone(10, 30, 30);
-          of.rate = rate;
+          auto of          = outer_cone(10, 30, 30);
+          of.hughes_winget = hughes_winget;
           moraine::MaterialTest test(std::make_shared<Umat>(of),
                                      measure,
                                      initial);
@@ -301,10 +301,8 @@ namespace umat_test
             most_iterations = std::max(most_iterations, test.n_iterations());
             // That of Hughes and Winget is not exact for spins.
             EXPECT_LT(test.tangent_error(),
-                      measure == StrainMeasure::finite &&
-                          rate == Umat::Rate::hughes_winget ?
-                        2e-3 :
-                        1e-6);
+                      measure == StrainMeasure::finite && hughes_winget ? 2e-3 :
+                                                                          1e-6);
           });
           const double J =
             measure == StrainMeasure::small ?
@@ -331,9 +329,9 @@ namespace umat_test
   // The total logarithmic strain gives 0.974, 0.833 and 0.435.
   TEST(Umat, KeepsTheShearStrengthInLargeShear)
   {
-    for (const auto rate : {Umat::Rate::logarithm, Umat::Rate::hughes_winget})
+    for (const bool hughes_winget : {false, true})
       for (const double gamma : {1., 2., 5.})
-        EXPECT_NEAR(shear_stress(rate, gamma), 1, 1e-4) << gamma;
+        EXPECT_NEAR(shear_stress(hughes_winget, gamma), 1, 1e-4) << gamma;
   }
 
   TEST(Umat, TurnsWithTheMaterial)
@@ -342,10 +340,10 @@ namespace umat_test
     const Matrix R({{std::cos(a), 0, -std::sin(a)},
                     {0, 1, 0},
                     {std::sin(a), 0, std::cos(a)}});
-    for (const auto rate : {Umat::Rate::logarithm, Umat::Rate::hughes_winget})
+    for (const bool hughes_winget : {false, true})
       {
-        auto of = outer_cone(10, 30, 10);
-        of.rate = rate;
+        auto of          = outer_cone(10, 30, 10);
+        of.hughes_winget = hughes_winget;
         const Umat   umat(of);
         const double J      = determinant(F_n);
         const Matrix turned = step(umat, sigma, F_n, R * F_n).stress;
@@ -353,7 +351,7 @@ namespace umat_test
           (turned - J * R * static_cast<Matrix>(sigma) * transpose(R)).norm(),
           0,
           1e-11);
-        if (rate == Umat::Rate::hughes_winget)
+        if (hughes_winget)
           continue;
         const Matrix tau = step(umat, sigma, F_n, dF * F_n).stress;
         EXPECT_NEAR((step(umat, sigma, F_n, R * dF * F_n).stress -
@@ -383,8 +381,8 @@ namespace umat_test
 
   TEST(Umat, TangentOfHughesAndWinget)
   {
-    auto of = outer_cone(10, 30, 10);
-    of.rate = Umat::Rate::hughes_winget;
+    auto of          = outer_cone(10, 30, 10);
+    of.hughes_winget = true;
     const Umat umat(of);
     for (const double size : {1., 1e-2, 0.})
       EXPECT_LT(
@@ -503,10 +501,12 @@ namespace umat_test
     EXPECT_FALSE(point.try_step({0, 1}, H));
     EXPECT_EQ(point.law().why_no_stress(),
               "has a UMAT that asks for a smaller step (PNEWDT = 0.25)");
+    EXPECT_EQ(point.law().wanted_cut({0, 1}), 0.25);
+    EXPECT_EQ(point.law().wanted_cut({0, 0.5}), 1);
     H[0][0] = 0.05;
     EXPECT_TRUE(point.try_step({0, 1}, H));
     H[1][1] = 0.2;
-    EXPECT_FALSE(point.try_step({0, 1}, H));
+    EXPECT_FALSE(point.try_step({0, 0.5}, H));
     EXPECT_EQ(point.law().why_no_stress(),
               "has a UMAT whose stress or DDSDDE is not a number");
   }
@@ -551,6 +551,68 @@ namespace umat_test
     EXPECT_EQ(point.internal()[7], fs::current_path().string().size());
   }
 
+  TEST(Umat, SymmetricTangent)
+  {
+    auto       of   = outer_cone(10, 30, 10);
+    const auto skew = [&](const bool symmetrises) {
+      of.symmetrises_tangent = symmetrises;
+      const Umat umat(of);
+      EXPECT_EQ(umat.has_symmetric_tangent(), symmetrises);
+      const auto c =
+        moraine::voigt_matrix<3>(step(umat, sigma, F_n, dF * F_n).tangent);
+      double largest = 0;
+      for (unsigned int I = 0; I < 6; ++I)
+        for (unsigned int J = 0; J < 6; ++J)
+          largest = std::max(largest, std::abs(c[I][J] - c[J][I]));
+      return largest;
+    };
+    EXPECT_GT(skew(false), 100);
+    EXPECT_LT(skew(true), 1e-10);
+  }
+
+  TEST(Umat, FaultsOfALaw)
+  {
+    const auto faults = [](const Umat::Parameters &of) {
+      std::string all;
+      for (const std::string &fault :
+           moraine::faults_of(std::make_shared<Umat>(of)))
+        all += fault + '\n';
+      return all;
+    };
+    const auto of_body = [&](const std::string &body) {
+      const Source source(body);
+      auto         of        = source.parameters();
+      of.symmetrises_tangent = true;
+      of.state               = {0};
+      return faults(of);
+    };
+    EXPECT_EQ(of_body(""), "");
+    EXPECT_EQ(faults(outer_cone(10, 30, 10)), "");
+    EXPECT_EQ(faults(parameters("linear-elastic.f", {20000, 0.3})),
+              "the tangent is symmetric in all trials: 'Tangent = symmetric' "
+              "saves time at small strain\n");
+    EXPECT_EQ(of_body("      DDSDDE(4,4) = 60\n"),
+              "the tangent (DDSDDE) is not the derivative of the stress "
+              "(compression along 11 to 1e-05, by 10 %)\n");
+    EXPECT_EQ(of_body("      NCALLS = NCALLS + 1\n"
+                      "      STATEV(1) = NCALLS\n"),
+              "the same input gives another answer the second time "
+              "(compression along 11 to 1e-05)\n");
+    EXPECT_EQ(of_body("      STRESS(2) = STRESS(2) + 0.01\n")
+                .rfind("the stress changes without a strain (", 0),
+              0u);
+    EXPECT_EQ(
+      of_body("      DO I = 1, 6\n"
+              "        STRESS(I) = STRESS(I)-200*DSTRAN(I)\n"
+              "        IF (I.GT.3) STRESS(I) = STRESS(I)+100*DSTRAN(I)\n"
+              "      END DO\n")
+        .rfind("compression makes sigma_11 >= 0; tension is positive (", 0),
+      0u);
+    EXPECT_EQ(of_body("      IF (DSTRAN(4).GT.0.001) CALL XIT\n"),
+              "shear 12: its UMAT ended the run (CALL XIT)\n"
+              "compression and shear: its UMAT ended the run (CALL XIT)\n");
+  }
+
   TEST(Umat, WhatIsWrongWithALibrary)
   {
     const auto message = [](const Umat::Parameters &of) {
@@ -565,7 +627,7 @@ namespace umat_test
     has(parameters("ABA_PARAM.INC", {}), "cannot be loaded: ");
     of        = parameters("linear-elastic.f", {20000, 0.3});
     of.symbol = "Umat2";
-    has(of, "has none of the symbols 'Umat2', 'umat2_', 'umat2', 'UMAT2'");
+    has(of, "has neither the symbol 'Umat2' nor 'umat2_'");
     of.symbol    = "UMAT";
     of.by_sdvini = true;
     has(of, "has no SDVINI");
@@ -599,10 +661,7 @@ namespace umat_test
     EXPECT_EQ(message({{"Constants", "2e4, 3*0.1, 2/3"}}), "");
     EXPECT_EQ(message({{"Library", ""}}),
               section + ", key 'Library': is not set, and has no default");
-    EXPECT_EQ(message({}),
-              section +
-                ": without stress and strain its UMAT ended the run (CALL "
-                "XIT)");
+    EXPECT_EQ(message({}), section + ": its UMAT ended the run (CALL XIT)");
     EXPECT_EQ(message({{"Constants", "2e4; 0.3"}}),
               section + ", key 'Constants': found '2e4; 0.3', allowed: numbers "
                         "separated by commas; '3*0' is '0, 0, 0'");
@@ -613,6 +672,6 @@ namespace umat_test
     EXPECT_EQ(message({{"Constants", "2e4, 0.3"}, {"Cohesion", "1"}}),
               section + ", key 'Cohesion': found '1', allowed: nothing; the "
                         "keys of 'UMAT' are Density, Library, Symbol, "
-                        "Constants, State variables, Objective rate");
+                        "Constants, State variables, Objective rate, Tangent");
   }
 } // namespace umat_test

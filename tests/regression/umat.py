@@ -26,6 +26,30 @@ for strain, limit in (("small", 1e-10), ("finite", 1e-3)):
           max(abs(a - b) for (x,), (y,) in zip(own, other)
               for a, b in zip(x, y)), limit)
 
+# A law with history on two ranks, and after a break.
+PLASTIC = {**umat(f"{root}/prm/umat/drucker-prager.f", "1000, 0.3, 0.3, 0.1, 2"),
+           "Materials/soil/State variables": "0", "Method/Strain": "finite",
+           "Loads/weight/Value": "0; -t", "Output/Checkpoint every": "1 step"}
+
+
+def state(result):
+    return sorted(result.points("position", "statev_1"),
+                  key=lambda point: [round(x, 5) for x in point[0]])
+
+
+def distance(a, b):
+    return max(abs(x - y) for (p, s), (q, t) in zip(state(a), state(b))
+               for x, y in zip((*p, s), (*q, t)))
+
+
+through, on_two = [run(BLOCK, PLASTIC, on_ranks=n) for n in (1, 2)]
+text("yields", max(s for _, s in state(through)) > 1e-3)
+bound("two ranks - one", distance(through, on_two), 1e-9)
+history = (through.folder / "history.csv").read_bytes()
+run(through.folder, command="resume", extra=["--from", 2], on_ranks=1)
+text("history is that of a run without a break",
+     history == (through.folder / "history.csv").read_bytes())
+
 REFUSES = folder / "refuses.for"
 REFUSES.write_text("""\
       SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,
@@ -41,7 +65,7 @@ REFUSES.write_text("""\
         IF (I.GT.3) DDSDDE(I,I) = 500
         STRESS(I) = STRESS(I) + DDSDDE(I,I)*DSTRAN(I)
       END DO
-      IF (ABS(DSTRAN(4)).GT.PROPS(1)) PNEWDT = 0.5D0
+      IF (ABS(DSTRAN(4)).GT.PROPS(1)) PNEWDT = 0.3D0
       IF (ABS(DSTRAN(4)).GT.PROPS(2)) CALL XIT
       END
 """)
@@ -55,9 +79,17 @@ def refusals(name, constants, expect):
     return result
 
 
-text("steps that took all", refusals(
-    "a smaller step", "0.002, 1", 0).summary["steps"])
+smaller = refusals("a smaller step", "0.002, 1", 0)
+text("steps that took all", smaller.summary["steps"])
+text("the same on two ranks", smaller.summary["steps"] == run(
+    BLOCK, umat(REFUSES, "0.002, 1"), on_ranks=2).summary["steps"])
 refusals("the end", "1, 0.002", 1)
+for name, settings in (("drucker-prager.f", PLASTIC),
+                       ("linear-elastic.f", ELASTIC),
+                       ("refuses.for", umat(REFUSES, "0.002, 0.005"))):
+    for line in run(BLOCK, settings, command="check").output.splitlines():
+        if "law of" in line or "nothing wrong" in line:
+            text(f"check of {name}", line.strip())
 
 
 def refused(name, settings):

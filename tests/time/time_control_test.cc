@@ -44,6 +44,25 @@ TEST(TimeControl, HitsEveryStepExactly)
   EXPECT_EQ(time.n_accepted(), 10u);
 }
 
+TEST(TimeControl, TakesTheCutThatIsWanted)
+{
+  TimeParameters parameters = steps(1);
+  parameters.smallest_step  = 0.01;
+  TimeControl time(parameters);
+  const auto  next_after = [&](const double wanted) {
+    time.next();
+    EXPECT_TRUE(time.reject("test", wanted));
+    time.next();
+    return time.trial_time();
+  };
+  EXPECT_DOUBLE_EQ(next_after(0.2), 0.2);
+  EXPECT_DOUBLE_EQ(next_after(1.), 0.1);
+  // Neither below the smallest, nor with no end.
+  EXPECT_DOUBLE_EQ(next_after(0.9999), 1. / 11);
+  EXPECT_DOUBLE_EQ(next_after(1e-9), 0.01);
+  EXPECT_FALSE(time.reject("test", 0.9));
+}
+
 TEST(TimeControl, LeavesNoSliverAfterCuts)
 {
   // A cut of 0.3 does not divide a step: what remains is split evenly.

@@ -4,7 +4,7 @@
 #ifndef moraine_material_material_point_h
 #define moraine_material_material_point_h
 
-#include <moraine/material/material.h>
+#include <moraine/material/spectral.h>
 
 #include <memory>
 #include <vector>
@@ -51,6 +51,12 @@ namespace moraine
     dealii::SymmetricTensor<2, 3>
     stress_rate(const dealii::Tensor<2, 3> &l) const;
 
+    const VoigtMatrix<3> &
+    tangent_matrix() const
+    {
+      return tangent;
+    }
+
     /** In the order of Material::internal_variables(). */
     const std::vector<double> &
     internal() const
@@ -91,7 +97,7 @@ namespace moraine
     StrainMeasure                   measure;
     State                           committed, trial;
     /** Of the trial state: sums over J of c_IJ d_J give the stress. */
-    std::array<std::array<double, 6>, 6> tangent{};
+    VoigtMatrix<3> tangent{};
   };
 } // namespace moraine
 

@@ -72,10 +72,11 @@ namespace moraine
       return point.stress();
     }
 
-    const MaterialPoint &
-    material_point() const
+    /** Of the last step. */
+    const VoigtMatrix<3> &
+    tangent() const
     {
-      return point;
+      return point.tangent_matrix();
     }
 
     const SixNumbers &

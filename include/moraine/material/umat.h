@@ -14,30 +14,17 @@
 namespace moraine
 {
   /**
-   * A law in a subroutine UMAT as for Abaqus/Standard: from stress, state
-   * variables and strain increment to stress, state variables and
-   * @f$D = \partial\Delta\sigma/\partial\Delta\varepsilon@f$. It always gets
-   * six components; plane strain is the 3D law.
-   *
-   * At finite strain, with @f$\Delta F = F_{n+1} F_n^{-1}@f$ and
-   * @f$\Delta C = \Delta F^T \Delta F@f$, the strain increment is that of the
-   * step in the frame of its start,
-   * @f$\Delta\varepsilon = \frac12 \ln \Delta C@f$; the UMAT makes T of
-   * @f$\sigma_n@f$, and
+   * A law in a subroutine UMAT as for Abaqus/Standard; plane strain is the 3D
+   * law. At finite strain, with @f$\Delta F = F_{n+1} F_n^{-1}@f$ and
+   * @f$\Delta C = \Delta F^T \Delta F@f$, it gets
+   * @f$\Delta\varepsilon = \frac12 \ln \Delta C@f$ and makes T of
+   * @f$\sigma_n@f$; then
    * @f[
-   *   \sigma_{n+1} = \Delta F \left(T :
-   *     \frac{\partial \ln \Delta C}{\partial \Delta C}\right) \Delta F^T,
-   *   \qquad \tau = J \sigma_{n+1} .
+   *   \tau = J \sigma_{n+1} = J\, \Delta F \left(T :
+   *     \frac{\partial \ln \Delta C}{\partial \Delta C}\right) \Delta F^T .
    * @f]
-   * The total logarithmic strain in its place loses half of the shear stress
-   * at a shear of 5 (Miehe, Apel and Lambrecht 2002 have it for small plastic
-   * strains). State variables that are components of tensors are not turned.
-   *
-   * By the rate of Hughes and Winget (1980), as in Abaqus, the strain
-   * increment and the rotation Q of the step are the parts of the gradient at
-   * its middle; the UMAT gets @f$Q\sigma_n Q^T@f$ and Q, and answers in the
-   * frame of the end. As that strain is not the same after any rotation, the
-   * tangent is exact for an isotropic law and without spin only.
+   * Or it gets strain and rotation of Hughes and Winget (1980), as in Abaqus;
+   * the tangent is then exact for an isotropic law and without spin only.
    */
   class Umat : public Material
   {

@@ -24,52 +24,24 @@ namespace moraine
     unsigned int point = 0; ///< among those of Material::respond()
   };
 
-  /** The tensor with Abaqus' components 11, 22, 33, 12, 13, 23, of which those
-   * of shear are multiplied by @p shear. */
-  inline dealii::SymmetricTensor<2, 3>
-  tensor_of_umat(const double *values,
-                 const double  shear    = 1,
-                 const int     n_normal = 3,
-                 const int     n_shear  = 3)
-  {
-    dealii::SymmetricTensor<2, 3> result;
-    for (int i = 0; i < n_normal; ++i)
-      result.access_raw_entry(i) = values[i];
-    for (int i = 0; i < n_shear; ++i)
-      result.access_raw_entry(3 + i) = shear * values[n_normal + i];
-    return result;
-  }
-
-  /** The reverse. */
-  inline void
-  components_for_umat(const dealii::SymmetricTensor<2, 3> &tensor,
-                      double                              *values,
-                      const double                         shear    = 1,
-                      const int                            n_normal = 3,
-                      const int                            n_shear  = 3)
-  {
-    for (int i = 0; i < n_normal; ++i)
-      values[i] = tensor.access_raw_entry(i);
-    for (int i = 0; i < n_shear; ++i)
-      values[n_normal + i] = shear * tensor.access_raw_entry(3 + i);
-  }
-
-  /** What a UMAT gets and gives at one point; shear strains are angles,
-   * matrices are stored by columns. */
+  /** What a UMAT gets and gives at one point; shear components of strains are
+   * angles. */
   struct UmatCall
   {
     /** In: at @f$t_n@f$, out: at @f$t_{n+1}@f$. */
-    std::array<double, 6> stress{};
-    double               *state   = nullptr; ///< the same, `STATEV`
-    int                   n_state = 0;
+    dealii::SymmetricTensor<2, 3> stress;
+    double                       *state   = nullptr; ///< the same, `STATEV`
+    int                           n_state = 0;
 
-    std::array<double, 36> tangent{}; ///< out, `DDSDDE`
+    /** Out: the columns of `DDSDDE`, stresses by each component of strain. */
+    std::array<dealii::SymmetricTensor<2, 3>, 6> tangent;
 
-    std::array<double, 6> strain{};           ///< `STRAN`, at @f$t_n@f$
-    std::array<double, 6> strain_increment{}; ///< `DSTRAN`
-    std::array<double, 9> rotation{{1, 0, 0, 0, 1, 0, 0, 0, 1}}; ///< `DROT`
-    std::array<double, 9> F_n{{1, 0, 0, 0, 1, 0, 0, 0, 1}};      ///< `DFGRD0`
-    std::array<double, 9> F{{1, 0, 0, 0, 1, 0, 0, 0, 1}};        ///< `DFGRD1`
+    dealii::SymmetricTensor<2, 3> strain;           ///< `STRAN`, at @f$t_n@f$
+    dealii::SymmetricTensor<2, 3> strain_increment; ///< `DSTRAN`
+
+    /** Transposed `DROT`, `DFGRD0`, `DFGRD1`: Fortran goes by columns. */
+    dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>(),
+                         F_n = rotation, F = rotation;
 
     double time      = 0; ///< at @f$t_n@f$
     double step      = 1; ///< `DTIME`
