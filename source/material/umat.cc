@@ -36,47 +36,49 @@ namespace moraine
 
 
 
-    /** DDSDDE times a strain. */
-    Stress
-    stress_by(const std::array<Stress, 6> &D, const Stress &strain)
+    /** What turns e, with angles, to @f$Q\, e\, Q^T@f$. The transpose takes
+     * stresses back if Q is a rotation. */
+    Tensor<2, 6>
+    turning(const Matrix &Q)
     {
-      Stress result;
-      for (unsigned int J = 0; J < 6; ++J)
-        result += (J < 3 ? 1. : 2.) * strain.access_raw_entry(J) * D[J];
+      constexpr auto pairs = voigt_pairs<3>();
+      Tensor<2, 6>   result;
+      for (unsigned int I = 0; I < 6; ++I)
+        for (unsigned int J = 0; J < 6; ++J)
+          {
+            const auto [a, b] = pairs[I];
+            const auto [i, j] = pairs[J];
+            result[I][J] =
+              (I < 3 ? 0.5 : 1.) * (Q[a][i] * Q[b][j] + Q[a][j] * Q[b][i]);
+          }
       return result;
     }
 
 
 
-    /** The tangent whose product with d is @p give (d), linear in d. */
-    template <typename Give>
-    SymmetricTensor<4, 3>
-    tangent_by(const Give &give)
+    /** @p c times a strain without angles. */
+    Stress
+    product(const Tensor<2, 6> &c, const Stress &strain)
     {
-      constexpr auto        pairs = voigt_pairs<3>();
-      SymmetricTensor<4, 3> c;
-      for (unsigned int J = 0; J < 6; ++J)
-        {
-          Stress d;
-          d.access_raw_entry(J) = J < 3 ? 1 : 0.5;
-          const Stress rate     = give(d);
-          for (unsigned int I = 0; I < 6; ++I)
-            c[pairs[I][0]][pairs[I][1]][pairs[J][0]][pairs[J][1]] =
-              rate.access_raw_entry(I);
-        }
-      return c;
+      Stress result;
+      for (unsigned int I = 0; I < 6; ++I)
+        for (unsigned int J = 0; J < 6; ++J)
+          result.access_raw_entry(I) +=
+            c[I][J] * (J < 3 ? 1. : 2.) * strain.access_raw_entry(J);
+      return result;
     }
 
 
 
-    /** Leave of a tangent the part with @f$c_{ijkl} = c_{klij}@f$. */
-    void
-    symmetrise(SymmetricTensor<4, 3> &c)
+    SymmetricTensor<4, 3>
+    fourth_order(const Tensor<2, 6> &c)
     {
-      constexpr auto pairs = voigt_pairs<3>();
-      for (const auto &[i, j] : pairs)
-        for (const auto &[k, l] : pairs)
-          c[i][j][k][l] = c[k][l][i][j] = 0.5 * (c[i][j][k][l] + c[k][l][i][j]);
+      constexpr auto        pairs = voigt_pairs<3>();
+      SymmetricTensor<4, 3> result;
+      for (unsigned int I = 0; I < 6; ++I)
+        for (unsigned int J = 0; J < 6; ++J)
+          result[pairs[I][0]][pairs[I][1]][pairs[J][0]][pairs[J][1]] = c[I][J];
+      return result;
     }
 
 
@@ -99,106 +101,95 @@ namespace moraine
 
 
 
-    /** The second divided difference of ln. Where its three places are nearly
-     * equal, a quotient of differences would lose digits. */
-    double
-    second_log_difference(const double x, const double y, const double z)
-    {
-      const auto [low, high] = std::minmax({x, y, z});
-      if (high - low > 1e-3 * high)
-        {
-          const double middle = x + y + z - low - high;
-          return (log_difference(low, middle) - log_difference(middle, high)) /
-                 (low - high);
-        }
-      const double m = (x + y + z) / 3;
-      const double a = x / m - 1, b = y / m - 1, c = z / m - 1;
-      return (-0.5 - (a * a + b * b + c * c) / 8 + a * b * c / 5) / (m * m);
-    }
-
-
-
     /** The logarithmic strain of a step, and what it does to stresses. */
-    class LogarithmicStep
+    struct LogarithmicStep
     {
-    public:
       explicit LogarithmicStep(const Matrix &dF)
         : at(spectrum<3>(symmetrize(transpose(dF) * dF)))
       {
         Tensor<1, 3> logarithms;
+        Matrix       turned;
         for (unsigned int A = 0; A < 3; ++A)
           {
             logarithms[A] = 0.5 * std::log(at.values[A]);
-            root[A]       = std::sqrt(at.values[A]);
-            turned[A]     = dF * at.directions[A] / root[A];
+            stretch[A]    = std::sqrt(at.values[A]);
+            turned[A]     = dF * at.directions[A] / stretch[A];
           }
-        strain = at.tensor(logarithms);
-        for (unsigned int A = 0; A < 3; ++A)
-          for (unsigned int B = 0; B < 3; ++B)
-            theta[A][B] =
-              root[A] * root[B] * log_difference(at.values[A], at.values[B]);
-      }
-
-      /** @f$\Delta R@f$ */
-      Matrix
-      rotation() const
-      {
-        return transpose(turned) * at.directions;
+        strain    = at.tensor(logarithms);
+        rotation  = transpose(turned) * at.directions;
+        to_frame  = turning(turned);
+        to_strain = to_frame;
+        for (unsigned int I = 0; I < 6; ++I)
+          {
+            const auto [A, B] = voigt_pairs<3>()[I];
+            difference[A][B]  = difference[B][A] =
+              log_difference(at.values[A], at.values[B]);
+            to_strain[I] *= stretch[A] * stretch[B] * difference[A][B];
+          }
+        to_strain = turning(transpose(at.directions)) * to_strain;
       }
 
       /** @f$\sigma@f$ of T. */
       Stress
       stress(const Stress &T) const
       {
-        return transformed(transpose(turned),
-                           times_theta(transformed(at.directions, T)));
+        Stress result;
+        for (unsigned int I = 0; I < 6; ++I)
+          for (unsigned int J = 0; J < 6; ++J)
+            result.access_raw_entry(I) +=
+              to_strain[J][I] * T.access_raw_entry(J);
+        return result;
       }
 
-      /** The tangent of @f$\sigma@f$, @f$L_v\sigma = c : d@f$, with T and
-       * DDSDDE. */
-      SymmetricTensor<4, 3>
-      tangent(const Stress &T, const std::array<Stress, 6> &D) const
+      /** The tangent of @f$\sigma@f$, with T and DDSDDE. */
+      Tensor<2, 6>
+      tangent(const Stress &T, const Tensor<2, 6> &D) const
       {
-        const Stress T_frame = transformed(at.directions, T);
-        double       second[3][3][3];
-        for (unsigned int A = 0; A < 3; ++A)
-          for (unsigned int B = 0; B < 3; ++B)
-            for (unsigned int C = 0; C < 3; ++C)
-              second[A][B][C] =
-                2 * root[A] * root[B] * root[C] *
-                second_log_difference(at.values[A], at.values[B], at.values[C]);
-        return tangent_by([&](const Stress &d) {
-          const Stress in_frame = transformed(turned, d);
-          const Stress strain_rate =
-            transformed(transpose(at.directions), times_theta(in_frame));
-          Stress rate =
-            times_theta(transformed(at.directions, stress_by(D, strain_rate)));
-          for (unsigned int A = 0; A < 3; ++A)
-            for (unsigned int B = A; B < 3; ++B)
-              for (unsigned int C = 0; C < 3; ++C)
-                rate[A][B] +=
-                  second[A][B][C] * (root[B] * T_frame[A][C] * in_frame[C][B] +
-                                     root[A] * in_frame[A][C] * T_frame[C][B]);
-          return transformed(transpose(turned), rate);
-        });
+        constexpr unsigned int index[3][3]{{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+        const Stress           T_frame = transformed(at.directions, T);
+        Tensor<2, 6>           by_T;
+        for (unsigned int I = 0; I < 6; ++I)
+          for (unsigned int C = 0; C < 3; ++C)
+            {
+              const auto [A, B] = voigt_pairs<3>()[I];
+              const double part = stretch[A] * stretch[B] * stretch[C] *
+                                  second_difference(A, B, C);
+              by_T[I][index[C][B]] +=
+                (B == C ? 2 : 1) * part * stretch[B] * T_frame[A][C];
+              by_T[I][index[A][C]] +=
+                (A == C ? 2 : 1) * part * stretch[A] * T_frame[C][B];
+            }
+        return transpose(to_strain) * D * to_strain +
+               transpose(to_frame) * by_T * to_frame;
       }
 
-      Stress strain;
-
-    private:
-      Stress
-      times_theta(Stress s) const
+      /** The second divided difference of ln at three principal values,
+       * A <= B. Where they are nearly equal, a quotient would lose digits. */
+      double
+      second_difference(const unsigned int A,
+                        const unsigned int B,
+                        const unsigned int C) const
       {
-        for (unsigned int A = 0; A < 3; ++A)
-          for (unsigned int B = A; B < 3; ++B)
-            s[A][B] *= theta[A][B];
-        return s;
+        // They fall with their number.
+        const unsigned int first = std::min(A, C), last = std::max(B, C),
+                           middle = A + B + C - first - last;
+        const double x = at.values[first], y = at.values[middle],
+                     z = at.values[last];
+        if (x - z > 1e-3 * x)
+          return (difference[first][middle] - difference[middle][last]) /
+                 (x - z);
+        const double m = (x + y + z) / 3;
+        const double a = x / m - 1, b = y / m - 1, c = z / m - 1;
+        return (-0.5 - (a * a + b * b + c * c) / 8 + a * b * c / 5) / (m * m);
       }
 
       const Spectrum at;
-      Tensor<1, 3>   root;   ///< stretches
-      Matrix         turned; ///< rows: @f$\Delta F N_A / \lambda_A^{1/2}@f$
-      Matrix         theta;
+      Matrix         difference; ///< first ones of ln
+      Tensor<1, 3>   stretch;
+      Stress         strain;
+      Matrix         rotation;
+      Tensor<2, 6>   to_frame;  ///< d in the principal frame of the end
+      Tensor<2, 6>   to_strain; ///< rate of the strain by d
     };
   } // namespace
 
@@ -221,7 +212,7 @@ namespace moraine
     const auto stiffest = [&](const unsigned int first) {
       double largest = 0;
       for (unsigned int I = first; I < first + 3; ++I)
-        largest = std::max(largest, call.tangent[I].access_raw_entry(I));
+        largest = std::max(largest, call.tangent[I][I]);
       return largest;
     };
     const double normal = stiffest(0), shear = stiffest(3);
@@ -266,10 +257,9 @@ namespace moraine
   Umat::ask(UmatCall &call) const
   {
     library->call(call, parameters.constants, parameters.name);
-    double sum = call.stress.norm();
-    for (const Stress &column : call.tangent)
-      sum += column.norm();
-    return call.new_step >= 1 && std::isfinite(sum);
+    call.tangent = transpose(call.tangent);
+    return call.new_step >= 1 &&
+           std::isfinite(call.stress.norm() + call.tangent.norm());
   }
 
 
@@ -306,6 +296,9 @@ namespace moraine
           {
             if ((this->*answer)(call, point))
               {
+                if (parameters.symmetrises_tangent)
+                  call.tangent = 0.5 * (call.tangent + transpose(call.tangent));
+                point.tangent = fourth_order(call.tangent);
                 std::copy_n(&call.strain.access_raw_entry(0),
                             6,
                             point.internal + call.n_state);
@@ -323,9 +316,6 @@ namespace moraine
         failure->least_new_step =
           std::min(failure->least_new_step, call.new_step);
       }
-    if (parameters.symmetrises_tangent)
-      for (TensorState &point : points)
-        symmetrise(point.tangent);
   }
 
 
@@ -339,8 +329,6 @@ namespace moraine
       return false;
     call.strain  = strain;
     point.stress = call.stress;
-    point.tangent =
-      tangent_by([&](const Stress &d) { return stress_by(call.tangent, d); });
     return true;
   }
 
@@ -357,12 +345,13 @@ namespace moraine
     call.strain_increment        = with_shear(step.strain, 2);
     if (!ask(call))
       return false;
-    const double J     = determinant(point.F);
-    const Stress sigma = step.stress(call.stress);
-    call.strain        = with_shear(transformed(step.rotation(), strain), 2);
-    point.stress       = J * sigma;
-    point.tangent      = J * (step.tangent(call.stress, call.tangent) +
-                         outer_product(sigma, unit_symmetric_tensor<3>()));
+    const double J = determinant(point.F);
+    call.strain    = with_shear(transformed(step.rotation, strain), 2);
+    point.stress   = J * step.stress(call.stress);
+    call.tangent   = J * step.tangent(call.stress, call.tangent);
+    for (unsigned int I = 0; I < 6; ++I)
+      for (unsigned int d = 0; d < 3; ++d)
+        call.tangent[I][d] += point.stress.access_raw_entry(I);
     return true;
   }
 
@@ -388,22 +377,29 @@ namespace moraine
     const Stress strain   = call.strain + call.strain_increment;
     if (!ask(call))
       return false;
-    const double J     = determinant(point.F);
-    const Matrix sigma = call.stress;
+    const double       J     = determinant(point.F);
+    const Matrix       sigma = call.stress;
+    const Tensor<2, 6> D     = call.tangent;
     // A rotation W of stress and strain increment together turns the answer.
-    const auto turning = [](const Matrix &W, const Matrix &s) {
+    const auto spin = [](const Matrix &W, const Matrix &s) {
       return symmetrize(W * s - s * W);
     };
-    call.strain   = strain;
-    point.stress  = J * call.stress;
-    point.tangent = tangent_by([&](const Stress &d) {
-      const Matrix d_h = (2. * one - h) * static_cast<Matrix>(d) * dF * middle;
-      const Matrix d_W = 0.25 * (d_h - transpose(d_h));
-      const Matrix W   = before * d_W * (one + Q) * transpose(Q);
-      return J * (stress_by(call.tangent, symmetrize(d_h) - turning(W, e)) +
-                  turning(W, sigma) + trace(d) * call.stress -
-                  2. * symmetrize(static_cast<Matrix>(d) * sigma));
-    });
+    call.strain  = strain;
+    point.stress = J * call.stress;
+    for (unsigned int K = 0; K < 6; ++K)
+      {
+        Stress d;
+        d.access_raw_entry(K) = K < 3 ? 1 : 0.5;
+        const Matrix d_m      = d;
+        const Matrix d_h      = (2. * one - h) * d_m * dF * middle;
+        const Matrix d_W      = 0.25 * (d_h - transpose(d_h));
+        const Matrix W        = before * d_W * (one + Q) * transpose(Q);
+        const Stress rate     = product(D, symmetrize(d_h) - spin(W, e)) +
+                            spin(W, sigma) + trace(d) * call.stress -
+                            2. * symmetrize(d_m * sigma);
+        for (unsigned int I = 0; I < 6; ++I)
+          call.tangent[I][K] = J * rate.access_raw_entry(I);
+      }
     return true;
   }
 

@@ -172,7 +172,7 @@ namespace moraine
     call_fortran(umat,
                  first(point.stress),
                  point.n_state > 0 ? point.state : &no_state,
-                 first(point.tangent[0]),
+                 point.tangent.begin_raw(),
                  &energies[0],
                  &energies[1],
                  &energies[2],

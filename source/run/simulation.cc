@@ -503,23 +503,18 @@ namespace moraine
     Diagnostics<dim>   diagnostics(model.objects(scene));
     begin_first_step(scene, model, diagnostics);
     report.describe();
-    bool finds = !diagnostics.ledger.findings().empty();
     for (const Finding &finding : diagnostics.ledger.findings())
       report.print(finding);
-    std::set<std::string> tried;
+    std::set<std::string> faults; // each once, not for all bodies of a material
     for (unsigned int b = 0; b < model.materials.size(); ++b)
-      if (!model.materials[b]->is_isotropic() &&
-          tried.insert(scene.bodies[b].second.material).second)
+      if (!model.materials[b]->is_isotropic())
         for (const std::string &fault : faults_of(model.materials[b]))
-          {
-            console << "  warning     law of 'Materials/"
-                    << scene.bodies[b].second.material << "': " << fault
-                    << '\n';
-            finds = true;
-          }
+          if (faults.insert(fault).second)
+            console << "  law of body '" << model.body_names[b]
+                    << "': " << fault << '\n';
     if (scene.stages.size() > 1)
       console << "  later stages are checked as they begin\n";
-    return finds;
+    return !diagnostics.ledger.findings().empty() || !faults.empty();
   }
 
 

@@ -33,8 +33,7 @@ namespace moraine
     double                       *state   = nullptr; ///< the same, `STATEV`
     int                           n_state = 0;
 
-    /** Out: the columns of `DDSDDE`, stresses by each component of strain. */
-    std::array<dealii::SymmetricTensor<2, 3>, 6> tangent;
+    dealii::Tensor<2, 6> tangent; ///< out, transposed `DDSDDE`
 
     dealii::SymmetricTensor<2, 3> strain;           ///< `STRAN`, at @f$t_n@f$
     dealii::SymmetricTensor<2, 3> strain_increment; ///< `DSTRAN`
