@@ -61,9 +61,8 @@ namespace moraine
      */
     UmatLibrary(const std::string &file, const std::string &symbol);
 
-    /** @param constants `PROPS`
-     * @param name `CMNAME`, 80 characters
-     * @throws UmatExit if it calls XIT */
+    /** With `PROPS` and `CMNAME`, 80 characters. @throws UmatExit if it calls
+     * XIT. */
     void
     call(UmatCall                  &point,
          const std::vector<double> &constants,
