@@ -492,7 +492,15 @@ namespace moraine
         {
           return std::make_shared<Umat>(result);
         }
-      catch (const std::runtime_error &error) // also UmatExit
+      catch (const UmatExit &exit)
+        {
+          throw InputError("section '" + input.section + "': with " +
+                           std::to_string(result.constants.size()) +
+                           " constants and " +
+                           std::to_string(result.state.size()) +
+                           " state variables " + exit.what());
+        }
+      catch (const InputError &error)
         {
           throw InputError("section '" + input.section + "': " + error.what());
         }

@@ -665,7 +665,9 @@ namespace umat_test
     EXPECT_EQ(message({{"Constants", "2e4, 3*0.1, 2/3"}}), "");
     EXPECT_EQ(message({{"Library", ""}}),
               section + ", key 'Library': is not set, and has no default");
-    EXPECT_EQ(message({}), section + ": its UMAT ended the run (CALL XIT)");
+    EXPECT_EQ(message({}),
+              section + ": with 0 constants and 0 state variables its UMAT "
+                        "ended the run (CALL XIT)");
     EXPECT_EQ(message({{"Constants", "2e4; 0.3"}}),
               section + ", key 'Constants': found '2e4; 0.3', allowed: numbers "
                         "separated by commas; '3*0' is '0, 0, 0'");

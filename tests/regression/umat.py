@@ -91,6 +91,8 @@ text("steps that took all", smaller.summary["steps"])
 text("the same on two ranks", smaller.summary["steps"] == run(
     BLOCK, umat(REFUSES, "0.002, 1"), on_ranks=2).summary["steps"])
 refusals("the end", "1, 0.002", 1)
+text("the end on two ranks", "its UMAT ended the run (CALL XIT)" in run(
+    BLOCK, umat(REFUSES, "1, 0.002"), expect=1, on_ranks=2).output)
 for name, settings in (("drucker-prager.f", PLASTIC),
                        ("linear-elastic.f", ELASTIC),
                        ("refuses.for", umat(REFUSES, "0.002, 0.005"))):
