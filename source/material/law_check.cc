@@ -42,6 +42,20 @@ namespace moraine
           }
       return largest > 0 ? difference / largest : 0;
     }
+
+
+
+    MaterialTestLeg
+    leg_to(const double strain, const SixNumbers &direction)
+    {
+      MaterialTestLeg leg;
+      for (unsigned int I = 0; I < 6; ++I)
+        {
+          leg.sums[I].of_strain[I] = 1;
+          leg.values[I]            = strain * direction[I];
+        }
+      return leg;
+    }
   } // namespace
 
 
@@ -70,13 +84,8 @@ namespace moraine
                 if (size > std::max(of.size, allowed))
                   of = {size, name + (" to " + text_of(strain))};
               };
-              MaterialTestLeg leg;
-              for (unsigned int I = 0; I < 6; ++I)
-                {
-                  leg.sums[I].of_strain[I] = 1;
-                  leg.values[I]            = strain * direction[I];
-                }
-              MaterialTest again = test;
+              const MaterialTestLeg leg   = leg_to(strain, direction);
+              MaterialTest          again = test;
               test.lead(leg, [] {});
               again.lead(leg, [] {});
               const auto stress = test.stress();
