@@ -344,17 +344,18 @@ namespace moraine
   void
   ConsoleReport<dim>::describe_method()
   {
-    console << "  method      " << scene.method.method << ", Q"
-            << scene.method.degree << ", mesh "
-            << words_for(model.state->mesh_after_step())
-            << (scene.method.volumetric() == VolumetricStrain::cell_mean ?
-                  ", volumetric strain: cell means" :
-                  "")
-            << '\n'
-            << "  mesh        "
-            << model.mesh->triangulation().n_global_active_cells() << " cells, "
-            << model.space->n_active_cells() << " active, "
-            << model.space->n_dofs() << " unknowns\n";
+    console
+      << "  method      " << scene.method.method << ", Q" << scene.method.degree
+      << ", mesh " << words_for(model.state->mesh_after_step())
+      << (scene.method.averages_volume() ? ", volumetric strain: cell means" :
+                                           "")
+      << (scene.method.volumetric() == VolumetricStrain::cell_mean_with_shear ?
+            " with shear" :
+            "")
+      << '\n'
+      << "  mesh        " << model.mesh->triangulation().n_global_active_cells()
+      << " cells, " << model.space->n_active_cells() << " active, "
+      << model.space->n_dofs() << " unknowns\n";
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/aggregation.h>
+#include <moraine/assembly/hourglass_stiffness.h>
 #include <moraine/assembly/load_terms.h>
 #include <moraine/assembly/conflict_term.h>
 #include <moraine/core/archive.h>
@@ -318,6 +319,8 @@ namespace moraine
           is_carried_to_later_stage(load, stage, scene, *this))
         terms.push_back(
           std::make_unique<CarriedLoadTerm<dim>>(load, /* acts = */ false));
+    if (scene.method.integrates_too_little())
+      terms.push_back(std::make_unique<HourglassStiffness<dim>>());
     if (state->strict_aggregates())
       terms.push_back(std::make_unique<Aggregation<dim>>());
     else if (state->aggregates())

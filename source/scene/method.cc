@@ -27,7 +27,7 @@ namespace moraine
       // Gradients of Q2 ask for 2; 3 serves the stiffness better, but in 3D the
       // fit of 64 moments takes a tenth of a second for each cut cell.
       constexpr unsigned int fitted_degree = dim == 2 ? 3 : 2;
-      return CellSeeder<dim>(parameters.degree + 1,
+      return CellSeeder<dim>(parameters.gauss_points_per_direction(),
                              PointLayout::gauss,
                              parameters.degree == 2 ? fitted_degree : 0);
     }
@@ -194,7 +194,7 @@ namespace moraine
           material_points<dim>(of.parameters),
           of.bodies,
           of.parameters.splits_domains(),
-          of.parameters.volumetric() == VolumetricStrain::cell_mean,
+          of.parameters.averages_volume(),
           of.parameters.method);
       };
       return method;
@@ -221,7 +221,7 @@ namespace moraine
           material_points<dim>(of.parameters),
           of.bodies,
           of.parameters.splits_domains(),
-          of.parameters.volumetric() == VolumetricStrain::cell_mean,
+          of.parameters.averages_volume(),
           of.parameters.method);
       };
       return method;
@@ -355,7 +355,9 @@ namespace moraine
     prm.add_parameter("Points per direction",
                       points_per_direction,
                       "Points a full cell gets in each direction. Finite "
-                      "elements have degree + 1 Gauss points instead.",
+                      "elements of degree 1 have 2; of degree 2 they have 3, "
+                      "or 2 (reduced integration) if that is given or, without "
+                      "this key, if a material yields.",
                       patterns::integer_in_range(1, 1000));
     prm.add_parameter("Point layout",
                       point_layout,
@@ -392,11 +394,15 @@ namespace moraine
       "lock, far too stiff, where the material hardly changes its volume (a "
       "Poisson ratio near 0.5, plastic flow). cell mean: the mean over the "
       "cell, by volume (B-bar, with finite strain F-bar), of which a box has "
-      "its share in each cell. auto: cell mean if a material yields or has a "
+      "its share in each cell. cell mean with shear: four fifths of all other "
+      "strain, too, is the mean over the cell, so that soil flows which dilates "
+      "as it is sheared. auto: the last if a material has friction, else cell "
+      "mean if a material yields or has a "
       "Poisson ratio above 0.4, but not with 'Degree = 2', methods of double "
       "mapping, the integrator 'energy-momentum' and stiffness damping, which "
       "cannot have it; pointwise otherwise.",
-      patterns::selection({"auto", "pointwise", "cell mean"}));
+      patterns::selection(
+        {"auto", "pointwise", "cell mean", "cell mean with shear"}));
     prm.add_parameter(
       "Domain update",
       domain_update,
@@ -547,7 +553,7 @@ namespace moraine
              cut_cells,
              "aggregation with 'Aggregate below = 0', by which no node is "
              "held");
-    if (volumetric() == VolumetricStrain::cell_mean && !can_average_volume())
+    if (averages_volume() && !can_average_volume())
       reject("Method",
              "Volumetric strain",
              volumetric_strain,

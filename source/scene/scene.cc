@@ -200,6 +200,7 @@ namespace moraine
       choose_method();
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
+    choose_gauss_points(given, any_yields);
     check(input, given);
   }
 
@@ -347,19 +348,40 @@ namespace moraine
   Scene<dim>::choose_volumetric_strain(
     const std::vector<InputFile::Entry> &given)
   {
-    const bool may_lock  = any_of(materials, [](const auto &named) {
-      return make_material(named.second, "Materials/" + named.first)
-        ->may_lock();
-    });
+    bool may_lock = false, has_friction = false;
+    for (const auto &[name, parameters] : materials)
+      {
+        const auto material = make_material(parameters, "Materials/" + name);
+        may_lock            = may_lock || material->may_lock();
+        has_friction        = has_friction || material->has_friction();
+      }
     const bool is_damped = any_of(given, [](const auto &entry) {
       return contains({"Stiffness damping", "Damping ratio"}, entry.key);
     });
     prm.enter_subsection("Method");
     prm.set("Volumetric strain",
-            may_lock && method.can_average_volume() && !conserves_energy() &&
-                !is_damped ?
-              std::string("cell mean") :
-              std::string("pointwise"));
+            !may_lock || !method.can_average_volume() || conserves_energy() ||
+                is_damped ?
+              std::string("pointwise") :
+            has_friction ? std::string("cell mean with shear") :
+                           std::string("cell mean"));
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_gauss_points(const std::vector<InputFile::Entry> &given,
+                                  const bool any_yields)
+  {
+    const bool is_given = any_of(given, [](const auto &entry) {
+      return entry.section == "Method" && entry.key == "Points per direction";
+    });
+    if (is_given || method.method != "finite element" || method.degree == 1)
+      return;
+    prm.enter_subsection("Method");
+    prm.set("Points per direction", any_yields ? 2L : 3L);
     prm.leave_subsection();
   }
 

@@ -70,7 +70,7 @@ namespace moraine
                chosen.integrator,
                "another one with method '" + scene.method.method + "'");
       if (chosen.integrator == "energy-momentum" &&
-          scene.method.volumetric() == VolumetricStrain::cell_mean)
+          scene.method.averages_volume())
         reject(section,
                "Integrator",
                chosen.integrator,
@@ -128,7 +128,7 @@ namespace moraine
                          time_section(name),
                          stage.time.integrator,
                          given);
-      if (scene.method.volumetric() == VolumetricStrain::cell_mean)
+      if (scene.method.averages_volume())
         for (const auto &entry : given)
           if (contains({"Stiffness damping", "Damping ratio"}, entry.key))
             reject(entry, "nothing with 'Volumetric strain = cell mean'");

@@ -29,6 +29,12 @@ namespace moraine
                   ExcMessage("The points lack fields of the state."));
       return fields;
     }
+
+
+
+    /** What points keep of their own strain where cells have a mean of all of
+     * it: enough that the hourglass modes of cells are stiff. */
+    constexpr double own_share_of_strain = 0.2;
   } // namespace
 
 
@@ -56,9 +62,10 @@ namespace moraine
     , fitted_weights(weights == PointWeights::fitted_to_cells ?
                        std::make_optional<FittedWeights<dim>>(points) :
                        std::nullopt)
-    , cell_means(volumetric == VolumetricStrain::cell_mean ?
-                   std::make_optional<CellMeans<dim>>() :
-                   std::nullopt)
+    , cell_means(volumetric == VolumetricStrain::pointwise ?
+                   std::nullopt :
+                   std::make_optional<CellMeans<dim>>())
+    , averages_shear(volumetric == VolumetricStrain::cell_mean_with_shear)
     , state_fields(find_fields(points, measure, materials))
     , recovery_field(points.fields().find(FieldNames<dim>::stress_of_recovery))
   {
@@ -264,6 +271,8 @@ namespace moraine
     basis.evaluate(batch, block);
     if (cell_means)
       cell_means->attach(batch, block);
+    if (averages_shear)
+      block.average_gradients(own_share_of_strain);
   }
 
 

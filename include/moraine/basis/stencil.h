@@ -46,7 +46,8 @@ namespace moraine
   {
     unsigned int n_points = 0;
     unsigned int n_nodes  = 0;
-    /** Functions of the nodes behind them are zero at all points. */
+    /** Functions of the nodes behind them, with their gradients, are zero at
+     * all points. */
     unsigned int        n_own_nodes = 0;
     const unsigned int *points      = nullptr; ///< flat point numbers
     const unsigned int *nodes       = nullptr; ///< numbers of the GridSpace
@@ -98,6 +99,33 @@ namespace moraine
           values.resize(n_points * n_nodes);
           gradients.resize(n_points * n_nodes);
         }
+    }
+
+    /**
+     * Mix the gradients of points with the means of their cells,
+     * @f$\beta \nabla N_a(x_p) + (1-\beta) \sum_c s_{pc} b_{ca}@f$ with
+     * @f$\beta@f$ = @p own_share. Gradients of linear functions stay, and so do
+     * the forces of uniform stress.
+     */
+    void
+    average_gradients(const double own_share)
+    {
+      constexpr unsigned int n_corners = CellMeanBlock<dim>::n_corners;
+      for (unsigned int p = 0; p < n_points; ++p)
+        {
+          dealii::Tensor<1, dim> *g = &gradients[p * n_nodes];
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            g[a] *= own_share;
+          for (unsigned int c = 0; c < means.n_cells; ++c)
+            {
+              const double        part   = (1 - own_share) * means.share(p, c);
+              const unsigned int *places = &means.places[c * n_corners];
+              const dealii::Tensor<1, dim> *b = &means.gradients[c * n_corners];
+              for (unsigned int a = 0; a < n_corners; ++a)
+                g[places[a]] += part * b[a];
+            }
+        }
+      n_own_nodes = n_nodes;
     }
 
     /** Have the @p n_longer nodes of @p longer, which begins with the nodes of

@@ -218,6 +218,14 @@ namespace moraine
       return true;
     }
 
+    /** Whether shear strength grows with pressure, so that plastic flow ties
+     * the volume to the shear. */
+    virtual bool
+    has_friction() const
+    {
+      return false;
+    }
+
     /** The part of the elastic stiffness that Newton's matrix has in addition
      * to the tangent, which may vanish: at an apex, in tension. */
     virtual double

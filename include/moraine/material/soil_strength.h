@@ -319,6 +319,12 @@ namespace moraine
       return at_start.sin_psi == at_start.sin_phi;
     }
 
+    bool
+    has_friction() const override
+    {
+      return strengths.at(0, 0, nullptr).value.sin_phi > 0;
+    }
+
     double
     least_stiffness() const override
     {

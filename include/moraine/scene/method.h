@@ -14,6 +14,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -80,12 +81,37 @@ namespace moraine
       return chosen().can_average_volume && degree == 1;
     }
 
+    /** Gauss points of finite elements. */
+    unsigned int
+    gauss_points_per_direction() const
+    {
+      return degree == 1 ? 2 : std::clamp(points_per_direction, 2u, 3u);
+    }
+
+    /** Whether they are too few for the gradients of all functions of a cell.
+     */
+    bool
+    integrates_too_little() const
+    {
+      return degree == 2 && method == "finite element" &&
+             gauss_points_per_direction() == 2;
+    }
+
+    bool
+    averages_volume() const
+    {
+      return volumetric() != VolumetricStrain::pointwise;
+    }
+
     /** Once Scene has chosen what is meant by auto. */
     VolumetricStrain
     volumetric() const
     {
-      return volumetric_strain == "cell mean" ? VolumetricStrain::cell_mean :
-                                                VolumetricStrain::pointwise;
+      if (volumetric_strain == "cell mean")
+        return VolumetricStrain::cell_mean;
+      return volumetric_strain == "cell mean with shear" ?
+               VolumetricStrain::cell_mean_with_shear :
+               VolumetricStrain::pointwise;
     }
 
     /** Boxes keep their size at small strain. */

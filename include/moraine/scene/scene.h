@@ -230,10 +230,16 @@ namespace moraine
     void
     choose_method();
 
-    /** Cell means if nothing is said, volume hardly changes and nothing that
-     * is @p given excludes them. */
+    /** Cell means if nothing is said, cells may lock and nothing that is
+     * @p given excludes them. */
     void
     choose_volumetric_strain(const std::vector<InputFile::Entry> &given);
+
+    /** Reduced integration of degree 2 if a material yields and nothing is
+     * @p given. */
+    void
+    choose_gauss_points(const std::vector<InputFile::Entry> &given,
+                        const bool                           any_yields);
 
     unsigned int             dimension = dim;
     dealii::ParameterHandler prm;

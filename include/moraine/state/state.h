@@ -47,7 +47,9 @@ namespace moraine
     /** Each point's own. */
     pointwise,
     /** The mean over the cell, CellMeans: B-bar, at finite strain F-bar. */
-    cell_mean
+    cell_mean,
+    /** The same, and most of all other strain is the cell's mean too. */
+    cell_mean_with_shear
   };
 
   /**
@@ -413,6 +415,7 @@ namespace moraine
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
     std::optional<CellMeans<dim>>                      cell_means;
+    const bool                                         averages_shear;
     std::optional<Aggregates<dim>>                     cell_aggregates;
     const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
