@@ -96,7 +96,7 @@ namespace moraine
     /** Open @p library. If another material has it open, open a copy: they must
      * share no variables (COMMON, SAVE). */
     void *
-    open(const std::string &library)
+    open_library(const std::string &library)
     {
       static unsigned int n_copies = 0; // one name is one library
       void *const open = dlopen(library.c_str(), RTLD_LAZY | RTLD_NOLOAD);
@@ -142,8 +142,8 @@ namespace moraine
     const std::string extension = lower_case(fs::path(file).extension());
     const bool        is_source =
       extension == ".f" || extension == ".for" || extension == ".f90";
-    handle.reset(
-      open(is_source ? compile(file, command) : fs::canonical(file).string()));
+    handle.reset(open_library(is_source ? compile(file, command) :
+                                          fs::canonical(file).string()));
     if (handle == nullptr)
       throw InputError("'" + file + "' cannot be loaded: " + dlerror());
 

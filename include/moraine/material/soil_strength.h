@@ -80,6 +80,23 @@ namespace moraine
              });
     }
 
+    /** Whether there is a friction angle anywhere. */
+    bool
+    have_friction() const
+    {
+      return std::any_of(segments.begin(),
+                         segments.end(),
+                         [](const auto &segment) {
+                           return segment.value[1] > 0;
+                         });
+    }
+
+    unsigned int
+    n_segments() const
+    {
+      return segments.size();
+    }
+
     /** The segment that @p kappa >= 0 lies in; at a kink, the later one. */
     unsigned int
     segment_at(const double kappa) const;
@@ -313,6 +330,8 @@ namespace moraine
     bool
     has_symmetric_tangent() const override
     {
+      if (!strengths.have_friction())
+        return strengths.n_segments() == 1;
       if (!strengths.are_constant())
         return false;
       const SoilStrength at_start = strengths.at(0, 0, nullptr).value;
@@ -322,7 +341,7 @@ namespace moraine
     bool
     has_friction() const override
     {
-      return strengths.at(0, 0, nullptr).value.sin_phi > 0;
+      return strengths.have_friction();
     }
 
     double

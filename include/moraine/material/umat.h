@@ -93,6 +93,13 @@ namespace moraine
       return true;
     }
 
+    /** Most are soils. */
+    bool
+    has_friction() const override
+    {
+      return true;
+    }
+
     double
     least_stiffness() const override
     {

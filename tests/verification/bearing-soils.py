@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Strip footings on soil with and without weight beside exact limit loads, by GIMP
+and by finite elements of degree 2 with reduced integration, both with default keys.
+N_c and N_q: Prandtl (1921), Reissner (1924). N_gamma for phi = psi = 30 degrees: the
+slip-line field after Martin (2005). Cells: 2/15 and 1/4 of the half width."""
+
+from math import pi
+
+SAND, CLAY = "prm/geotechnics/footing-sand.prm", "prm/geotechnics/footing-clay.prm"
+DEGREE_2 = {"Method/Method": "finite element", "Method/Degree": 2,
+            "Mesh/Cell size": 0.25, "Mesh/Upper corner": "6, 0"}
+METHODS = {"GIMP": {}, "FE Q2": DEGREE_2}
+SMOOTH = {"Grid conditions/footing/Components": "y"}
+WEIGHTLESS = {"Loads/weight/Type": "body force", "Loads/weight/Value": "0; 0",
+              "Bodies/ground/K0": "", "Bodies/ground/Initial stress": ""}
+COHESIVE = {**WEIGHTLESS, "Materials/sand/Cohesion": 10,
+            "Materials/sand/Tensile strength": "none"}
+# A surcharge of 1 kPa, as the stress and on the surface, under the footing too.
+LOADED = {**WEIGHTLESS, "Bodies/ground/Initial stress": "-0.5; -1; -0.5; 0",
+          "Loads/weight/Type": "surface traction",
+          "Loads/weight/Points": "6 0; 0 0", "Loads/weight/Value": "0; -1",
+          "Materials/sand/Young modulus": 5000}
+TRESCA = {"Materials/clay/Young modulus": 5000,
+          "Materials/clay/Shear strength": 10}
+
+
+def largest(scene, method, *settings):
+    """The largest force of half the footing."""
+    asked = {key: value for group in settings for key, value in group.items()}
+    return max(-row["reaction_y of footing"] for row in run(
+        scene, {**METHODS[method], **asked, **QUIET}).history())
+
+
+def against(name, method, found, exact, allowed):
+    number(f"{name}, exact {exact:.3f}: {method}", found, 3)
+    bound(f"{name}: error of {method}", abs(found / exact - 1), allowed)
+
+
+for method in METHODS:
+    quadratic = method == "FE Q2"
+    against("N_c, Tresca, smooth", method, largest(CLAY, method, TRESCA) / 10,
+            2 + pi, 0.03)
+    against("N_c, phi = psi = 30, rough", method,
+            largest(SAND, method, COHESIVE) / 10, 30.140,
+            0.04 if quadratic else 0.06)
+    against("N_gamma, smooth", method, largest(SAND, method, SMOOTH) / 18, 7.653,
+            0.04 if quadratic else 0.1)
+
+method = "GIMP"
+rough = {"Grid conditions/footing/Components": "x, y"}
+against("N_c, Tresca, rough", method, largest(CLAY, method, TRESCA, rough) / 10,
+        2 + pi, 0.03)
+against("N_q, rough", method, 1 + largest(SAND, method, LOADED), 18.401, 0.06)
+against("N_gamma, rough", method, largest(SAND, method) / 18, 14.754, 0.1)
+# Davis and Booker (1973): F is 1 for uniform strength and grows with rho B / s_u.
+factor = largest(CLAY, method) / ((2 + pi) * 10 + 3 * 2 / 4)
+at_least("clay that is stronger below: F", factor, 1)
+bound("clay that is stronger below: F", factor, 1.25)
+# Less dilation: no more than the associated value and no less than Davis'.
+without_dilation = largest(SAND, method, COHESIVE, {
+    "Materials/sand/Dilation angle": 0, "Materials/sand/Tensile strength": 17}) / 10
+at_least("phi = 30, psi = 0: N_c", without_dilation, 20)
+bound("phi = 30, psi = 0: N_c", without_dilation, 30.14)
