@@ -15,7 +15,6 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -149,21 +148,15 @@ namespace moraine
      * than @p tolerance: material at the edge may reach over it. */
     template <int dim>
     typename GridSpace<dim>::CellIterator
-    cell_around(const GridSpace<dim>                        &space,
-                const Point<dim>                            &x,
-                const double                                 tolerance,
-                const typename GridSpace<dim>::CellIterator &hint)
+    cell_around(const GridSpace<dim> &space,
+                const Point<dim>     &x,
+                const double          tolerance)
     {
       const BackgroundMesh<dim> &mesh = space.mesh();
-      const auto                 found =
-        GridTools::find_active_cell_around_point(mesh.search_cache(), x, hint)
-          .first;
-      return found.state() == IteratorState::valid ?
-               found :
-               nearest_cell(mesh,
-                            x,
-                            std::max(tolerance,
-                                     1.001 * reach_of_mesh * mesh.cell_size()));
+      if (const auto found = mesh.cell_around(x))
+        return found->first;
+      return nearest_cell(
+        mesh, x, std::max(tolerance, 1.001 * reach_of_mesh * mesh.cell_size()));
     }
 
 
@@ -204,20 +197,17 @@ namespace moraine
   CarriedPlaces<dim>::find_cells(const GridSpace<dim> &space,
                                  const double          search_tolerance)
   {
-    std::vector<unsigned int>             without;
-    typename GridSpace<dim>::CellIterator hint;
+    std::vector<unsigned int> without;
     for (unsigned int k = 0; k < now.size(); ++k)
       {
         Place &place            = now[k];
         place.active_cell_index = GridSpace<dim>::no_cell;
-        const auto cell =
-          cell_around(space, place.in_mesh, search_tolerance, hint);
+        const auto cell = cell_around(space, place.in_mesh, search_tolerance);
         if (cell.state() != IteratorState::valid)
           {
             without.push_back(k);
             continue;
           }
-        hint = cell;
         const auto owner =
           nearest_active_cell(space, cell, place.in_mesh, search_tolerance);
         if (owner.state() != IteratorState::valid)

@@ -4,7 +4,9 @@
 """Shipped scenes that end with warnings, and these: all that take a few seconds."""
 
 # Longer ones, and studies.
-LONG = {"geotechnics/pile", "geotechnics/slope", "hard-cases/slope-fe",
+LONG = {"geotechnics/pile", "geotechnics/slope", "geotechnics/cavity-box",
+        "geotechnics/column-collapse", "geotechnics/retrogression",
+        "hard-cases/slope-fe",
         "hard-cases/punch", "wang-2018/twist-10-fine", "cortis-2017/block-study",
         "phuong-2023/footing-fixed-dmgc", "phuong-2023/footing-fixed-gimp",
         "phuong-2023/footing-viscoelastic-dmgc",
