@@ -201,6 +201,8 @@ namespace moraine
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     choose_gauss_points(given, any_yields);
+    if (newton.limit_points == "auto")
+      choose_limit_points();
     check(input, given);
   }
 
@@ -365,6 +367,29 @@ namespace moraine
               std::string("pointwise") :
             has_friction ? std::string("cell mean with shear") :
                            std::string("cell mean"));
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_limit_points()
+  {
+    const bool is_associated =
+      std::all_of(materials.begin(), materials.end(), [](const auto &named) {
+        return make_material(named.second, "Materials/" + named.first)
+          ->has_symmetric_tangent();
+      });
+    const bool follows_path = any_of(stages, [](const auto &named) {
+      return named.second.time.follows_path();
+    });
+    prm.enter_subsection("Solver");
+    prm.set("Limit points",
+            is_associated || follows_path || is_dynamic() ||
+                strength_reduction.factor > 1 ?
+              std::string("stop") :
+              std::string("pseudo-transient"));
     prm.leave_subsection();
   }
 

@@ -475,8 +475,10 @@ namespace moraine
                       "where even the smallest step finds no equilibrium "
                       "nearby: stop, or go on at the one at which the body "
                       "would come to rest in a viscous medium "
-                      "(pseudo-transient continuation)",
-                      Patterns::Selection("stop|pseudo-transient"));
+                      "(pseudo-transient continuation). auto: the latter at "
+                      "rest with a material whose flow is not associated, "
+                      "without 'Arc length' and strength reduction.",
+                      Patterns::Selection("auto|stop|pseudo-transient"));
     prm.add_parameter("Maximum augmentations",
                       maximum_augmentations,
                       "updates of the boundaries' reactions in one step",

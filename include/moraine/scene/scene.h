@@ -235,6 +235,10 @@ namespace moraine
     void
     choose_volumetric_strain(const std::vector<InputFile::Entry> &given);
 
+    /** Pseudo-transient continuation at rest where flow is not associated. */
+    void
+    choose_limit_points();
+
     /** Reduced integration of degree 2 if a material yields and nothing is
      * @p given. */
     void

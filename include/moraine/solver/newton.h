@@ -29,7 +29,7 @@ namespace moraine
     bool line_search = true;
 
     /** stop, or pseudo-transient: go on at another equilibrium. */
-    std::string limit_points = "stop";
+    std::string limit_points = "auto";
 
     /** Updates of carried multipliers in one step. */
     unsigned int maximum_augmentations = 50;
