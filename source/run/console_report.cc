@@ -344,18 +344,17 @@ namespace moraine
   void
   ConsoleReport<dim>::describe_method()
   {
-    console
-      << "  method      " << scene.method.method << ", Q" << scene.method.degree
-      << ", mesh " << words_for(model.state->mesh_after_step())
-      << (scene.method.averages_volume() ? ", volumetric strain: cell means" :
-                                           "")
-      << (scene.method.volumetric() == VolumetricStrain::cell_mean_with_shear ?
-            " with shear" :
-            "")
-      << '\n'
-      << "  mesh        " << model.mesh->triangulation().n_global_active_cells()
-      << " cells, " << model.space->n_active_cells() << " active, "
-      << model.space->n_dofs() << " unknowns\n";
+    console << "  method      " << scene.method.method << ", Q"
+            << scene.method.degree << ", mesh "
+            << words_for(model.state->mesh_after_step())
+            << (scene.method.averages_volume() ?
+                  ", volumetric strain: cell means" :
+                  "")
+            << (model.state->averages_all_strain() ? " with shear" : "") << '\n'
+            << "  mesh        "
+            << model.mesh->triangulation().n_global_active_cells() << " cells, "
+            << model.space->n_active_cells() << " active, "
+            << model.space->n_dofs() << " unknowns\n";
   }
 
 

@@ -396,8 +396,8 @@ namespace moraine
       "cell, by volume (B-bar, with finite strain F-bar), of which a box has "
       "its share in each cell. cell mean with shear: four fifths of all other "
       "strain, too, is the mean over the cell, so that soil flows which dilates "
-      "as it is sheared. auto: the last if a material has friction, else cell "
-      "mean if a material yields or has a "
+      "as it is sheared; not where nodes of cut cells are tied. auto: the last if a material has friction, unless points "
+      "move through the mesh at finite strain; else cell mean if a material yields or has a "
       "Poisson ratio above 0.4, but not with 'Degree = 2', methods of double "
       "mapping, the integrator 'energy-momentum' and stiffness damping, which "
       "cannot have it; pointwise otherwise.",

@@ -360,13 +360,17 @@ namespace moraine
     const bool is_damped = any_of(given, [](const auto &entry) {
       return contains({"Stiffness damping", "Damping ratio"}, entry.key);
     });
+    // A mesh that forgets how it moved lets hourglass modes of the points grow
+    // from step to step.
+    const bool forgets = method.strain_measure() == StrainMeasure::finite &&
+                         method.after_step() == MeshAfterStep::reset;
     prm.enter_subsection("Method");
     prm.set("Volumetric strain",
             !may_lock || !method.can_average_volume() || conserves_energy() ||
                 is_damped ?
               std::string("pointwise") :
-            has_friction ? std::string("cell mean with shear") :
-                           std::string("cell mean"));
+            has_friction && !forgets ? std::string("cell mean with shear") :
+                                       std::string("cell mean"));
     prm.leave_subsection();
   }
 

@@ -222,6 +222,10 @@ namespace moraine
           return volume_in_cell(block, i);
         },
         cell_aggregates ? cell_aggregates->roots_of_cells() : RootsOfCells());
+    // The mean of a group is too coarse for all strain.
+    averages_shear_now =
+      averages_shear && !Utilities::MPI::logical_or(cell_means->has_groups(),
+                                                    space.communicator());
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
   }
@@ -271,7 +275,7 @@ namespace moraine
     basis.evaluate(batch, block);
     if (cell_means)
       cell_means->attach(batch, block);
-    if (averages_shear)
+    if (averages_shear_now)
       block.average_gradients(own_share_of_strain);
   }
 

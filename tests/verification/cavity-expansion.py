@@ -78,7 +78,7 @@ for psi, published in PUBLISHED.items():
         for wide, value in published.items():
             p = at(rows, wide)
             bound(f"psi = {psi}, {method}, {wide}: over published - 1",
-                  p / value - 1, 5e-3)
+                  p / value - 1, 1e-2)
             bound(f"psi = {psi}, {method}, {wide}: over differential equation - 1",
                   p / law[wide] - 1, 1e-2)
 

@@ -71,6 +71,13 @@ namespace moraine
     nodes_of_batch(const unsigned int                          batch,
                    const dealii::ArrayView<const unsigned int> own) const;
 
+    /** Whether cells of this rank share a mean. */
+    bool
+    has_groups() const
+    {
+      return !groups.empty();
+    }
+
     /** What the mean of a cell that this rank owns or touches consists of: all
      * cells of its groups, with or without points; no parts if no part of a
      * point lies there. */

@@ -82,6 +82,14 @@ namespace moraine
       return cell_means.has_value();
     }
 
+    /** Whether they have most of all other strain of their cells, too: not
+     * where cells share a mean. */
+    bool
+    averages_all_strain() const
+    {
+      return averages_shear_now;
+    }
+
     /** Before the first step: tie nodes without a cell of which points fill
      * enough, @p fill_of_bodies as Aggregates says, to the nearest one. Ties
      * that @p give_way are those of a GhostTerm, others lines of constraints.
@@ -422,6 +430,7 @@ namespace moraine
     StepTime                                             times;
     bool                                                 first_step    = true;
     bool                                                 ties_give_way = false;
+    bool averages_shear_now                                            = false;
     /** Of fitted_weights; empty without them. */
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;
