@@ -12,6 +12,15 @@ namespace moraine
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** What points keep of their own strain where cells have a mean of all of
+     * it: enough that the hourglass modes of cells are stiff. */
+    constexpr double own_share_of_strain = 0.2;
+  } // namespace
+
+
+
   template <int dim>
   unsigned int
   CellMeans<dim>::number_of(const unsigned int cell)
@@ -63,6 +72,9 @@ namespace moraine
           }
       }
     find_groups(space, roots);
+    averages_gradients =
+      for_shear &&
+      !Utilities::MPI::logical_or(!groups.empty(), space.communicator());
     sum_over_ranks(space);
     for (unsigned int k = 0; k < cells.size(); ++k)
       for (unsigned int a = 0; a < n_corners; ++a)
@@ -329,6 +341,8 @@ namespace moraine
         &gradients[numbers_of[batches.cells[g.first_cell + c]] * n_corners],
         n_corners,
         &means.gradients[c * n_corners]);
+    if (averages_gradients)
+      block.average_gradients(own_share_of_strain);
   }
 
 

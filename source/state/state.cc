@@ -29,12 +29,6 @@ namespace moraine
                   ExcMessage("The points lack fields of the state."));
       return fields;
     }
-
-
-
-    /** What points keep of their own strain where cells have a mean of all of
-     * it: enough that the hourglass modes of cells are stiff. */
-    constexpr double own_share_of_strain = 0.2;
   } // namespace
 
 
@@ -64,8 +58,8 @@ namespace moraine
                        std::nullopt)
     , cell_means(volumetric == VolumetricStrain::pointwise ?
                    std::nullopt :
-                   std::make_optional<CellMeans<dim>>())
-    , averages_shear(volumetric == VolumetricStrain::cell_mean_with_shear)
+                   std::make_optional<CellMeans<dim>>(
+                     volumetric == VolumetricStrain::cell_mean_with_shear))
     , state_fields(find_fields(points, measure, materials))
     , recovery_field(points.fields().find(FieldNames<dim>::stress_of_recovery))
   {
@@ -222,10 +216,6 @@ namespace moraine
           return volume_in_cell(block, i);
         },
         cell_aggregates ? cell_aggregates->roots_of_cells() : RootsOfCells());
-    // The mean of a group is too coarse for all strain.
-    averages_shear_now =
-      averages_shear && !Utilities::MPI::logical_or(cell_means->has_groups(),
-                                                    space.communicator());
     reject();
     return Utilities::MPI::logical_or(changed, space.communicator());
   }
@@ -275,8 +265,6 @@ namespace moraine
     basis.evaluate(batch, block);
     if (cell_means)
       cell_means->attach(batch, block);
-    if (averages_shear_now)
-      block.average_gradients(own_share_of_strain);
   }
 
 

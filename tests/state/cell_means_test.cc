@@ -56,7 +56,7 @@ namespace
     std::vector<typename CellMeans<2>::Part> parts;
     for (const double filled : {1., 0.})
       {
-        CellMeans<2> means;
+        CellMeans<2> means(false);
         means.update(
           scene.space,
           *scene.basis,

@@ -62,3 +62,9 @@ without_dilation = largest(SAND, method, COHESIVE, {
     "Materials/sand/Dilation angle": 0, "Materials/sand/Tensile strength": 17}) / 10
 at_least("phi = 30, psi = 0: N_c", without_dilation, 20)
 bound("phi = 30, psi = 0: N_c", without_dilation, 30.14)
+
+# The study that compares cures, cut short.
+rows = run("prm/studies/footing-sand.prm", {"Time/Steps": 1, "Time/End time": 0.01},
+           command="study").study_rows()
+text("cases of the study", f"{len(rows)} " +
+     " ".join(sorted({row["status"] for row in rows})))

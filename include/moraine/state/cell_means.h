@@ -52,6 +52,12 @@ namespace moraine
       const dealii::Tensor<1, dim> *gradients; ///< @f$b_{ca}@f$ [1/length]
     };
 
+    /** With @p for_shear blocks get mean gradients, too, unless cells form
+     * groups, whose means are too coarse for that. */
+    explicit CellMeans(const bool for_shear)
+      : for_shear(for_shear)
+    {}
+
     /** Of the points as @p basis has batched them; @p roots are those of cells
      * that have some. This rank knows the cells of groups of which it owns or
      * touches one. Collective. */
@@ -71,11 +77,11 @@ namespace moraine
     nodes_of_batch(const unsigned int                          batch,
                    const dealii::ArrayView<const unsigned int> own) const;
 
-    /** Whether cells of this rank share a mean. */
+    /** Whether blocks get mean gradients, too. */
     bool
-    has_groups() const
+    averages_shear() const
     {
-      return !groups.empty();
+      return averages_gradients;
     }
 
     /** What the mean of a cell that this rank owns or touches consists of: all
@@ -157,6 +163,8 @@ namespace moraine
                 std::vector<unsigned int> &nodes,
                 CellParts<dim>            &parts) const;
 
+    const bool          for_shear;
+    bool                averages_gradients = false;
     Batches             batches;
     std::vector<Group>  groups;
     std::vector<Member> members; ///< of groups

@@ -87,7 +87,7 @@ namespace moraine
     bool
     averages_all_strain() const
     {
-      return averages_shear_now;
+      return cell_means && cell_means->averages_shear();
     }
 
     /** Before the first step: tie nodes without a cell of which points fill
@@ -423,14 +423,12 @@ namespace moraine
     std::vector<double>                                densities; ///< of bodies
     const std::optional<FittedWeights<dim>>            fitted_weights;
     std::optional<CellMeans<dim>>                      cell_means;
-    const bool                                         averages_shear;
     std::optional<Aggregates<dim>>                     cell_aggregates;
     const StateFields<dim>                             state_fields;
     const PointField<dim, dealii::SymmetricTensor<2, 3>> recovery_field;
     StepTime                                             times;
     bool                                                 first_step    = true;
     bool                                                 ties_give_way = false;
-    bool averages_shear_now                                            = false;
     /** Of fitted_weights; empty without them. */
     std::vector<double>                 factors;
     std::vector<dealii::Tensor<1, dim>> trial;
