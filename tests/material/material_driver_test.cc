@@ -328,10 +328,11 @@ TEST(Materials, AllModelsAreDriven)
   declared.add_parameters(prm);
   std::ostringstream described;
   prm.print_parameters(described, ParameterHandler::JSON);
-  EXPECT_NE(described.str().find("[Selection linear elastic|neo-Hookean|von "
-                                 "Mises|Mohr-Coulomb|Tresca|Drucker-Prager ]"),
+  EXPECT_NE(described.str().find(
+              "[Selection linear elastic|neo-Hookean|von "
+              "Mises|Mohr-Coulomb|Tresca|Drucker-Prager|UMAT ]"),
             std::string::npos)
-    << "another model: drive it too. " << described.str();
+    << "another model: drive it too (UMAT: umat_test.cc). " << described.str();
   for (const auto &[name, material] : all_materials())
     {
       EXPECT_DOUBLE_EQ(material->elastic_stiffness().mu, G) << name;

@@ -31,7 +31,7 @@ run slope-cell geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = c
 run slope-fe geotechnics/slope "${undrained[@]}" "Method/Volumetric strain = cell mean" \
   "Method/Method = finite element"
 run slope-q2 geotechnics/slope "${undrained[@]}" "Method/Method = finite element" \
-  "Method/Degree = 2"
+  "Method/Degree = 2" "Method/Points per direction = 3"
 
 render undrained-stress "$(last slope-pointwise/points)" "$(last slope-cell/points)" "$(last slope-q2/points)" \
   --columns 1 --label "GIMP, pointwise" "GIMP, cell mean" "FE Q2" --field mean_stress \
