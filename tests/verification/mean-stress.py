@@ -11,7 +11,7 @@ LARGE = "prm/geotechnics/slope.prm"
 POINT = {"Method/Volumetric strain": "pointwise"}
 MEAN = {"Method/Volumetric strain": "cell mean"}
 FE = {"Method/Method": "finite element"}
-Q2 = {**FE, **POINT, "Method/Degree": 2}
+Q2 = {**FE, **POINT, "Method/Degree": 2, "Method/Points per direction": 3}
 
 
 def settlement(result):
