@@ -388,10 +388,14 @@ namespace moraine
     const bool follows_path = any_of(stages, [](const auto &named) {
       return named.second.time.follows_path();
     });
+    // Soil that fails where it is does not come to rest.
+    const bool may_slide_to_rest =
+      strength_reduction.factor > 1 &&
+      (method.after_step() != MeshAfterStep::keep ||
+       method.strain_measure() != StrainMeasure::small);
     prm.enter_subsection("Solver");
     prm.set("Limit points",
-            is_associated || follows_path || is_dynamic() ||
-                strength_reduction.factor > 1 ?
+            is_associated || follows_path || is_dynamic() || may_slide_to_rest ?
               std::string("stop") :
               std::string("pseudo-transient"));
     prm.leave_subsection();

@@ -477,7 +477,8 @@ namespace moraine
                       "would come to rest in a viscous medium "
                       "(pseudo-transient continuation). auto: the latter at "
                       "rest with a material whose flow is not associated, "
-                      "without 'Arc length' and strength reduction.",
+                      "without 'Arc length', and without strength reduction of "
+                      "points that move.",
                       Patterns::Selection("auto|stop|pseudo-transient"));
     prm.add_parameter("Maximum augmentations",
                       maximum_augmentations,
