@@ -1,0 +1,78 @@
+# ranks: 1  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Factors of safety of slopes 10 m high by strength reduction, by GIMP and by finite
+elements of degree 2 with reduced integration, within 3 % of the worst slip circle or
+log-spiral (upper bounds), or between published factors. A search begins at both ends
+of what is allowed: a factor that is too low or too high ends the test."""
+
+import json
+
+SOIL, CLAY = "prm/geotechnics/slopes.prm", "prm/geotechnics/slopes-clay.prm"
+METHODS = {"GIMP": {}, "FE Q2": {"Method/Method": "finite element",
+                                 "Method/Degree": 2}}
+
+
+def ground(crest, run, foot, depth, **others):
+    """Level ground above, the slope, level ground below, and what is below it."""
+    values = {"crest": crest, "run": run, "foot": foot, "depth": depth, **others}
+    return {f"Constants/{name}": value for name, value in values.items()}
+
+
+def against(name, scene, settings, allowed, meshes, tolerance=0.02):
+    """allowed: the lowest and the highest factor, or one that is allowed 3 %.
+    meshes: of each method the cell size, or numbers of cells."""
+    lower, upper = allowed if isinstance(allowed, tuple) else (
+        0.97 * allowed, 1.03 * allowed)
+    expected = (f"{lower:.2f} to {upper:.2f}" if isinstance(allowed, tuple) else
+                f"{allowed:.4f}")
+    for method, cells in meshes.items():
+        mesh = ({"Mesh/Cells": cells, "Mesh/Cell size": 0}
+                if isinstance(cells, str) else {"Mesh/Cell size": cells})
+        result = run(scene, {**settings, **METHODS[method], **mesh,
+                             "Strength reduction/Lower factor": lower,
+                             "Strength reduction/Upper factor": upper,
+                             "Strength reduction/Tolerance": tolerance},
+                     command="study")
+        case, = json.loads((result.folder / "summary.json").read_text())["cases"]
+        if tolerance < upper - lower:
+            number(f"F, {name}, {expected}: {method}", case["factor_of_safety"], 4)
+        else:
+            text(f"{name}: {method}", f"stood at {case['stood_at']:.2f}, failed at "
+                 f"{case['failed_at']:.2f}")
+
+
+# Griffiths and Lane (1999), examples 1 and 2, without dilation: Newton's method alone
+# stalls in FE Q2 at the lower factor of the second (Limit points = stop). Dawson, Roth
+# and Drescher (1999) with psi = phi.
+against("2:1 on firm ground, phi = 20", SOIL, {}, (1.33, 1.42),
+        {"GIMP": 1, "FE Q2": 2})
+against("2:1 on H/2 of soil, phi = 20", SOIL, ground(12, 20, 8, 5), 1.3682,
+        {"GIMP": 1, "FE Q2": 2.5})
+against("45 degrees, phi = psi = 20", SOIL,
+        {**ground(12, 10, 8, 4), "Materials/soil/Cohesion": 12.38,
+         "Materials/soil/Dilation angle": 20}, 1.0002, {"GIMP": 1, "FE Q2": 2})
+
+# Taylor (1937): c_u / (N gamma H) with 50 kPa. The last is example 4 of Griffiths and
+# Lane, too.
+against("clay, D = 1", CLAY, ground(16, 20, 4, 0, weak=1), 0.25 / 0.123592,
+        {"FE Q2": 1})
+against("clay, D = 1.5", CLAY, ground(16, 20, 14, 5, weak=1), 0.25 / 0.159407,
+        {"GIMP": 1, "FE Q2": 2.5})
+against("clay, D = 2", CLAY, ground(20, 20, 20, 10, weak=1), 0.25 / 0.169868,
+        {"GIMP": 2, "FE Q2": 2})
+
+# A strength of 5 kPa/m from the crest: F gamma / rho. Cells of degree 1 have that of
+# one cell below the surface there, as one cell of clay without strength would fail.
+for slope, width, exact in ("2:1", 20, 5.8980), ("45 degrees", 10, 4.1064):
+    for method, size, strength in (("GIMP", 1, "5*max(10 - y, 1)"),
+                                   ("FE Q2", 2, "5*(10 - y)")):
+        against(f"s_u = rho z, {slope}", CLAY,
+                {**ground(16, width, 8, 4), "Materials/clay/Shear strength": strength},
+                exact * 5 / 20, {method: size})
+
+# Griffiths and Lane, example 3. A band that rules asks for cells half as high as it is
+# thick.
+against("weak band, c_u2/c_u1 = 0.6", CLAY, {}, 1.40, {"FE Q2": 1})
+against("weak band, c_u2/c_u1 = 0.2", CLAY, {"Constants/weak": 0.2}, (0.45, 0.60),
+        {"FE Q2": "60, 40"}, tolerance=0.15)
