@@ -36,7 +36,7 @@ def against(name, scene, settings, allowed, meshes, tolerance=0.02):
                              "Strength reduction/Tolerance": tolerance},
                      command="study")
         case, = json.loads((result.folder / "summary.json").read_text())["cases"]
-        if tolerance < upper - lower:
+        if upper - lower > tolerance:
             number(f"F, {name}, {expected}: {method}", case["factor_of_safety"], 4)
         else:
             text(f"{name}: {method}", f"stood at {case['stood_at']:.2f}, failed at "
@@ -70,7 +70,11 @@ for slope, width, exact in ("2:1", 20, 5.8980), ("45 degrees", 10, 4.1064):
                                    ("FE Q2", 2, "5*(10 - y)")):
         against(f"s_u = rho z, {slope}", CLAY,
                 {**ground(16, width, 8, 4), "Materials/clay/Shear strength": strength},
-                exact * 5 / 20, {method: size})
+                exact * 5 / 20, {method: size})# That cell fails by itself at any size, 21 % too early: a defect of cell means.
+against("s_u = 0 at the surface", CLAY,
+        {**ground(16, 20, 8, 4), "Materials/clay/Shear strength": "5*(10 - y)"},
+        (1.1, 1.2), {"GIMP": 2}, tolerance=0.1 + 1e-9)
+
 
 def surface(x):
     return complex(x, max(0, min(10, (40 - x) / 2)))
