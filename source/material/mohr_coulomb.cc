@@ -305,26 +305,13 @@ namespace moraine
   MaterialModel
   tresca_model()
   {
-    std::vector<MaterialKey> keys = elastic_keys();
-    keys.push_back({"Shear strength",
-                    "The undrained shear strength s_u > 0 (stress): a number "
-                    "or an expression in x, y, z, as '5 + 1.5*(10 - y)'. "
-                    "Required."});
     return {"Tresca",
             "linear elastic up to the largest shear stress s_u, then plastic "
             "at constant volume: Mohr-Coulomb without friction and without a "
             "limit of tension, for undrained clay",
-            keys,
+            undrained_keys(),
             [](MaterialInput &input) {
-              SoilParameters parameters;
-              parameters.elasticity = read_elasticity(input);
-              parameters.cohesion   = {{0., 1.}};
-              parameters.scales[0] =
-                input.parameter("Shear strength", {0.}, "stress");
-              parameters.elasticity.fields = input.fields();
-              parameters.tensile_strength  = {
-                 {0., std::numeric_limits<double>::infinity()}};
-              return std::make_shared<MohrCoulomb>(parameters);
+              return std::make_shared<MohrCoulomb>(read_undrained(input));
             }};
   }
 } // namespace moraine

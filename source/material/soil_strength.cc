@@ -281,19 +281,39 @@ namespace moraine
         return;
       const double apex =
         parameters.cohesion[0].second / std::tan(phi * per_degree);
-      if (parameters.tensile_strength[0].second > apex)
+      // As rounded in the message.
+      if (parameters.tensile_strength[0].second > apex * (1 + 1e-3))
         input.refuse(key, "up to c cot(phi) = " + text_of(apex, 4));
     }
   } // namespace
 
 
 
-  std::vector<MaterialKey>
-  soil_keys()
+  namespace
   {
     const std::string forms =
       ": a number, an expression in x, y, z, or a table 'kappa: value, kappa: "
       "value, ...' over the accumulated plastic strain.";
+  }
+
+
+
+  std::vector<MaterialKey>
+  undrained_keys()
+  {
+    std::vector<MaterialKey> keys = elastic_keys();
+    keys.push_back(
+      {"Shear strength",
+       "The undrained shear strength s_u > 0 (stress)" + forms + " Required."});
+    keys.push_back(softening_key());
+    return keys;
+  }
+
+
+
+  std::vector<MaterialKey>
+  soil_keys()
+  {
     std::vector<MaterialKey> keys = elastic_keys();
     keys.push_back({"Cohesion",
                     "Cohesion c (stress)" + forms +
@@ -339,6 +359,25 @@ namespace moraine
     input.check_softening_length();
     result.elasticity.fields = input.fields();
     check_dilation(input, result);
+    return result;
+  }
+
+
+
+  SoilParameters
+  read_undrained(MaterialInput &input)
+  {
+    SoilParameters result;
+    result.elasticity = read_elasticity(input);
+    read_strength(input,
+                  "Shear strength",
+                  {0.},
+                  "stress",
+                  result.cohesion,
+                  result.scales[0]);
+    result.tensile_strength = {{0., std::numeric_limits<double>::infinity()}};
+    input.check_softening_length();
+    result.elasticity.fields = input.fields();
     return result;
   }
 } // namespace moraine

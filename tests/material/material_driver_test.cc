@@ -18,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <random>
 #include <sstream>
 
 #include "../core/message.h"
@@ -434,16 +435,24 @@ TEST(VonMises, HardeningOverKinks)
         }
 }
 
+namespace
+{
+  std::vector<std::pair<double, double>>
+  yield_rows(const std::string &name)
+  {
+    return name == "hardening" ? hardening_rows :
+           name == "softening" ? softening_rows :
+                                 decltype(hardening_rows){{0, sigma_y}};
+  }
+} // namespace
+
 TEST(VonMises, StaysOnItsSurfaceAndRests)
 {
   for (const std::string name : {"perfect", "hardening", "softening"})
     {
       const Material &material = *all_materials().at(name);
-      const auto     &rows =
-        name == "hardening" ? hardening_rows :
-            name == "softening" ? softening_rows :
-                                  decltype(hardening_rows){{0, sigma_y}};
-      const Answer loaded = drive(material, general(0.4), 6);
+      const auto      rows     = yield_rows(name);
+      const Answer    loaded   = drive(material, general(0.4), 6);
       EXPECT_GT(loaded.committed.kappa, 0.1);
       EXPECT_NEAR(deviator(loaded.tau).norm(),
                   std::sqrt(2. / 3.) * value_of(rows, loaded.committed.kappa),
@@ -470,6 +479,43 @@ TEST(VonMises, StaysOnItsSurfaceAndRests)
       EXPECT_EQ(respond(material, 0.9 * strain, kappa).plastic_strain, kappa);
     }
 }
+
+/** Stress and tangent are numbers, and stress is on or within the surface. */
+TEST(Materials, RandomPaths)
+{
+  std::mt19937               generator(1);
+  std::normal_distribution<> normal;
+  for (const auto &[name, material] : all_materials())
+    for (unsigned int path = 0; path < 100000; ++path)
+      {
+        Stress elastic;
+        double kappa = 0;
+        for (unsigned int i = 0; i < 5; ++i)
+          {
+            Stress trial = elastic;
+            for (unsigned int I = 0; I < 6; ++I)
+              trial.access_raw_entry(I) +=
+                0.02 * std::pow(0.1, i % 3) * normal(generator);
+            const auto     spectrum = moraine::spectrum<3>(trial);
+            const Response at = respond(*material, spectrum.values, kappa);
+            ASSERT_TRUE(std::isfinite(at.stress.norm()) &&
+                        std::isfinite(at.tangent.norm()))
+              << name;
+            if (is_plastic(*material))
+              {
+                ASSERT_GE(at.plastic_strain, kappa) << name;
+                kappa          = at.plastic_strain;
+                const Stress s = deviator(spectrum.tensor(at.stress));
+                ASSERT_LE(std::sqrt(1.5) * s.norm(),
+                          value_of(yield_rows(name), kappa) + 1e-9)
+                  << name;
+              }
+            elastic = spectrum.tensor(at.strain);
+          }
+      }
+}
+
+
 
 TEST(VonMises, NoDeviator)
 {

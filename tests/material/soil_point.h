@@ -241,18 +241,18 @@ namespace soil_point
     return error;
   }
 
-  /** Random paths of tensors: stress is a number, admissible and at rest, and
+  /** Random paths of 5 tensors: stress is a number, admissible and at rest, and
    * plastic strain grows. */
   template <typename Soil>
   void
-  walk(const Soil &material, const unsigned int n_steps, const double size)
+  walk(const Soil &material, const unsigned int n_paths, const double size)
   {
     Random random;
-    for (unsigned int path = 0; path < n_steps / 50; ++path)
+    for (unsigned int path = 0; path < n_paths; ++path)
       {
         SymmetricTensor<2, 3> elastic;
         std::array<double, 2> variables{{0, 0}};
-        for (unsigned int i = 0; i < 50; ++i)
+        for (unsigned int i = 0; i < 5; ++i)
           {
             const auto trial = moraine::spectrum<3>(
               elastic + random.tensor(size * std::pow(0.1, i % 3)));

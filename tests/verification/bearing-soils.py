@@ -1,3 +1,4 @@
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Strip footings on soil with and without weight beside exact limit loads, by GIMP

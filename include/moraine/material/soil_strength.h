@@ -395,6 +395,14 @@ namespace moraine
    * plastic dilation`. @throws InputError for what a soil cannot have. */
   SoilParameters
   read_soil(MaterialInput &input, const bool has_tension);
+
+  /** Elasticity, `Shear strength` and `Softening length`. */
+  std::vector<MaterialKey>
+  undrained_keys();
+
+  /** Read them: a cohesion without friction and without a limit of tension. */
+  SoilParameters
+  read_undrained(MaterialInput &input);
 } // namespace moraine
 
 #endif
