@@ -1,0 +1,44 @@
+# ranks: 1
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Each material model, with parameters that differ from place to place or fall with
+plastic strain, on one rank and on two, and after a break (UMAT: umat.py)."""
+
+BLOCK = "tests/bad-input/base.prm"
+SCENE = {"Output/Checkpoint every": "1 step", "Loads/weight/Value": "0; -0.8*t"}
+SOIL = {"Young modulus": "1000 + 20*y", "Cohesion": "0: 3.5, 0.1: 3",
+        "Friction angle": "20 + x", "Dilation angle": 5}
+MODELS = {
+    "linear elastic": {"Young modulus": "1000 + 20*y"},
+    "neo-Hookean": {},
+    "von Mises": {"Uniaxial yield stress": "0: 6, 0.1: 5.5"},
+    "Mohr-Coulomb": {**SOIL, "Tensile strength": "6 + 0.1*y",
+                     "Largest plastic dilation": 0.001},
+    "Tresca": {"Shear strength": "0: 3.5, 0.1: 3"},
+    "Drucker-Prager": SOIL,
+}
+
+
+def points(result):
+    """Sorted by where they are to five digits: another number of ranks writes
+    them in another order."""
+    values = [(tuple(x), tuple(s)) for x, s in result.points("position", "stress")]
+    return sorted(values, key=lambda point: [round(x, 5) for x in point[0]])
+
+
+for model, keys in MODELS.items():
+    strain = "small" if model in ("linear elastic", "Mohr-Coulomb") else "finite"
+    settings = {**SCENE, "Method/Strain": strain, "Materials/soil/Model": model,
+                **{f"Materials/soil/{key}": value for key, value in keys.items()}}
+    through, on_two = [run(BLOCK, settings, on_ranks=n) for n in (1, 2)]
+    if "plastic_share" in through.summary:
+        at_least(f"{model}: plastic share", through.summary["plastic_share"], 0.1)
+    bound(f"{model}: two ranks - one",
+          max(abs(a - b) for p, q in zip(points(through), points(on_two))
+              for u, v in zip(p, q) for a, b in zip(u, v)), 1e-6)
+    for result, n in ((through, 1), (on_two, 2)):
+        before = result.history()
+        run(result.folder, command="resume", extra=["--from", 3], on_ranks=n)
+        bound(f"{model}: after a break on {n}",
+              max(abs(a[key] - b[key]) for a, b in zip(before, result.history())
+                  for key in a), 0 if n == 1 else 1e-8)
