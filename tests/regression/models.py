@@ -6,7 +6,7 @@ plastic strain, on one rank and on two, and after a break (UMAT: umat.py)."""
 
 BLOCK = "tests/bad-input/base.prm"
 SCENE = {"Output/Checkpoint every": "1 step", "Loads/weight/Value": "0; -0.8*t"}
-SOIL = {"Young modulus": "1000 + 20*y", "Cohesion": "0: 3.5, 0.1: 3",
+SOIL = {"Young modulus": "1000 + 20*y", "Cohesion": "0: 3.8, 0.1: 3.3",
         "Friction angle": "20 + x", "Dilation angle": 5}
 MODELS = {
     "linear elastic": {"Young modulus": "1000 + 20*y"},
