@@ -56,7 +56,7 @@ constexpr double mesh_size      = 2. / 7;
 constexpr double gravity        = 10;
 constexpr double K0             = 0.5;
 constexpr double N_gamma        = 14.754;
-constexpr double settlement     = 0.03;
+constexpr double settlement     = 0.08;
 
 
 
@@ -297,7 +297,7 @@ press_footing(const std::shared_ptr<const Material> &sand)
   Newton         newton{NewtonParameters()};
   LinearSolver   linear_solver(LinearSolverParameters(), dim);
   TimeParameters steps;
-  steps.n_steps = 30;
+  steps.n_steps = 40;
   TimeControl time(steps);
   double      largest = 0;
   root_output() << "settlement [mm]   force [kN/m]\n" << std::setprecision(1);
