@@ -14,7 +14,7 @@ set -euo pipefail
 figures=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 prm=$figures/../../prm
 build=$(readlink -f "${1:-$figures/../../build/release}")
-[ $# -gt 1 ] && groups=("${@:2}") || groups=(start block beams penetration ring basics large wang waves motions footing hard cuts softening safety limit)
+[ $# -gt 1 ] && groups=("${@:2}") || groups=(start block beams penetration ring basics large wang waves motions footing hard cuts softening safety soils limit)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
