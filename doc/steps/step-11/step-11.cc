@@ -401,7 +401,7 @@ main(int argc, char **argv)
   // On a plateau, the force hardly grows in the last quarter of the way.
   const std::vector<double> forces = press_footing(sand);
   const double              before = forces[forces.size() * 3 / 4 - 1];
-  root_output() << "plateau " << forces.back() << ", "
+  root_output() << "force at the end " << forces.back() << ", "
                 << 100 * (forces.back() / before - 1)
                 << " % more than at 3/4 of the settlement\n"
                 << "formula " << formula << " for psi = phi = " << strength.phi
