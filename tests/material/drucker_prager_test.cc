@@ -105,9 +105,9 @@ namespace soil_point
   {
     for (const double psi : {0., 10., 30.})
       for (const auto match : {plane, outer})
-        walk(DruckerPrager(soil(10, 30, psi, none), match), 20000, 3e-3);
-    walk(DruckerPrager(soil(0, 30, 0, none)), 20000, 3e-3);
-    walk(DruckerPrager(softening_cone()), 50000, 3e-3);
+        walk(DruckerPrager(soil(10, 30, psi, none), match), 15000, 3e-3);
+    walk(DruckerPrager(soil(0, 30, 0, none)), 10000, 3e-3);
+    walk(DruckerPrager(softening_cone()), 10000, 3e-3);
   }
 
   TEST(DruckerPrager, StrengthReductionAndSteepSoftening)

@@ -241,7 +241,7 @@ namespace soil_point
     return error;
   }
 
-  /** Random paths of 5 tensors: stress is a number, admissible and at rest, and
+  /** Random paths of 3 tensors: stress is a number, admissible and at rest, and
    * plastic strain grows. */
   template <typename Soil>
   void
@@ -252,10 +252,10 @@ namespace soil_point
       {
         SymmetricTensor<2, 3> elastic;
         std::array<double, 2> variables{{0, 0}};
-        for (unsigned int i = 0; i < 5; ++i)
+        for (unsigned int i = 0; i < 3; ++i)
           {
             const auto trial = moraine::spectrum<3>(
-              elastic + random.tensor(size * std::pow(0.1, i % 3)));
+              elastic + random.tensor(size * std::pow(0.1, i)));
             const Response at = respond(material, trial.values, variables);
             ASSERT_TRUE(std::isfinite(at.stress.norm()) &&
                         std::isfinite(at.tangent.norm()));
