@@ -388,7 +388,7 @@ namespace moraine
     const bool follows_path = any_of(stages, [](const auto &named) {
       return named.second.time.follows_path();
     });
-    // Soil that fails where it is does not come to rest.
+    // Soil that failed comes to rest in another shape, if its points move.
     const bool may_slide_to_rest =
       strength_reduction.factor > 1 &&
       (method.after_step() != MeshAfterStep::keep ||

@@ -45,3 +45,10 @@ refused("tension of a cone", {"Friction angle": 30, "Tensile strength": 1},
         "Drucker-Prager")
 refused("negative modulus somewhere", {
     "Young modulus": "1000*(2 - y)", "Cohesion": 10})
+
+# c cot(phi) = 17.3205; a number as rounded in the message is taken.
+result = run("tests/bad-input/base.prm",
+             {"Materials/soil/Model": "Mohr-Coulomb", "Materials/soil/Cohesion": 10,
+              "Materials/soil/Friction angle": 30,
+              "Materials/soil/Tensile strength": 17.33}, command="check")
+text("tension at the apex, rounded up", "taken" if result.code == 0 else "REFUSED")

@@ -26,10 +26,14 @@ def points(result):
     return sorted(values, key=lambda point: [round(x, 5) for x in point[0]])
 
 
-for model, keys in MODELS.items():
+def block(model, keys):
     strain = "small" if model in ("linear elastic", "Mohr-Coulomb") else "finite"
-    settings = {**SCENE, "Method/Strain": strain, "Materials/soil/Model": model,
-                **{f"Materials/soil/{key}": value for key, value in keys.items()}}
+    return {**SCENE, "Method/Strain": strain, "Materials/soil/Model": model,
+            **{f"Materials/soil/{key}": value for key, value in keys.items()}}
+
+
+for model, keys in MODELS.items():
+    settings = block(model, keys)
     through, on_two = [run(BLOCK, settings, on_ranks=n) for n in (1, 2)]
     if "plastic_share" in through.summary:
         at_least(f"{model}: plastic share", through.summary["plastic_share"], 0.1)
@@ -42,3 +46,18 @@ for model, keys in MODELS.items():
         bound(f"{model}: after a break on {n}",
               max(abs(a[key] - b[key]) for a, b in zip(before, result.history())
                   for key in a), 0 if n == 1 else 1e-8)
+
+# Tresca is Mohr-Coulomb without friction and without a limit of tension.
+settings = {"Method/Strain": "finite", "Materials/soil/Softening length": 2}
+tresca, mohr_coulomb = [
+    run(BLOCK, {**block(model, {key: "0: 3.5, 0.1: 3", **others}), **settings})
+    for model, key, others in (("Tresca", "Shear strength", {}),
+                               ("Mohr-Coulomb", "Cohesion",
+                                {"Tensile strength": "none"}))]
+bound("Tresca with a table - Mohr-Coulomb",
+      max(abs(a - b) for p, q in zip(points(tresca), points(mohr_coulomb))
+          for u, v in zip(p, q) for a, b in zip(u, v)), 0)
+perfect = run(BLOCK, {**block("Tresca", {"Shear strength": 3.5})})
+at_least("what softening does to the points",
+         max(abs(a - b) for p, q in zip(points(tresca), points(perfect))
+             for u, v in zip(p, q) for a, b in zip(u, v)), 1e-3)
