@@ -51,10 +51,13 @@ namespace moraine
       const LameConstants  C        = elastic_stiffness(state, p);
       if (material.is_linear() || !material.is_isotropic())
         return C.mu;
+      auto           internal = state.fields().internal_of(body, values);
       PrincipalState at;
       if (state.strain_measure() == StrainMeasure::small)
-        at.strain =
-          spectrum<dim>(C.strain_of(points.stress_field()(values))).values;
+        at.strain = spectrum<dim>(
+                      material.elastic_strain_of(points.stress_field()(values),
+                                                 internal.data()))
+                      .values;
       else
         {
           at.strain = spectrum<dim>(state.fields().b(values)).values;
@@ -62,8 +65,7 @@ namespace moraine
             at.strain[A] = 0.5 * std::log(at.strain[A]);
         }
       at.strain *= loaded_on;
-      auto internal = state.fields().internal_of(body, values);
-      at.internal   = internal.data();
+      at.internal = internal.data();
       material.respond(state.step_time(), ArrayView<PrincipalState>(&at, 1));
       // D : (I - 1 x 1 / 3) in the principal directions.
       double modulus = trace(at.tangent);

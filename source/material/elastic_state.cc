@@ -26,7 +26,7 @@ namespace moraine
     for (unsigned int A = 0; A < 3; ++A)
       wanted[A][A] = stress[A];
     const SymmetricTensor<2, 3> first =
-      material.elastic_stiffness().strain_of(wanted);
+      material.elastic_strain_of(wanted, internal.data());
     Tensor<1, 3> trial;
     for (unsigned int A = 0; A < 3; ++A)
       trial[A] = first[A][A];

@@ -7,6 +7,7 @@
 #include <moraine/core/patterns.h>
 #include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
+#include <moraine/material/cam_clay.h>
 #include <moraine/material/drucker_prager.h>
 #include <moraine/material/linear_elastic.h>
 #include <moraine/material/mohr_coulomb.h>
@@ -68,6 +69,7 @@ namespace moraine
                                                    mohr_coulomb_model(),
                                                    tresca_model(),
                                                    drucker_prager_model(),
+                                                   cam_clay_model(),
                                                    umat_model()};
     return models;
   }

@@ -22,6 +22,7 @@ namespace moraine
     committed.b      = unit_symmetric_tensor<3>();
     for (const InternalVariable &variable : material->internal_variables())
       committed.internal.push_back(variable.initial);
+    material->initialise(stress, /* vertical = */ 2, committed.internal.data());
     if (measure == StrainMeasure::finite && material->is_isotropic())
       {
         const Spectrum at = spectrum<3>(stress);
@@ -75,9 +76,10 @@ namespace moraine
       }
     else
       {
-        at = spectrum<3>(
-          material->elastic_stiffness().strain_of(committed.stress) +
-          symmetrize(H));
+        at =
+          spectrum<3>(material->elastic_strain_of(committed.stress,
+                                                  committed.internal.data()) +
+                      symmetrize(H));
         to.strain = at.values;
       }
     const Tensor<1, 3> trial_strain = to.strain;

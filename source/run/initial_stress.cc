@@ -49,9 +49,9 @@ namespace moraine
       "K0",
       K0,
       "Of geostatic stress: horizontal over vertical stress, a "
-      "number or an expression of place. If left out, nu/(1-nu) "
-      "of the material, as elastic ground that cannot widen has "
-      "it.");
+      "number or an expression of place. If left out, that of the "
+      "material: nu/(1-nu), as elastic ground that cannot widen has "
+      "it, or of Cam-clay 'Normal K0' times OCR^sin(phi).");
     prm.add_parameter("Surcharge",
                       surcharge,
                       "Of geostatic stress: vertical pressure on the surface "
@@ -195,13 +195,13 @@ namespace moraine
               (column.pressure + (load ? load->value(column.surface) : 0.)) /
               columns.size();
           }
+        const double          share = horizontal_share(x, vertical);
         SymmetricTensor<2, 3> stress;
         for (unsigned int d = 0; d < 3; ++d)
-          stress[d][d] = -horizontal_share(x) * vertical;
+          stress[d][d] = -share * vertical;
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = d; e < dim; ++e)
-            stress[d][e] -=
-              (1 - horizontal_share(x)) * vertical * up[d] * up[e];
+            stress[d][e] -= (1 - share) * vertical * up[d] * up[e];
         return stress;
       }
 
@@ -242,15 +242,13 @@ namespace moraine
       }
 
       double
-      horizontal_share(const Point<dim> &x) const
+      horizontal_share(const Point<dim> &x, const double vertical) const
       {
         if (!K0)
           {
             const Material &material = *model.materials[body];
             const auto      internal = material.internal_at(point_in_space(x));
-            const LameConstants C =
-              material.elastic_stiffness_at(internal.data());
-            return C.lambda / (C.lambda + 2 * C.mu);
+            return material.K0(vertical, internal.data());
           }
         const double share = K0->value(x);
         if (share < 0)
@@ -352,8 +350,9 @@ namespace moraine
         {
           if (points.body(p) != body)
             continue;
-          const Point<dim>            x      = points.position(p);
-          const SymmetricTensor<2, 3> wanted = stress(x);
+          const Point<dim>            x = points.position(p);
+          const SymmetricTensor<2, 3> wanted =
+            stress ? stress(x) : SymmetricTensor<2, 3>();
           const SymmetricTensor<2, 3> possible =
             state.set_initial_stress(p, wanted);
           double error = (possible - wanted).norm() / wanted.norm();
@@ -380,7 +379,7 @@ namespace moraine
         try
           {
             const auto stress = initial_stress_of(scene, model, body);
-            if (!stress)
+            if (!stress && model.materials[body]->has_linear_elasticity())
               continue;
             worst = set_in_body(stress, body, *model.points, *model.state);
           }

@@ -437,6 +437,12 @@ namespace moraine
                  material.model,
                  "without inertia; in dynamics a model whose elastic energy is "
                  "known");
+        if (!made->has_linear_elasticity() && conserves_energy())
+          reject("Materials/" + name,
+                 "Model",
+                 material.model,
+                 "another integrator than 'energy-momentum', which needs "
+                 "linear elasticity");
         if (!made->has_symmetric_tangent() && linear_solver.solver == "amg-cg")
           reject("Solver",
                  "Solver",

@@ -90,8 +90,11 @@ namespace moraine
   {
     const Material &material = *materials[points.body(p)];
     double         *values   = points.values(p);
-    const auto      internal = state_fields.internal_of(points.body(p), values);
+    auto            internal = state_fields.internal_of(points.body(p), values);
     points.stress_field().store(stress, values);
+    material.initialise(stress, /* vertical = */ dim - 1, internal.data());
+    for (unsigned int v = 0; v < internal.size(); ++v)
+      state_fields.internal[points.body(p)][v].store(internal[v], values);
     if (!material.is_isotropic())
       return stress_unstrained(material,
                                measure,

@@ -87,11 +87,11 @@ namespace moraine
     dissipates = material.dissipates();
     energy_points.resize(points.size());
     if (measure == StrainMeasure::small)
-      {
-        find_small_energies(state, block, begin);
-        return;
-      }
-    find_finite_energies(state, block, begin);
+      find_small_energies(state, block, begin, material);
+    else
+      find_finite_energies(state, block, begin);
+    if (measure == StrainMeasure::small && material.has_linear_elasticity())
+      return;
     stored.resize(2 * points.size());
     for (unsigned int i = 0; i < points.size(); ++i)
       elastic_points[2 * i + 1] = {answers[i].strain, answers[i].internal};
@@ -130,17 +130,36 @@ namespace moraine
   void
   TrialPoints<dim>::find_small_energies(const State<dim>        &state,
                                         const StencilBlock<dim> &block,
-                                        const unsigned int       begin)
+                                        const unsigned int       begin,
+                                        const Material          &material)
   {
-    const auto &set = state.material_points();
+    const auto &set       = state.material_points();
+    const bool  is_linear = material.has_linear_elasticity();
+    if (!is_linear)
+      elastic_points.resize(2 * points.size());
     for (unsigned int i = 0; i < points.size(); ++i)
       {
-        EnergyPoint &at = energy_points[i];
-        at.stress = set.stress_field()(set.values(block.points[begin + i]));
-        const SymmetricTensor<2, 3> &end    = points[i].stress;
-        const SymmetricTensor<2, 3>  strain = stiffness[i].strain_of(end);
-        const SymmetricTensor<2, 3>  start_strain =
-          stiffness[i].strain_of(at.stress);
+        EnergyPoint  &at                 = energy_points[i];
+        const double *values             = set.values(block.points[begin + i]);
+        at.stress                        = set.stress_field()(values);
+        const SymmetricTensor<2, 3> &end = points[i].stress;
+        SymmetricTensor<2, 3>        strain, start_strain;
+        if (is_linear)
+          {
+            strain       = stiffness[i].strain_of(end);
+            start_strain = stiffness[i].strain_of(at.stress);
+          }
+        else
+          {
+            const auto at_start =
+              state.fields().internal_of(set.body(block.points[begin + i]),
+                                         values);
+            strain = material.elastic_strain_of(end, answers[i].internal);
+            start_strain =
+              material.elastic_strain_of(at.stress, at_start.data());
+            elastic_points[2 * i] = {spectrum<dim>(start_strain).values,
+                                     answers[i].internal};
+          }
         at.energies = {0.5 * (at.stress * start_strain),
                        0.5 * (end * strain),
                        0.};

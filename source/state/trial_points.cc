@@ -274,18 +274,22 @@ namespace moraine
     const auto     &set        = state.material_points();
     const Material &material   = state.material(set.body(block.points[begin]));
     const bool      is_uniform = material.has_uniform_stiffness();
+    const bool      is_linear  = material.has_linear_elasticity();
     LameConstants   C          = material.elastic_stiffness();
     for (unsigned int i = 0; i < points.size(); ++i)
       {
-        const unsigned int p  = block.points[begin + i];
-        TrialPoint        &at = points[i];
-        if (!is_uniform)
-          C = material.elastic_stiffness_at(&internal[i * n_internal]);
+        const unsigned int p        = block.points[begin + i];
+        TrialPoint        &at       = points[i];
+        const double      *of_point = &internal[i * n_internal];
+        if (!is_uniform && is_linear)
+          C = material.elastic_stiffness_at(of_point);
         at.J_increment = 1;
         at.weight      = block.share(begin + i) * state.integration_volume(p);
-        at.principal =
-          spectrum<dim>(C.strain_of(set.stress_field()(set.values(p))) +
-                        symmetric_part(at.gradient));
+        const SymmetricTensor<2, 3> stress = set.stress_field()(set.values(p));
+        at.principal                       = spectrum<dim>(
+          (is_linear ? C.strain_of(stress) :
+                                             material.elastic_strain_of(stress, of_point)) +
+          symmetric_part(at.gradient));
         at.trial_strain = at.principal.values;
       }
   }

@@ -201,6 +201,40 @@ namespace moraine
       return true;
     }
 
+    /** Whether elastic stress is linear in the elastic strain by
+     * elastic_stiffness_at(). */
+    virtual bool
+    has_linear_elasticity() const
+    {
+      return true;
+    }
+
+    /** The elastic strain that has the @p stress, at finite strain the
+     * logarithmic one of Kirchhoff's, if it is isotropic. */
+    virtual dealii::SymmetricTensor<2, 3>
+    elastic_strain_of(const dealii::SymmetricTensor<2, 3> &stress,
+                      const double                        *internal) const
+    {
+      return elastic_stiffness_at(internal).strain_of(stress);
+    }
+
+    /** Set what of the @p internal variables follows from the @p stress before
+     * the first step; @p vertical is the direction of gravity. */
+    virtual void
+    initialise(const dealii::SymmetricTensor<2, 3> & /*stress*/,
+               const unsigned int /*vertical*/,
+               double * /*internal*/) const
+    {}
+
+    /** Horizontal over vertical stress of level ground at the start, under the
+     * vertical @p pressure: of elastic ground @f$\nu/(1-\nu)@f$. */
+    virtual double
+    K0(const double /*pressure*/, const double *internal) const
+    {
+      const LameConstants C = elastic_stiffness_at(internal);
+      return C.lambda / (C.lambda + 2 * C.mu);
+    }
+
     /** Mass per initial volume. */
     virtual double
     density() const = 0;
@@ -261,7 +295,7 @@ namespace moraine
     }
 
     /** Whether elastic strains at the end of a step can be others than the
-     * trial ones. Stress is then linear in them by elastic_stiffness(). */
+     * trial ones. */
     virtual bool
     dissipates() const
     {

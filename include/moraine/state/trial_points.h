@@ -343,7 +343,8 @@ namespace moraine
     void
     find_small_energies(const State<dim>        &state,
                         const StencilBlock<dim> &block,
-                        const unsigned int       begin);
+                        const unsigned int       begin,
+                        const Material          &material);
 
     void
     find_finite_energies(const State<dim>        &state,
