@@ -98,45 +98,30 @@ namespace moraine
 
 
 
-  CamClay::Pressure
-  CamClay::pressure(const double volume) const
-  {
-    const double least = parameters.least_pressure;
-    const double kappa = parameters.swelling;
-    if (volume <= kappa)
-      return {least * volume / kappa, least / kappa, 0};
-    const double value = least * std::exp(volume / kappa - 1);
-    return {value, value / kappa, value / (kappa * kappa)};
-  }
-
-
-
   LameConstants
-  CamClay::stiffness_at_pressure(const double p) const
+  CamClay::stiffness_at_pressure(const double p, const double mu) const
   {
     const double above = std::max(p, parameters.least_pressure);
-    const double mu = parameters.shear_modulus + parameters.shear_ratio * above;
     return {above / parameters.swelling - 2. / 3. * mu, mu};
   }
 
 
 
   CamClay::Elastic
-  CamClay::elastic(const Tensor<1, 3> &strain) const
+  CamClay::elastic(const Tensor<1, 3> &strain, const double mu) const
   {
-    const Pressure     P     = pressure(-sum_of(strain));
-    const Tensor<1, 3> e     = deviator_of(strain);
-    const double       alpha = parameters.shear_ratio;
-    const double       mu    = parameters.shear_modulus + alpha * P.value;
-    const double       p     = P.value + alpha * P.slope * (e * e);
-    const double       bulk  = P.slope + alpha * P.curvature * (e * e);
+    const double       least  = parameters.least_pressure;
+    const double       volume = -sum_of(strain) / parameters.swelling;
+    const Tensor<1, 3> e      = deviator_of(strain);
+    const double       grown  = volume <= 1 ? 1. : std::exp(volume - 1);
+    const double       p      = least * (volume <= 1 ? volume : grown);
+    const double       bulk   = least * grown / parameters.swelling;
     Elastic            result;
     for (unsigned int A = 0; A < 3; ++A)
       {
         result.stress[A] = 2 * mu * e[A] - p;
         for (unsigned int B = 0; B < 3; ++B)
-          result.tangent[A][B] = bulk - 2 * alpha * P.slope * (e[A] + e[B]) +
-                                 2 * mu * ((A == B ? 1. : 0.) - 1. / 3.);
+          result.tangent[A][B] = bulk + 2 * mu * ((A == B ? 1. : 0.) - 1. / 3.);
       }
     return result;
   }
@@ -145,37 +130,10 @@ namespace moraine
 
   SymmetricTensor<2, 3>
   CamClay::elastic_strain_of(const SymmetricTensor<2, 3> &stress,
-                             const double *) const
+                             const double                *internal) const
   {
-    const double least = parameters.least_pressure;
-    const double kappa = parameters.swelling;
-    const double alpha = parameters.shear_ratio;
-    const double p     = -trace(stress) / 3;
-    const auto   s     = deviator(stress);
-    // p = P + alpha P' e:e with e = s / (2 mu(P)): Newton's method for P
-    double P  = p;
-    double mu = parameters.shear_modulus + alpha * std::max(P, 0.);
-    for (unsigned int i = 0; i < most_clay_iterations && alpha > 0; ++i)
-      {
-        mu                  = parameters.shear_modulus + alpha * P;
-        const double above  = std::max(P, least);
-        const double e2     = (s * s) / (4 * mu * mu);
-        const double error  = P + alpha * above / kappa * e2 - p;
-        const double growth = P > least ? 1. : 0.;
-        const double slope =
-          1 + alpha / kappa * e2 * (growth - 2 * alpha * above / mu);
-        const double change  = slope > 0 ? error / slope : error;
-        const double changed = P - change;
-        const double floor =
-          alpha > 0 ? -parameters.shear_modulus / alpha : -1e300;
-        P = changed > floor ? changed : 0.5 * (P + floor);
-        if (std::abs(change) <= 1e-15 * (std::abs(P) + least))
-          break;
-      }
-    mu = parameters.shear_modulus + alpha * P;
-    const double volume =
-      P <= least ? kappa * P / least : kappa * (1 + std::log(P / least));
-    return s / (2 * mu) - volume / 3 * unit_symmetric_tensor<3>();
+    return deviator(stress) / (2 * shear_modulus(internal)) -
+           volume_at(-trace(stress) / 3) / 3 * unit_symmetric_tensor<3>();
   }
 
 
@@ -188,12 +146,12 @@ namespace moraine
     const double kappa = parameters.swelling;
     for (unsigned int i = 0; i < energies.size(); ++i)
       {
-        const double       volume = -sum_of(points[i].strain);
+        const double       volume = -sum_of(points[i].strain) / kappa;
         const Tensor<1, 3> e      = deviator_of(points[i].strain);
-        const double       P      = pressure(volume).value;
         energies[i] =
-          (volume <= kappa ? 0.5 * P * volume : kappa * (P - 0.5 * least)) +
-          (parameters.shear_modulus + parameters.shear_ratio * P) * (e * e);
+          kappa * least *
+            (volume <= 1 ? 0.5 * volume * volume : std::exp(volume - 1) - 0.5) +
+          shear_modulus(points[i].internal) * (e * e);
       }
   }
 
@@ -283,13 +241,14 @@ namespace moraine
   // in those of kappa / p_c,n.
   CamClay::Equations
   CamClay::equations(const Tensor<1, 3> &trial,
-                     const double        p_c_n,
+                     const Start        &start,
                      const Return       &of) const
   {
     const double kappa = parameters.swelling;
+    const double p_c_n = start.p_c;
     const double rate  = 1 / (parameters.compression - kappa);
     Equations    result;
-    result.at          = elastic(of.elastic);
+    result.at          = elastic(of.elastic, start.mu);
     result.p_c         = p_c_n * std::exp(rate * sum_of(of.elastic - trial));
     result.yield       = yield(result.at.stress, result.p_c);
     result.yield_error = result.yield.value / (p_c_n * p_c_n);
@@ -316,10 +275,10 @@ namespace moraine
 
   bool
   CamClay::iterate(const Tensor<1, 3> &trial,
-                   const double        p_c_n,
+                   const Start        &start,
                    Return             &of) const
   {
-    Equations now = equations(trial, p_c_n, of);
+    Equations now = equations(trial, start, of);
     for (unsigned int i = 0; i < most_clay_iterations; ++i)
       {
         const double error = now.norm();
@@ -339,7 +298,7 @@ namespace moraine
           {
             next.elastic    = of.elastic + part * step;
             next.multiplier = of.multiplier + part * change;
-            then            = equations(trial, p_c_n, next);
+            then            = equations(trial, start, next);
             if (then.norm() <= (1 - 1e-4 * part) * error ||
                 error <= clay_tolerance)
               break;
@@ -363,14 +322,11 @@ namespace moraine
 
   bool
   CamClay::approach(const Tensor<1, 3> &trial,
-                    const double        p_c_n,
+                    const Start        &start,
                     Return             &of) const
   {
-    SymmetricTensor<2, 3> inside;
-    for (unsigned int A = 0; A < 3; ++A)
-      inside[A][A] = -0.5 * p_c_n;
-    const double       volume = trace(elastic_strain_of(inside, nullptr));
-    const Tensor<1, 3> middle({volume / 3, volume / 3, volume / 3});
+    const double       volume = -volume_at(0.5 * start.p_c) / 3;
+    const Tensor<1, 3> middle({volume, volume, volume});
     const auto         on_way = [&](const double part) {
       return (1 - part) * middle + part * trial;
     };
@@ -379,17 +335,18 @@ namespace moraine
     while (high - low > 1e-3)
       {
         const double part = 0.5 * (low + high);
-        const double f    = yield(elastic(on_way(part)).stress, p_c_n).value;
+        const double f =
+          yield(elastic(on_way(part), start.mu).stress, start.p_c).value;
         (f <= 0 ? low : high) = part;
       }
-    of        = {on_way(low), 0, p_c_n};
+    of        = {on_way(low), 0, start.p_c};
     double at = low, size = 1e-2;
     while (at < 1)
       {
         const double next  = std::min(1., at + size);
         Return       found = of;
         found.elastic += on_way(next) - on_way(at);
-        if (iterate(on_way(next), p_c_n, found))
+        if (iterate(on_way(next), start, found))
           {
             of = found;
             at = next;
@@ -407,10 +364,10 @@ namespace moraine
 
   Tensor<2, 3>
   CamClay::consistent_tangent(const Tensor<1, 3> &trial,
-                              const double        p_c_n,
+                              const Start        &start,
                               const Return       &of) const
   {
-    const Equations    at      = equations(trial, p_c_n, of);
+    const Equations    at      = equations(trial, start, of);
     const Tensor<2, 3> inverse = invert(at.flow_matrix);
     const Tensor<1, 3> normal  = inverse * at.normal;
     const double       slope   = at.yield_row * normal;
@@ -421,10 +378,10 @@ namespace moraine
         // Minus the derivatives by the trial strain.
         Tensor<1, 3> flow;
         for (unsigned int A = 0; A < 3; ++A)
-          flow[A] = of.multiplier / p_c_n * rate / 3;
+          flow[A] = of.multiplier / start.p_c * rate / 3;
         flow[B] += 1 / parameters.swelling;
-        const double       f      = -at.yield.p * rate / (p_c_n * p_c_n);
-        const Tensor<1, 3> moved  = inverse * flow;
+        const double       f     = -at.yield.p * rate / (start.p_c * start.p_c);
+        const Tensor<1, 3> moved = inverse * flow;
         const double       change = (at.yield_row * moved - f) / slope;
         for (unsigned int A = 0; A < 3; ++A)
           moves[A][B] = moved[A] - change * normal[A];
@@ -442,20 +399,21 @@ namespace moraine
       {
         const Tensor<1, 3> trial = point.strain;
         const double       p_c_n = point.internal[0];
-        const Elastic      at    = elastic(trial);
-        point.stress             = at.stress;
-        point.tangent            = at.tangent;
+        const Start        start{p_c_n, shear_modulus(point.internal)};
+        const Elastic      at = elastic(trial, start.mu);
+        point.stress          = at.stress;
+        point.tangent         = at.tangent;
         if (!(yield(at.stress, p_c_n).value <= clay_tolerance * p_c_n * p_c_n))
           {
             Return found{trial, 0, p_c_n};
-            if (!iterate(trial, p_c_n, found) && !approach(trial, p_c_n, found))
+            if (!iterate(trial, start, found) && !approach(trial, start, found))
               {
                 point.stress[0] = std::numeric_limits<double>::quiet_NaN();
                 continue;
               }
             point.strain      = found.elastic;
-            point.stress      = elastic(found.elastic).stress;
-            point.tangent     = consistent_tangent(trial, p_c_n, found);
+            point.stress      = elastic(found.elastic, start.mu).stress;
+            point.tangent     = consistent_tangent(trial, start, found);
             point.internal[0] = found.p_c;
             point.internal[1] +=
               std::sqrt(2. / 3.) * deviator_of(trial - found.elastic).norm();
@@ -485,7 +443,7 @@ namespace moraine
   double
   CamClay::preconsolidation(const double pressure, const double *internal) const
   {
-    const double *fields = internal + 3;
+    const double *fields = internal + n_history;
     return std::max(parameters.OCR.at(fields) * pressure +
                       parameters.POP.at(fields),
                     parameters.least_pressure);
@@ -513,7 +471,7 @@ namespace moraine
   {
     const double OCR = pressure > 0 ?
                          preconsolidation(pressure, internal) / pressure :
-                         parameters.OCR.at(internal + 3);
+                         parameters.OCR.at(internal + n_history);
     return parameters.normal_K0 *
            std::pow(OCR, std::sin(parameters.friction_angle));
   }
@@ -545,14 +503,8 @@ namespace moraine
         {"Swelling index",
          "Slope of ln v over ln p on unloading, kappa / v. Required."},
         {"Shear modulus",
-         "The part of the elastic shear modulus that is the same at any "
-         "pressure (stress).",
-         "0",
-         patterns::non_negative()},
-        {"Shear modulus over pressure",
-         "The part of it that grows with pressure, over the pressure.",
-         "0",
-         patterns::non_negative()},
+         "Elastic shear modulus > 0 (stress): a number or an expression in x, "
+         "y, z. Required."},
         {"Minimum pressure",
          "Below this pressure the elastic stiffness stays (stress): about that "
          "of the soil at a depth of a few centimetres. Required."},
@@ -600,11 +552,7 @@ namespace moraine
         input.refuse("Compression index",
                      "above 'Swelling index' = " + text_of(result.swelling) +
                        "; slopes of ln v over ln p");
-      result.shear_modulus = input.number("Shear modulus");
-      result.shear_ratio   = input.number("Shear modulus over pressure");
-      if (!(result.shear_modulus + result.shear_ratio > 0))
-        input.refuse("Shear modulus",
-                     "> 0, or 'Shear modulus over pressure' > 0");
+      result.shear_modulus  = input.parameter("Shear modulus", {0.}, "stress");
       result.least_pressure = number("Minimum pressure", {0.});
       result.OCR =
         input.parameter("OCR",

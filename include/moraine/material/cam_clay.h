@@ -6,6 +6,7 @@
 
 #include <moraine/material/material_input.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,14 +27,13 @@ namespace moraine
     double        friction_angle; ///< @f$\varphi_{cs}@f$ [radian]
     double        compression;    ///< @f$\hat\lambda@f$, of ln v over ln p
     double        swelling;       ///< @f$\hat\kappa < \hat\lambda@f$
-    double        shear_modulus;  ///< @f$\mu_0@f$ [stress]
-    double        shear_ratio;    ///< @f$\alpha@f$, of the pressure
     double        least_pressure; ///< @f$p_{min}@f$ [stress]
     double        normal_K0;      ///< of soil that was never unloaded
     double        density        = 0;
     CriticalState critical_state = CriticalState::lode_angle;
-    Parameter     OCR            = 1.; ///< @f$\ge 1@f$
-    Parameter     POP            = 0.; ///< [stress]
+    Parameter     shear_modulus; ///< @f$\mu@f$ [stress]
+    Parameter     OCR = 1.;      ///< @f$\ge 1@f$
+    Parameter     POP = 0.;      ///< [stress]
     /** Parameters with a value at each point. */
     std::vector<InternalVariable> fields = {};
   };
@@ -44,7 +44,7 @@ namespace moraine
    * dissipate nothing. Compression positive, e the deviatoric elastic strain:
    *
    * @f{gather*}{
-   *   \psi = \Psi(\varepsilon_v) + (\mu_0 + \alpha P(\varepsilon_v))\,e:e,
+   *   \psi = \Psi(\varepsilon_v) + \mu\,e:e,
    *   \qquad P = \Psi' = \begin{cases}
    *     p_{min}\,\varepsilon_v/\hat\kappa & \varepsilon_v \le \hat\kappa \\
    *     p_{min}\exp(\varepsilon_v/\hat\kappa - 1) & \text{else,}\end{cases} \\
@@ -52,8 +52,11 @@ namespace moraine
    *   p_c = p_{c,n}\exp\frac{\Delta\varepsilon^p_v}{\hat\lambda-\hat\kappa} .
    * @f}
    *
-   * After Houlsby (1985), but linear below @f$p_{min}@f$, where the law would
-   * have no stiffness; zero stress is at zero strain. Flow is associated.
+   * After Houlsby (1985), without the part of his shear modulus that grows with
+   * pressure: it has no stress beyond @f$q/p = \sqrt{1.5\alpha\hat\kappa}@f$,
+   * which is below M for usual clay. P is linear below @f$p_{min}@f$, where
+   * there would be no stiffness; zero stress is at zero strain. Flow is
+   * associated.
    * @f$M(\theta)@f$ is that of Sheng, Sloan and Yu (2000), with the friction
    * angle @f$\varphi_{cs}@f$ in triaxial compression and extension. All
    * stresses are @f$\tau = J\sigma@f$ at finite strain.
@@ -80,14 +83,14 @@ namespace moraine
     LameConstants
     elastic_stiffness() const override
     {
-      return stiffness_at_pressure(0);
+      return stiffness_at_pressure(0, parameters.shear_modulus.nominal());
     }
 
     /** At the pressure of the point. */
     LameConstants
     elastic_stiffness_at(const double *internal) const override
     {
-      return stiffness_at_pressure(internal[2]);
+      return stiffness_at_pressure(internal[2], shear_modulus(internal));
     }
 
     bool
@@ -173,11 +176,7 @@ namespace moraine
                    const double               *internal) const;
 
   private:
-    /** @f$P@f$ and its derivatives by @f$\varepsilon_v@f$. */
-    struct Pressure
-    {
-      double value, slope, curvature;
-    };
+    static constexpr unsigned int n_history = 3;
 
     /** Principal stresses of principal elastic strains, and the derivative. */
     struct Elastic
@@ -192,6 +191,12 @@ namespace moraine
       double               value, p;
       dealii::Tensor<1, 3> normal;
       dealii::Tensor<2, 3> hessian;
+    };
+
+    /** What a point has at the start of a step. */
+    struct Start
+    {
+      double p_c, mu;
     };
 
     /** A return: elastic strains, multiplier times the first p_c, p_c. */
@@ -217,38 +222,49 @@ namespace moraine
       norm() const;
     };
 
-    Pressure
-    pressure(const double volume) const;
+    /** @f$\varepsilon_v@f$ with @f$P = p@f$. */
+    double
+    volume_at(const double p) const
+    {
+      const double ratio = p / parameters.least_pressure;
+      return parameters.swelling * (ratio <= 1 ? ratio : 1 + std::log(ratio));
+    }
 
     LameConstants
-    stiffness_at_pressure(const double p) const;
+    stiffness_at_pressure(const double p, const double mu) const;
+
+    double
+    shear_modulus(const double *internal) const
+    {
+      return parameters.shear_modulus.at(internal + n_history);
+    }
 
     Elastic
-    elastic(const dealii::Tensor<1, 3> &strain) const;
+    elastic(const dealii::Tensor<1, 3> &strain, const double mu) const;
 
     Yield
     yield(const dealii::Tensor<1, 3> &stress, const double p_c) const;
 
     Equations
     equations(const dealii::Tensor<1, 3> &trial,
-              const double                p_c_n,
+              const Start                &start,
               const Return               &at) const;
 
     /** Newton's method from @p at. @return whether it got there. */
     bool
     iterate(const dealii::Tensor<1, 3> &trial,
-            const double                p_c_n,
+            const Start                &start,
             Return                     &at) const;
 
     /** By trial strains that grow from the middle of the yield surface. */
     bool
     approach(const dealii::Tensor<1, 3> &trial,
-             const double                p_c_n,
+             const Start                &start,
              Return                     &at) const;
 
     dealii::Tensor<2, 3>
     consistent_tangent(const dealii::Tensor<1, 3> &trial,
-                       const double                p_c_n,
+                       const Start                &start,
                        const Return               &at) const;
 
     /** @f$\sigma'_p@f$ of a vertical pressure. */
