@@ -20,7 +20,9 @@ namespace moraine
 
   namespace
   {
-    constexpr unsigned int most_clay_iterations = 40;
+    constexpr unsigned int most_clay_iterations = 25;
+    constexpr unsigned int most_approaches      = 40;
+    constexpr double       most_compression     = 40; ///< over kappa
     constexpr double       clay_tolerance       = 1e-12;
 
     double
@@ -341,8 +343,11 @@ namespace moraine
       }
     of        = {on_way(low), 0, start.p_c};
     double at = low, size = 1e-2;
-    while (at < 1)
+    for (unsigned int n = 0; at < 1; ++n)
       {
+        if (n == most_approaches)
+          return false;
+
         const double next  = std::min(1., at + size);
         Return       found = of;
         found.elastic += on_way(next) - on_way(at);
@@ -354,8 +359,6 @@ namespace moraine
             continue;
           }
         size /= 4;
-        if (size < 1e-6)
-          return false;
       }
     return true;
   }
@@ -406,7 +409,11 @@ namespace moraine
         if (!(yield(at.stress, p_c_n).value <= clay_tolerance * p_c_n * p_c_n))
           {
             Return found{trial, 0, p_c_n};
-            if (!iterate(trial, start, found) && !approach(trial, start, found))
+            // What Newton's method tries on the way to equilibrium may be
+            // absurd.
+            if (!(-sum_of(trial) < most_compression * parameters.swelling) ||
+                (!iterate(trial, start, found) &&
+                 !approach(trial, start, found)))
               {
                 point.stress[0] = std::numeric_limits<double>::quiet_NaN();
                 continue;

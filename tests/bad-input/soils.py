@@ -46,6 +46,29 @@ refused("tension of a cone", {"Friction angle": 30, "Tensile strength": 1},
 refused("negative modulus somewhere", {
     "Young modulus": "1000*(2 - y)", "Cohesion": 10})
 
+CLAY = {"Young modulus": "", "Poisson ratio": "", "Critical state angle": 25,
+        "Compression index": 0.1, "Swelling index": 0.02, "Shear modulus": 1000,
+        "Minimum pressure": 1}
+for name, settings in {
+        "no angle of clay": {"Critical state angle": ""},
+        "angle of clay in radians": {"Critical state angle": 0.4},
+        "compression below swelling": {"Compression index": 0.02,
+                                       "Swelling index": 0.05},
+        "no swelling": {"Swelling index": 0},
+        "no word": {"Swelling index": "small"},
+        "no least pressure": {"Minimum pressure": ""},
+        "no shear modulus": {"Shear modulus": ""},
+        "OCR below 1": {"OCR": 0.8},
+        "OCR below 1 somewhere": {"OCR": "3 - y"},
+        "negative POP": {"POP": -5},
+        "Young's modulus of clay": {"Young modulus": 1000},
+        "start beyond yield": {"Density": 1, "/Initial": ""},
+        "energy-momentum": {"Method/Strain": "finite", "Time/Integrator": "energy-momentum",
+                            "Density": 1}}.items():
+    if settings.pop("/Initial", None) is not None:
+        settings["Bodies/block/Initial stress"] = "-10; -100 + 20*y; -10; 0"
+    refused(name, {**CLAY, **settings}, "Cam-clay")
+
 # c cot(phi) = 17.3205; a number as rounded in the message is taken.
 result = run("tests/bad-input/base.prm",
              {"Materials/soil/Model": "Mohr-Coulomb", "Materials/soil/Cohesion": 10,

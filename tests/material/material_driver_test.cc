@@ -331,7 +331,7 @@ TEST(Materials, AllModelsAreDriven)
   prm.print_parameters(described, ParameterHandler::JSON);
   EXPECT_NE(described.str().find(
               "[Selection linear elastic|neo-Hookean|von "
-              "Mises|Mohr-Coulomb|Tresca|Drucker-Prager|UMAT ]"),
+              "Mises|Mohr-Coulomb|Tresca|Drucker-Prager|Cam-clay|UMAT ]"),
             std::string::npos)
     << "another model: drive it too (UMAT: umat_test.cc). " << described.str();
   for (const auto &[name, material] : all_materials())

@@ -16,6 +16,12 @@ MODELS = {
                      "Largest plastic dilation": 0.001},
     "Tresca": {"Shear strength": "0: 3.5, 0.1: 3"},
     "Drucker-Prager": SOIL,
+    "Cam-clay": {"Young modulus": "", "Poisson ratio": "", "Critical state angle": 25,
+                 "Compression index": 0.02, "Swelling index": 0.005,
+                 "Shear modulus": "400 + 10*y", "Minimum pressure": 2,
+                 "POP": "50 + y",
+                 "/Loads/weight/Value": "0; -7*t",
+                 "/Boundaries/left/Points": "0.5 0.5; 4.5 0.5"},
 }
 
 
@@ -29,7 +35,8 @@ def points(result):
 def block(model, keys):
     strain = "small" if model in ("linear elastic", "Mohr-Coulomb") else "finite"
     return {**SCENE, "Method/Strain": strain, "Materials/soil/Model": model,
-            **{f"Materials/soil/{key}": value for key, value in keys.items()}}
+            **{key[1:] if key[0] == "/" else f"Materials/soil/{key}": value
+               for key, value in keys.items()}}
 
 
 for model, keys in MODELS.items():
