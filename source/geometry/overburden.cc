@@ -275,7 +275,7 @@ namespace moraine
     std::sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
       return a.begin < b.begin;
     });
-    Column column{0., body, x};
+    Column column{0., body, x, {}};
     double reached = 0;
     for (const Part &part : parts)
       {
@@ -283,7 +283,8 @@ namespace moraine
           break;
         column.pressure += weights[part.body] * (part.end - part.begin);
         column.top = part.body;
-        reached    = std::max(reached, part.end);
+        column.parts.push_back(part);
+        reached = std::max(reached, part.end);
       }
     column.surface = x + reached * up;
     return column;

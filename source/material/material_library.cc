@@ -4,6 +4,7 @@
 #include <moraine/material/material_library.h>
 
 #include <moraine/core/arithmetic.h>
+#include <moraine/core/exceptions.h>
 #include <moraine/core/patterns.h>
 #include <moraine/core/ranges.h>
 #include <moraine/core/words.h>
@@ -36,6 +37,20 @@ namespace moraine
 
 
 
+    const MaterialKey &
+    saturated_density_key()
+    {
+      static const MaterialKey key("Saturated density",
+                                   "With section 'Water': mass density below "
+                                   "the phreatic line, above 'Density' "
+                                   "(mass / length^3); 'Density' if left out.",
+                                   "",
+                                   Patterns::Anything());
+      return key;
+    }
+
+
+
     /** The keys of all models, each once. */
     const std::vector<MaterialKey> &
     all_keys()
@@ -50,7 +65,10 @@ namespace moraine
                   }))
                 result.push_back(key);
             if (result.size() == model.keys.size())
-              result.push_back(density_key());
+              {
+                result.push_back(density_key());
+                result.push_back(saturated_density_key());
+              }
           }
         return result;
       }();
@@ -114,7 +132,8 @@ namespace moraine
                       return known.name == parameters.model;
                     });
     MaterialInput            input(parameters, section, place);
-    std::vector<std::string> own{density_key().name};
+    std::vector<std::string> own{density_key().name,
+                                 saturated_density_key().name};
     for (const MaterialKey &key : model.keys)
       own.push_back(key.name);
     for (const MaterialKey &key : all_keys())
@@ -125,5 +144,26 @@ namespace moraine
                      "nothing; the keys of '" + model.name + "' are " +
                        list_of(own));
     return model.make(input);
+  }
+
+
+
+  double
+  extra_density_of(const MaterialParameters &parameters,
+                   const std::string        &section)
+  {
+    const std::string &key  = saturated_density_key().name;
+    const std::string &text = parameters.texts.at(key);
+    if (text.empty())
+      return 0.;
+    const auto   found = number_from(text);
+    const double density =
+      Utilities::string_to_double(parameters.texts.at(density_key().name));
+    if (!found || !(*found >= density))
+      reject(section,
+             key,
+             text,
+             "a number >= " + text_of(density) + ", its 'Density'");
+    return *found - density;
   }
 } // namespace moraine

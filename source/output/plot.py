@@ -22,7 +22,8 @@ import render  # noqa: E402
 
 MOST_CURVES = 8
 QUANTITIES = {"u": "displacement", "v": "velocity", "a": "acceleration",
-              "path_length": "path length", "sigma": "stress"}
+              "path_length": "path length", "sigma": "stress",
+              "total_sigma": "total stress", "pore_pressure": "pore pressure"}
 
 
 def arguments():

@@ -47,12 +47,15 @@ namespace moraine
                       "What becomes columns of history.csv: displacement and "
                       "position [length], stress [stress] (of a point only); "
                       "in dynamics velocity [length/time] and acceleration "
-                      "[length/time^2].",
+                      "[length/time^2]; with water, of a point only, pore "
+                      "pressure and total stress [stress].",
                       Patterns::List(patterns::selection({"displacement",
                                                           "position",
                                                           "stress",
                                                           "velocity",
-                                                          "acceleration"}),
+                                                          "acceleration",
+                                                          "pore pressure",
+                                                          "total stress"}),
                                      1));
   }
 
@@ -60,7 +63,7 @@ namespace moraine
 
   template <int dim>
   void
-  ProbeParameters<dim>::check(const bool is_dynamic) const
+  ProbeParameters<dim>::check(const bool is_dynamic, const bool has_water) const
   {
     const std::string section = "Probes/" + name;
     const auto        wants   = [&](const std::string &quantity) {
@@ -79,11 +82,18 @@ namespace moraine
       if (std::count(quantities.begin(), quantities.end(), quantity) > 1)
         throw InputError(place(section, "Quantities") + ": found '" + quantity +
                          "' twice, allowed: each once");
-    if (kind == "interpolated" && wants("stress"))
-      throw InputError(place(section, "Quantities") +
-                       ": found 'stress', but stress is known at points only; "
-                       "allowed with 'Kind = interpolated' are displacement, "
-                       "position, velocity and acceleration");
+    for (const char *quantity : {"stress", "pore pressure", "total stress"})
+      if (kind == "interpolated" && wants(quantity))
+        throw InputError(place(section, "Quantities") + ": found '" + quantity +
+                         "', but " + quantity +
+                         " is known at points only; "
+                         "allowed with 'Kind = interpolated' are displacement, "
+                         "position, velocity and acceleration");
+    for (const char *quantity : {"pore pressure", "total stress"})
+      if (!has_water && wants(quantity))
+        throw InputError(place(section, "Quantities") + ": found '" + quantity +
+                         "' in a scene without section 'Water'; allowed are "
+                         "displacement, position and stress");
     if (kind == "interpolated" && !body.empty())
       throw InputError(place(section, "Body") + ": found '" + body +
                        "', allowed with 'Kind = interpolated': nothing; it "
@@ -186,6 +196,7 @@ namespace moraine
     , moves_through_mesh(moves_through_mesh)
     , v_field(points.fields().find(FieldNames<dim>::velocity))
     , a_field(points.fields().find(FieldNames<dim>::acceleration))
+    , pressure_field(points.fields().find(FieldNames<dim>::pore_pressure))
   {
     for (const auto &one : parameters)
       {
@@ -378,7 +389,7 @@ namespace moraine
   Probes<dim>::gather_points(const PointSet<dim> &points) const
   {
     constexpr unsigned int n_stress = n_stress_components<dim>;
-    constexpr unsigned int n        = 4 * dim + n_stress;
+    constexpr unsigned int n        = 4 * dim + n_stress + 1;
 
     // The last number of each counts how often the point was found.
     std::vector<double> all(probes.size() * (n + 1), 0.);
@@ -399,7 +410,8 @@ namespace moraine
                                   .begin_raw(),
                                 dim,
                                 out);
-            *out = 1.;
+            *out++ = pressure_field.exists() ? pressure_field(values) : 0.;
+            *out   = 1.;
           }
     Utilities::MPI::sum(all,
                         points.mesh().triangulation().get_communicator(),
@@ -456,6 +468,7 @@ namespace moraine
             columns.push_back(
               {name + direction_name(c) + at, unit, values[first + c]});
         };
+        const double pressure = values[first_velocity + 2 * dim];
         for (const std::string &quantity : probe.parameters.quantities)
           if (quantity == "position")
             add("", "length", 0);
@@ -465,11 +478,16 @@ namespace moraine
             add("v_", "length/time", first_velocity);
           else if (quantity == "acceleration")
             add("a_", "length/time^2", first_velocity + dim);
+          else if (quantity == "pore pressure")
+            columns.push_back({"pore_pressure" + at, "stress", pressure});
           else
             for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-              columns.push_back({"sigma_" + stress_component_name(c) + at,
-                                 "stress",
-                                 values[2 * dim + c]});
+              columns.push_back(
+                {(quantity == "stress" ? "sigma_" : "total_sigma_") +
+                   stress_component_name(c) + at,
+                 "stress",
+                 values[2 * dim + c] -
+                   (quantity != "stress" && c < 3 ? pressure : 0.)});
       }
     return columns;
   }

@@ -242,6 +242,7 @@ class Panel:
         self.mesh = mesh if args.mesh else None
         self.surfaces = beside(path, "boundaries") if self.dim == 2 and \
             args.magnify == 1 else None
+        self.water = beside(path, "water") if self.dim == 2 else None
         self.bodies = self.bodies_of_points(path) \
             if self.cells.shape[1] == 1 else []
 
@@ -275,7 +276,11 @@ class Panel:
         # Points are in the middle of their domains.
         h = max((np.median(body[1]) ** (1 / self.dim) / 2
                  for body in self.bodies), default=0)
-        return places.min(0) - h, places.max(0) + h
+        low, high = places.min(0) - h, places.max(0) + h
+        if self.water and len(self.water.points):
+            # Lines end at the sides of the mesh.
+            high[1] = max(high[1], self.water.points[:, 1].max())
+        return low, high
 
     def draw(self, axes, colours):
         self.draw_solid(axes, colours) if self.dim == 3 and self.bodies else \
@@ -318,9 +323,36 @@ class Panel:
             axes.add_collection(LineCollection(
                 np.stack([middle - half, middle + half], 1), color="black",
                 lw=2.5, capstyle="projecting"))
+        if self.water and len(self.water.points):
+            self.draw_water(axes)
         axes.set_aspect("equal")
         axes.set_xlabel(with_unit("x", self.length_unit))
         axes.set_ylabel(with_unit("y", self.length_unit))
+
+    def draw_water(self, axes):
+        """The phreatic line, and free water behind the bodies, each with an
+        inverted triangle."""
+        kind = self.water.field("kind")
+        low, high = self.bounds()
+        size = 0.025 * (high - low).max()
+        lines = [self.water.points[kind == k][:, :2].astype(float)
+                 for k in (0, 1)]
+        lines = [line[np.argsort(line[:, 0])] for line in lines]
+        outside = lines[1] if len(lines[1]) else lines[0]
+        axes.fill_between(*outside.T, low[1] - size, color="#cfe4f7", lw=0,
+                          zorder=0, where=outside[:, 1] > low[1] - size)
+        for line, style, at in zip(lines, ("-", "--"), (0.88, 0.06)):
+            if not len(line):
+                continue
+            axes.plot(*line.T, style, color="#1060c0", lw=1.6, zorder=3)
+            x, y = line[int(at * (len(line) - 1))]
+            axes.fill([x, x - 0.7 * size, x + 0.7 * size],
+                      [y, y + 1.2 * size, y + 1.2 * size], fc="white",
+                      ec="#1060c0", lw=1.2, zorder=4)
+            for k in (1, 2):
+                axes.plot([x - 0.5 * size / k, x + 0.5 * size / k],
+                          2 * [y - 0.35 * k * size], color="#1060c0", lw=1.2,
+                          zorder=4)
 
     def draw_solid(self, axes, colours):
         """Seen from where x and z are large and y is small, without the

@@ -7,9 +7,12 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/grid/grid_tools.h>
 
 #include <memory>
+#include <optional>
 
 namespace moraine
 {
@@ -102,6 +105,40 @@ namespace moraine
         return t > start ? at(t) - at(start) : Tensor<1, dim>();
       });
     }
+
+
+
+    /** Of the phreatic line above or below @p x, if there is one in the box. */
+    template <int dim>
+    std::optional<double>
+    height_of_line(const Water<dim>       &water,
+                   const Point<dim>       &x,
+                   const BoundingBox<dim> &box,
+                   const double            t)
+    {
+      if (const auto level = water.level(x, t))
+        return level;
+      constexpr unsigned int n_steps = 200;
+      const auto             wet     = [&](const double height) {
+        Point<dim> at = x;
+        at[dim - 1]   = height;
+        return water.uncut_pressure(at, t) > 0;
+      };
+      const double step  = box.side_length(dim - 1) / n_steps;
+      double       upper = box.upper_bound(dim - 1);
+      for (unsigned int k = 0; k < n_steps; ++k, upper -= step)
+        if (!wet(upper) && wet(upper - step))
+          {
+            double lower = upper - step;
+            for (unsigned int halving = 0; halving < 40; ++halving)
+              {
+                const double middle           = 0.5 * (lower + upper);
+                (wet(middle) ? lower : upper) = middle;
+              }
+            return upper;
+          }
+      return {};
+    }
   } // namespace
 
 
@@ -164,10 +201,50 @@ namespace moraine
 
 
 
+  template <int dim>
+  void
+  write_water_vtu(const Model<dim> &model, const VtuTarget &target)
+  {
+    constexpr unsigned int n_columns = 200;
+    VtuFile<0, dim>        file(target);
+    file.add_scalar("kind", "-");
+    std::vector<typename VtuFile<0, dim>::Patch> patches;
+    const auto add = [&](Point<dim> x, const double height, const double kind) {
+      x[dim - 1] = height;
+      patches.emplace_back();
+      patches.back().vertices[0] = x;
+      patches.back().data.reinit(1, 1);
+      patches.back().data(0, 0) = kind;
+    };
+    const MPI_Comm communicator = model.space->communicator();
+    const auto     box =
+      GridTools::compute_bounding_box(model.mesh->triangulation());
+    if (model.water->water &&
+        Utilities::MPI::this_mpi_process(communicator) == 0)
+      for (unsigned int k = 0; k <= n_columns; ++k)
+        {
+          Point<dim> x = box.center();
+          x[0] =
+            box.lower_bound(0) + double(k) / n_columns * box.side_length(0);
+          const auto line =
+            height_of_line(*model.water->water, x, box, target.time);
+          if (line)
+            add(x, *line, 0.);
+          if (const auto level = model.water->water->free_level(x, target.time))
+            add(x, *level, 1.);
+        }
+    file.write(communicator, patches.size(), [&patches](const unsigned int i) {
+      return patches[i];
+    });
+  }
+
+
+
 #define INSTANTIATE(dim)                                                      \
   template decltype(translations_of_conditions<dim>)                          \
                                              translations_of_conditions<dim>; \
-  template decltype(write_boundary_vtu<dim>) write_boundary_vtu<dim>;
+  template decltype(write_boundary_vtu<dim>) write_boundary_vtu<dim>;         \
+  template decltype(write_water_vtu<dim>)    write_water_vtu<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

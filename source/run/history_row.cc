@@ -3,6 +3,8 @@
 
 #include <moraine/run/history_row.h>
 
+#include <moraine/assembly/water_term.h>
+
 #include <deal.II/base/mpi.h>
 
 namespace moraine
@@ -155,6 +157,12 @@ namespace moraine
         "reaction_", " of " + report.name, "force", report.reaction, row);
     for (const auto &[name, translation] : translations)
       add_vector("u_", " of " + name, "length", translation(time.time()), row);
+    if (model.water)
+      add_vector("force_",
+                 " of water",
+                 "force",
+                 force_of_outer_water(*model.water, time.time(), *model.state),
+                 row);
     add_moments(model, reports, row);
     for (unsigned int b = 0; b < model.boundaries.size(); ++b)
       {

@@ -9,6 +9,7 @@
 #include <moraine/core/words.h>
 #include <moraine/geometry/overburden.h>
 #include <moraine/scene/scene_bodies.h>
+#include <moraine/scene/scene_conditions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
@@ -21,6 +22,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace moraine
@@ -164,6 +166,7 @@ namespace moraine
         for (const auto &force : model.loads.body_forces)
           if (force.times_density && contains(stage.loads, force.name))
             gravities.push_back(&force);
+        water = make_water(scene, stage);
       }
 
       SymmetricTensor<2, 3>
@@ -192,7 +195,8 @@ namespace moraine
           {
             const auto &load = surcharge[column.top];
             vertical +=
-              (column.pressure + (load ? load->value(column.surface) : 0.)) /
+              (column.pressure + (load ? load->value(column.surface) : 0.) +
+               (water ? of_water(x, up, column) : 0.)) /
               columns.size();
           }
         const double          share = horizontal_share(x, vertical);
@@ -217,6 +221,45 @@ namespace moraine
           return {};
         return std::make_unique<Expression<dim>>(
           text, place(section, key), 1, std::map<std::string, double>(), false);
+      }
+
+      /** What water adds to the effective overburden of a column: the weight in
+       * the pores and above the surface, less the pore pressure. */
+      double
+      of_water(const Point<dim>                       &x,
+               const Tensor<1, dim>                   &up,
+               const typename Overburden<dim>::Column &column) const
+      {
+        double pressure = water->outer_pressure(column.surface, start_time) -
+                          water->pore_pressure(x, start_time);
+        for (const auto &part : column.parts)
+          if (const double extra = model.water->extra_density[part.body];
+              extra > 0)
+            pressure -= extra * (up * gravity(part.body, x)) *
+                        wet_length(x + part.begin * up, x + part.end * up);
+        return pressure;
+      }
+
+      /** Of a line, as far as it crosses the phreatic line once. */
+      double
+      wet_length(const Point<dim> &lower, const Point<dim> &upper) const
+      {
+        const auto is_wet = [&](const Point<dim> &at) {
+          return water->uncut_pressure(at, start_time) > 0;
+        };
+        const double length    = lower.distance(upper);
+        const bool   wet_below = is_wet(lower);
+        if (wet_below == is_wet(upper))
+          return wet_below ? length : 0.;
+        double begin = 0, end = 1;
+        for (unsigned int halving = 0; halving < 60; ++halving)
+          {
+            const double middle = 0.5 * (begin + end);
+            (is_wet(lower + middle * (upper - lower)) == wet_below ? begin :
+                                                                     end) =
+              middle;
+          }
+        return length * (wet_below ? end : 1 - end);
       }
 
       Tensor<1, dim>
@@ -267,6 +310,7 @@ namespace moraine
       std::vector<Number>                 surcharge; ///< of bodies
       Number                              K0;
       std::vector<const BodyForce<dim> *> gravities;
+      std::optional<Water<dim>>           water;
     };
 
 

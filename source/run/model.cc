@@ -7,6 +7,7 @@
 #include <moraine/assembly/aggregation.h>
 #include <moraine/assembly/hourglass_stiffness.h>
 #include <moraine/assembly/load_terms.h>
+#include <moraine/assembly/water_term.h>
 #include <moraine/assembly/conflict_term.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
@@ -18,8 +19,11 @@
 #include <moraine/scene/scene_conditions.h>
 #include <moraine/scene/scene_mesh_motion.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace moraine
 {
@@ -213,6 +217,56 @@ namespace moraine
       return std::make_unique<ConflictTerm<dim>>(
         acting, acting_conditions(conditions, stage), times);
     }
+
+
+
+    /** Loads of type gravity that act in a stage. */
+    template <int dim>
+    std::vector<const BodyForce<dim> *>
+    gravities_of(const StageParameters &stage, const Loads<dim> &loads)
+    {
+      std::vector<const BodyForce<dim> *> gravities;
+      for (const auto &force : loads.body_forces)
+        if (force.times_density && contains(stage.loads, force.name))
+          gravities.push_back(&force);
+      return gravities;
+    }
+
+
+
+    /** @throws InputError if no point has water in any stage. Collective. */
+    template <int dim>
+    void
+    check_that_water_is_met(const Scene<dim> &scene, const Model<dim> &model)
+    {
+      constexpr unsigned int n_times  = 8;
+      double                 greatest = std::numeric_limits<double>::lowest();
+      for (const auto &[name, stage] : scene.stages)
+        if (const auto water = make_water(scene, stage))
+          for (unsigned int k = 0; k <= n_times; ++k)
+            for (unsigned int p = 0; p < model.points->n_local(); ++p)
+              {
+                const TimeParameters &time = stage.time;
+                const double          t =
+                  time.start_time +
+                  double(k) / n_times * (time.end_time - time.start_time);
+                const Point<dim> &x = model.points->position(p);
+                greatest            = std::max({greatest,
+                                                water->uncut_pressure(x, t),
+                                                water->outer_pressure(x, t)});
+              }
+      if (Utilities::MPI::max(greatest, model.space->communicator()) > 0)
+        return;
+      for (const auto &[name, stage] : scene.stages)
+        if (stage.water.any())
+          reject(water_section(name),
+                 stage.water.level.empty() ? "Pressure" : "Level",
+                 stage.water.level.empty() ? stage.water.pressure :
+                                             stage.water.level,
+                 stage.water.level.empty() ?
+                   "one that is positive somewhere in a body" :
+                   "a height above the lowest point of the bodies");
+    }
   } // namespace
 
 
@@ -252,6 +306,12 @@ namespace moraine
                        covers_of_bodies(bodies, *mesh, *points));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
+    if (scene.has_water())
+      water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
+        {},
+        extra_densities(scene, body_names),
+        points->fields().find(FieldNames<dim>::pore_pressure),
+        points->fields().find(FieldNames<dim>::total_stress)});
     set_initial_stress(scene, *this);
     if (scene.is_dynamic())
       {
@@ -273,6 +333,11 @@ namespace moraine
                                              MeshAfterStep::reset);
     keep_for_later(scene);
     set_stage(scene, 0);
+    if (water)
+      {
+        check_that_water_is_met(scene, *this);
+        set_water_at_points(*water, scene.start_time(), *state, *points);
+      }
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
       {
@@ -344,6 +409,9 @@ namespace moraine
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
     terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
+    if (water)
+      terms.push_back(std::make_unique<WaterTerm<dim>>(
+        *water, *points, gravities_of(stage, loads), state->strain_measure()));
     return terms;
   }
 
@@ -417,6 +485,8 @@ namespace moraine
   {
     const StageParameters &stage = scene.stages[k].second;
     set_bodies(stage.bodies);
+    if (water)
+      water->water = make_water(scene, stage);
     for (auto &condition : grid_conditions)
       condition.start = stage.time.start_time;
     for (ImplicitBoundary<dim> &boundary : boundaries)
@@ -477,6 +547,11 @@ namespace moraine
           return stage.second.reset_displacements;
         }))
       fields.request(FieldNames<dim>::deformation_gradient_then);
+    if (scene.has_water())
+      {
+        fields.request(FieldNames<dim>::pore_pressure);
+        fields.request(FieldNames<dim>::total_stress);
+      }
     request_columns(bodies, fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);
     body_volumes =

@@ -53,6 +53,8 @@ namespace moraine
       add("boundaries");
     if (scene.output.points && model.basis->has_domains())
       add("domains");
+    if (scene.output.points && model.water)
+      add("water");
   }
 
 
@@ -187,6 +189,10 @@ namespace moraine
     if (lists.count("domains") > 0)
       add_file("domains", t, [&](const VtuTarget &target) {
         write_domain_vtu(*model.basis, *model.points, target);
+      });
+    if (lists.count("water") > 0)
+      add_file("water", t, [&](const VtuTarget &target) {
+        write_water_vtu(model, target);
       });
   }
 

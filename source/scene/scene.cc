@@ -187,6 +187,7 @@ namespace moraine
                      names_of(loads),
                      simulated_bodies(*this)},
                     stages);
+    complete_water(water.levels, stages);
     const bool any_yields = any_of(materials, [](const auto &named) {
       return make_material(named.second, "Materials/" + named.first)
         ->dissipates();
@@ -225,6 +226,16 @@ namespace moraine
   Scene<dim>::is_dynamic() const
   {
     return first_dynamic_stage().time.integrator.dynamic();
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::has_water() const
+  {
+    return any_of(stages,
+                  [](const auto &stage) { return stage.second.water.any(); });
   }
 
 
@@ -472,8 +483,16 @@ namespace moraine
     in_subsections(prm, "Grid conditions", grid_conditions, add_all);
     in_subsections(prm, "Loads", loads, add_all);
     section("Mesh motion", mesh_motion);
+    prm.enter_subsection("Water");
+    water.add_parameters(prm, dim);
+    prm.leave_subsection();
     section("Time", time);
-    in_subsections(prm, "Stages", stages, add_all);
+    in_subsections(prm, "Stages", stages, [this](auto &stage) {
+      stage.add_parameters(prm);
+      prm.enter_subsection("Water");
+      stage.water.add_parameters(prm, dim, /* of_stage = */ true);
+      prm.leave_subsection();
+    });
     prm.enter_subsection("Solver");
     newton.add_parameters(prm);
     linear_solver.add_parameters(prm);

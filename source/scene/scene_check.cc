@@ -337,10 +337,11 @@ namespace moraine
             reject(entry, "nothing; a " + load.type + " has no such key");
       }
     check_conditions(given);
+    check_water(given);
     strength_reduction.check(materials, study.finds_factor_of_safety());
     study.check(given);
     for (const auto &probe : probes)
-      probe.check(is_dynamic());
+      probe.check(is_dynamic(), has_water());
   }
 
 
@@ -478,6 +479,52 @@ namespace moraine
                  "the name of a material" +
                    suggest(body.material, material_names));
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::check_water(const std::vector<InputFile::Entry> &given) const
+  {
+    water.levels.check("Water", dim);
+    for (const auto &[name, stage] : stages)
+      {
+        stage.water.check(water_section(name), dim);
+        const bool has_height =
+          !stage.water.level.empty() || !stage.water.free_level.empty();
+        if (has_height && !(water.unit_weight > 0))
+          reject("Water",
+                 "Unit weight",
+                 text_of(water.unit_weight),
+                 "a force per volume > 0; 'Level' and 'Free level' need it");
+        const auto &integrator = stage.time.integrator;
+        if (stage.water.any() && integrator.integrator == "energy-momentum")
+          reject(time_section(name),
+                 "Integrator",
+                 integrator.integrator,
+                 "another one with section 'Water'");
+      }
+    for (const auto &entry : given)
+      if (entry.section == "Water" && !has_water())
+        reject(entry,
+               "nothing without 'Level' or 'Pressure' of section 'Water'");
+      else if (entry.key == "Saturated density")
+        {
+          if (!has_water())
+            reject(entry, "nothing without section 'Water'");
+          if (is_dynamic())
+            reject(entry,
+                   "nothing in dynamics, where mass stays; a body of its own "
+                   "for the wet part, with its 'Density'");
+        }
+    if (has_water() && method.chosen().has_own_internal_force)
+      reject("Method",
+             "Method",
+             method.method,
+             "a method without double mapping; section 'Water' is given");
+    for (const auto &[name, material] : materials)
+      extra_density_of(material, "Materials/" + name);
   }
 
 

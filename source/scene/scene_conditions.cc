@@ -457,6 +457,68 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Where the water of a stage is given first. */
+    template <int dim>
+    std::string
+    section_of_water(const Scene<dim> &scene, const StageParameters &stage)
+    {
+      const auto is_same = [&stage](const WaterLevels &other) {
+        return other.level == stage.water.level &&
+               other.pressure == stage.water.pressure &&
+               other.free_level == stage.water.free_level;
+      };
+      if (!is_same(scene.water.levels))
+        for (const auto &[name, other] : scene.stages)
+          if (is_same(other.water))
+            return water_section(name);
+      return "Water";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::optional<Water<dim>>
+  make_water(const Scene<dim> &scene, const StageParameters &stage)
+  {
+    if (!stage.water.any())
+      return {};
+    WaterTexts texts;
+    texts.level        = stage.water.level;
+    texts.pressure     = stage.water.pressure;
+    texts.free_level   = stage.water.free_level;
+    texts.curve        = scene.water.curve;
+    texts.section      = section_of_water(scene, stage);
+    texts.cuts_suction = scene.water.suction == "cut off";
+    texts.unit_weight  = scene.water.unit_weight;
+    return Water<dim>(texts);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  extra_densities(const Scene<dim>               &scene,
+                  const std::vector<std::string> &body_names)
+  {
+    std::vector<double> densities;
+    for (const std::string &name : body_names)
+      for (const auto &[section, body] : scene.bodies)
+        if (section == name)
+          for (const auto &[material_name, material] : scene.materials)
+            if (body.material.empty() || body.material == material_name)
+              {
+                densities.push_back(
+                  extra_density_of(material, "Materials/" + material_name));
+                break;
+              }
+    return densities;
+  }
+
+
+
   template <int dim>
   std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)>
   initial_velocity(const Scene<dim>               &scene,
@@ -483,6 +545,8 @@ namespace moraine
                                                make_absorbing_boundaries<dim>; \
   template decltype(make_grid_conditions<dim>) make_grid_conditions<dim>;      \
   template decltype(make_loads<dim>)           make_loads<dim>;                \
+  template decltype(make_water<dim>)           make_water<dim>;                \
+  template decltype(extra_densities<dim>)      extra_densities<dim>;           \
   template std::function<Tensor<1, dim>(const unsigned int,                    \
                                         const Point<dim> &)>                   \
   initial_velocity(const Scene<dim> &, const std::vector<std::string> &);

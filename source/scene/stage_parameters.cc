@@ -245,7 +245,8 @@ namespace moraine
                                  all.loads,
                                  all.bodies,
                                  {},
-                                 false};
+                                 false,
+                                 {"as before", "as before", "as before"}};
       }
     else
       for (const auto &entry : given)
@@ -281,6 +282,19 @@ namespace moraine
                         before ? before->bodies : all.bodies,
                         stage.bodies);
         complete_absorbing(name, before, stage);
+      }
+  }
+
+
+
+  void
+  complete_water(const WaterLevels &of_scene, NamedStages &stages)
+  {
+    const WaterLevels *before = &of_scene;
+    for (auto &[name, stage] : stages)
+      {
+        stage.water.complete(*before, water_section(name));
+        before = &stage.water;
       }
   }
 } // namespace moraine

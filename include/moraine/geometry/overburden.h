@@ -38,12 +38,20 @@ namespace moraine
                const double                          cell_size,
                const std::vector<Facet>             &mesh_surface = {});
 
+    /** A part of a line in one body, by distance from its start. */
+    struct Part
+    {
+      double       begin, end;
+      unsigned int body;
+    };
+
     /** What lies above a place. */
     struct Column
     {
       double             pressure; ///< vertical [stress]
       unsigned int       top;      ///< the body at the surface
       dealii::Point<dim> surface;  ///< the place where the line leaves it
+      std::vector<Part>  parts;    ///< that bear each other, from below
     };
 
     /**
@@ -61,13 +69,6 @@ namespace moraine
           const std::vector<double>    &weights) const;
 
   private:
-    /** A part of the line in one body. */
-    struct Part
-    {
-      double       begin, end;
-      unsigned int body;
-    };
-
     /** One line; set @p runs_along if it runs along the edge of a body. */
     Column
     column(const dealii::Point<dim>     &x,

@@ -30,6 +30,13 @@ namespace moraine
   make_material(const MaterialParameters &parameters,
                 const std::string        &section,
                 const MaterialPlace      &place = {});
+
+  /** What the material weighs more below the phreatic line than above it: key
+   * `Saturated density` less `Density` [mass/length^dim].
+   * @throws InputError naming the section if it weighs less. */
+  double
+  extra_density_of(const MaterialParameters &parameters,
+                   const std::string        &section);
 } // namespace moraine
 
 #endif

@@ -33,11 +33,11 @@ namespace moraine
 
     /**
      * @throws InputError if the location is missing, or if a quantity is asked
-     * for that this kind of probe, or a scene that is not dynamic, does not
-     * have.
+     * for that this kind of probe, or a scene that is not dynamic or has no
+     * water, does not have.
      */
     void
-    check(const bool is_dynamic) const;
+    check(const bool is_dynamic, const bool has_water) const;
   };
 
   /**
@@ -182,8 +182,9 @@ namespace moraine
                  const unsigned int        body,
                  Probe                    &probe) const;
 
-    /** Position, displacement, stress, velocity and acceleration of the points
-     * that are followed, and 1; zeros alone while the body is not there. */
+    /** Position, displacement, stress, velocity, acceleration and pore pressure
+     * of the points that are followed, and 1; zeros alone while the body is not
+     * there. */
     std::vector<std::vector<double>>
     gather_points(const PointSet<dim> &points) const;
 
@@ -192,6 +193,7 @@ namespace moraine
     double                                  cell_size;
     bool                                    moves_through_mesh;
     PointField<dim, dealii::Tensor<1, dim>> v_field, a_field;
+    PointField<dim, double>                 pressure_field;
   };
 } // namespace moraine
 

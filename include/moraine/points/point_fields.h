@@ -227,6 +227,10 @@ namespace moraine
     /** Where it goes back to nodes, see Motion. */
     inline static const Tensor velocity_gradient{"velocity_gradient", "1/time"};
     inline static const SymmetricTensor stress{"stress", "stress"};
+    /** Where there is water: @f$p_w@f$, compression positive, and
+     * @f$\sigma' - p_w 1@f$. */
+    inline static const Number pore_pressure{"pore_pressure", "stress"};
+    inline static const SymmetricTensor total_stress{"total_stress", "stress"};
     /** In dynamics at small strain, what recovered strains add to the stress;
      * see DoubleMapping. */
     inline static const SymmetricTensor stress_of_recovery{"stress_of_recovery",

@@ -43,6 +43,16 @@ namespace moraine
   write_boundary_vtu(const Model<dim>               &model,
                      const std::vector<std::string> &acting,
                      const VtuTarget                &target);
+
+  /**
+   * Write places of the phreatic line (`kind` 0) and, if it is given, of the
+   * level of free water (1), from one side of the mesh to the other. Where the
+   * pressure is given, the line is the highest place without it. Collective.
+   * @throws InputError naming the file if it cannot be written.
+   */
+  template <int dim>
+  void
+  write_water_vtu(const Model<dim> &model, const VtuTarget &target);
 } // namespace moraine
 
 #endif

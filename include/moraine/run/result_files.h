@@ -88,7 +88,7 @@ namespace moraine
     dealii::TimerOutput   &timer;
     const MPI_Comm         communicator;
     History                history;
-    /** By series: points, mesh, boundaries, domains. */
+    /** By series: points, mesh, boundaries, domains, water. */
     std::map<std::string, PvdHistory> lists;
     /** Of conditions that move; see translations_of_conditions(). */
     NamedTranslations<dim>   translations;

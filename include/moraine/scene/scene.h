@@ -18,6 +18,7 @@
 #include <moraine/scene/stage_parameters.h>
 #include <moraine/scene/strength_reduction.h>
 #include <moraine/scene/study_parameters.h>
+#include <moraine/scene/water_parameters.h>
 #include <moraine/solver/linear_solver.h>
 #include <moraine/solver/newton.h>
 #include <moraine/time/time_control.h>
@@ -131,6 +132,7 @@ namespace moraine
     Named<GridConditionParameters<dim>> grid_conditions;
     Named<LoadParameters<dim>>          loads;
     MeshMotionParameters                mesh_motion;
+    WaterParameters                     water;
     TimeParameters                      time;   ///< of a scene without stages
     NamedStages                         stages; ///< at least one
     NewtonParameters                    newton;
@@ -144,6 +146,10 @@ namespace moraine
     /** Whether there is a stage with inertia. */
     bool
     is_dynamic() const;
+
+    /** Whether there is a stage with water. */
+    bool
+    has_water() const;
 
     /** Whether some integrator has the energy of the motion as it was. */
     bool
@@ -211,6 +217,10 @@ namespace moraine
 
     void
     check_bodies(const InputFile &input) const;
+
+    /** Section 'Water' and what belongs to it. */
+    void
+    check_water(const std::vector<InputFile::Entry> &given) const;
 
     /** Keys of bodies of which others are made. */
     void

@@ -8,8 +8,10 @@
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
+#include <moraine/load/water.h>
 #include <moraine/scene/scene.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,17 @@ namespace moraine
              const std::vector<std::string> &body_names,
              const ShapePointer<dim>        &body,
              const Covers<dim>              &covers);
+
+  /** The water of a stage; none if it has none. */
+  template <int dim>
+  std::optional<Water<dim>>
+  make_water(const Scene<dim> &scene, const StageParameters &stage);
+
+  /** By body: what it weighs more below the phreatic line. */
+  template <int dim>
+  std::vector<double>
+  extra_densities(const Scene<dim>               &scene,
+                  const std::vector<std::string> &body_names);
 
   /** Velocities at the start, by body. */
   template <int dim>

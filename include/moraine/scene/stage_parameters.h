@@ -5,6 +5,7 @@
 #define moraine_scene_stage_parameters_h
 
 #include <moraine/core/input_file.h>
+#include <moraine/scene/water_parameters.h>
 #include <moraine/time/time_control.h>
 
 #include <string>
@@ -28,6 +29,8 @@ namespace moraine
     /** Boundaries and grid conditions that absorb from this stage on. */
     std::vector<std::string> absorbing;
     bool                     reset_displacements = false;
+    /** As read, also the words "as before" and "none". */
+    WaterLevels water{"as before", "as before", "as before"};
 
     void
     add_parameters(dealii::ParameterHandler &prm);
@@ -56,6 +59,11 @@ namespace moraine
                   const TimeParameters                &time,
                   const StageNames                    &names,
                   NamedStages                         &stages);
+
+  /** Give every stage the water that it left to the one before, the first one
+   * that @p of_scene. @throws InputError for what contradicts itself. */
+  void
+  complete_water(const WaterLevels &of_scene, NamedStages &stages);
 
   /** Which bodies come and go, in words: ", with a, without b". */
   std::string

@@ -350,6 +350,12 @@ namespace moraine
       return factors.empty() ? points.volume(p) : factors[p] * points.volume(p);
     }
 
+    /** The volume of the i-th point of a block in the mesh as it is: with it a
+     * point counts in the mean over its cell, and a uniform pressure has no
+     * force inside of a body. */
+    double
+    volume_in_cell(const StencilBlock<dim> &block, const unsigned int i) const;
+
     /** Whether the tangent is that of the elastic stiffness everywhere. */
     bool
     is_linear() const;
@@ -370,11 +376,6 @@ namespace moraine
     bool
     tie_nodes(std::vector<unsigned char>                 active,
               const typename Aggregates<dim>::AskOfCell &holds_mean_in);
-
-    /** The volume with which the i-th point of a block counts in the mean over
-     * its cell. */
-    double
-    volume_in_cell(const StencilBlock<dim> &block, const unsigned int i) const;
 
     /** Write what the i-th trial point, @p p, carries at the end of the step.
      */
