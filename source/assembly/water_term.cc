@@ -19,9 +19,9 @@ namespace moraine
   Tensor<1, dim>
   half_lengths(const State<dim> &state, const unsigned int p)
   {
-    // The Gauss points next to a face of a cell are 0.42 (degree 1) and 0.41
-    // (degree 2) of their own size away from it.
-    constexpr double part_in_cell = 0.4;
+    // Gauss points next to a face of a cell are 0.30 times the root of their
+    // volume away from it, or more.
+    constexpr double part_in_cell = 0.29;
     Tensor<1, dim>   half;
     if (state.point_basis().has_domains())
       {

@@ -219,7 +219,7 @@ namespace moraine
     const MPI_Comm communicator = model.space->communicator();
     const auto     box =
       GridTools::compute_bounding_box(model.mesh->triangulation());
-    if (model.water->water &&
+    if (model.loads.water->water &&
         Utilities::MPI::this_mpi_process(communicator) == 0)
       for (unsigned int k = 0; k <= n_columns; ++k)
         {
@@ -227,10 +227,11 @@ namespace moraine
           x[0] =
             box.lower_bound(0) + double(k) / n_columns * box.side_length(0);
           const auto line =
-            height_of_line(*model.water->water, x, box, target.time);
+            height_of_line(*model.loads.water->water, x, box, target.time);
           if (line)
             add(x, *line, 0.);
-          if (const auto level = model.water->water->free_level(x, target.time))
+          if (const auto level =
+                model.loads.water->water->free_level(x, target.time))
             add(x, *level, 1.);
         }
     file.write(communicator, patches.size(), [&patches](const unsigned int i) {

@@ -252,8 +252,8 @@ namespace moraine
       Utilities::MPI::n_mpi_processes(model.space->communicator());
     console << "Moraine " << version << ", " << dim << "D, " << n_ranks
             << (n_ranks == 1 ? " process\n" : " processes\n");
-    if (!scene.title.empty())
-      console << scene.title << '\n';
+    if (!scene.output.title.empty())
+      console << scene.output.title << '\n';
   }
 
 

@@ -157,11 +157,13 @@ namespace moraine
         "reaction_", " of " + report.name, "force", report.reaction, row);
     for (const auto &[name, translation] : translations)
       add_vector("u_", " of " + name, "length", translation(time.time()), row);
-    if (model.water)
+    if (model.loads.water)
       add_vector("force_",
                  " of water",
                  "force",
-                 force_of_outer_water(*model.water, time.time(), *model.state),
+                 force_of_outer_water(*model.loads.water,
+                                      time.time(),
+                                      *model.state),
                  row);
     add_moments(model, reports, row);
     for (unsigned int b = 0; b < model.boundaries.size(); ++b)

@@ -46,7 +46,7 @@ namespace moraine
         " [stress, tension positive]. geostatic: along gravity the weight of "
         "all bodies straight above up to the surface, by their densities and "
         "the loads of type gravity; across it, out of the plane too, K0 times "
-        "as much. None if left out.");
+        "as much, with section 'Water' of effective stress. None if left out.");
     prm.add_parameter(
       "K0",
       K0,
@@ -233,7 +233,7 @@ namespace moraine
         double pressure = water->outer_pressure(column.surface, start_time) -
                           water->pore_pressure(x, start_time);
         for (const auto &part : column.parts)
-          if (const double extra = model.water->extra_density[part.body];
+          if (const double extra = model.loads.water->extra_density[part.body];
               extra > 0)
             pressure -= extra * (up * gravity(part.body, x)) *
                         wet_length(x + part.begin * up, x + part.end * up);

@@ -21,6 +21,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -234,13 +236,18 @@ namespace moraine
 
 
 
-    /** @throws InputError if no point has water in any stage. Collective. */
+    /** @throws InputError if no point has water in any stage; where points
+     * move, if none could come to it in the mesh. Collective. */
     template <int dim>
     void
     check_that_water_is_met(const Scene<dim> &scene, const Model<dim> &model)
     {
       constexpr unsigned int n_times  = 8;
       double                 greatest = std::numeric_limits<double>::lowest();
+      const auto             base =
+        GridTools::compute_bounding_box(model.mesh->triangulation())
+          .lower_bound(dim - 1);
+      const bool moves = scene.method.after_step() != MeshAfterStep::keep;
       for (const auto &[name, stage] : scene.stages)
         if (const auto water = make_water(scene, stage))
           for (unsigned int k = 0; k <= n_times; ++k)
@@ -250,10 +257,12 @@ namespace moraine
                 const double          t =
                   time.start_time +
                   double(k) / n_times * (time.end_time - time.start_time);
-                const Point<dim> &x = model.points->position(p);
-                greatest            = std::max({greatest,
-                                                water->uncut_pressure(x, t),
-                                                water->outer_pressure(x, t)});
+                Point<dim> x = model.points->position(p);
+                if (moves)
+                  x[dim - 1] = base;
+                greatest = std::max({greatest,
+                                     water->uncut_pressure(x, t),
+                                     water->outer_pressure(x, t)});
               }
       if (Utilities::MPI::max(greatest, model.space->communicator()) > 0)
         return;
@@ -265,7 +274,8 @@ namespace moraine
                                              stage.water.level,
                  stage.water.level.empty() ?
                    "one that is positive somewhere in a body" :
-                   "a height above the lowest point of the bodies");
+                 moves ? "a height above the base of the mesh" :
+                         "a height above the lowest point of the bodies");
     }
   } // namespace
 
@@ -307,7 +317,7 @@ namespace moraine
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
     if (scene.has_water())
-      water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
+      loads.water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
         {},
         extra_densities(scene, body_names),
         points->fields().find(FieldNames<dim>::pore_pressure),
@@ -333,10 +343,10 @@ namespace moraine
                                              MeshAfterStep::reset);
     keep_for_later(scene);
     set_stage(scene, 0);
-    if (water)
+    if (loads.water)
       {
         check_that_water_is_met(scene, *this);
-        set_water_at_points(*water, scene.start_time(), *state, *points);
+        set_water_at_points(*loads.water, scene.start_time(), *state, *points);
       }
     mesh_motion = make_mesh_motion(scene, *mesh, boundaries, grid_conditions);
     if (mesh_motion.moves())
@@ -409,9 +419,12 @@ namespace moraine
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
     terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
-    if (water)
-      terms.push_back(std::make_unique<WaterTerm<dim>>(
-        *water, *points, gravities_of(stage, loads), state->strain_measure()));
+    if (loads.water)
+      terms.push_back(
+        std::make_unique<WaterTerm<dim>>(*loads.water,
+                                         *points,
+                                         gravities_of(stage, loads),
+                                         state->strain_measure()));
     return terms;
   }
 
@@ -485,8 +498,8 @@ namespace moraine
   {
     const StageParameters &stage = scene.stages[k].second;
     set_bodies(stage.bodies);
-    if (water)
-      water->water = make_water(scene, stage);
+    if (loads.water)
+      loads.water->water = make_water(scene, stage);
     for (auto &condition : grid_conditions)
       condition.start = stage.time.start_time;
     for (ImplicitBoundary<dim> &boundary : boundaries)

@@ -53,7 +53,7 @@ namespace moraine
       add("boundaries");
     if (scene.output.points && model.basis->has_domains())
       add("domains");
-    if (scene.output.points && model.water)
+    if (scene.output.points && model.loads.water)
       add("water");
   }
 

@@ -192,8 +192,12 @@ namespace moraine
       return make_material(named.second, "Materials/" + named.first)
         ->dissipates();
     });
+    // A flux of effective stress would miss what water presses from one side.
+    const bool water_differs = any_of(stages, [this](const auto &stage) {
+      return stage.second.water.differs_outside(water.suction);
+    });
     if (method.strain_measure() == StrainMeasure::finite || any_yields ||
-        conserves_energy())
+        conserves_energy() || water_differs)
       choose_enforcement("augmented Lagrangian", input);
     else if (is_dynamic())
       choose_enforcement("symmetric Nitsche", input);
@@ -457,7 +461,7 @@ namespace moraine
                       dimension,
                       "2 (plane strain) or 3.",
                       patterns::integer_in_range(2, 3));
-    prm.add_parameter("Title", title, "Shown at the start of a run.");
+    prm.add_parameter("Title", output.title, "Shown at the start of a run.");
     prm.declare_entry(
       "Units",
       "",

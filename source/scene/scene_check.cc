@@ -525,6 +525,18 @@ namespace moraine
              "a method without double mapping; section 'Water' is given");
     for (const auto &[name, material] : materials)
       extra_density_of(material, "Materials/" + name);
+    const bool differs = any_of(stages, [this](const auto &stage) {
+      return stage.second.water.differs_outside(water.suction);
+    });
+    for (const auto &[name, boundary] : boundaries)
+      if (const std::string &how = boundary.enforcement.enforcement;
+          differs && boundary.constraint != "absorbing" &&
+          how.find("Nitsche") != std::string::npos)
+        reject("Boundaries/" + name,
+               "Enforcement",
+               how,
+               "one without a flux, as 'augmented Lagrangian', with 'Free "
+               "level' or 'Suction = kept'");
   }
 
 

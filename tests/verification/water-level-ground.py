@@ -1,4 +1,4 @@
-# ranks: 2  # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Level ground 10 m deep: 16 kN/m3 above a water table, 20 kN/m3 below it, water of 10
@@ -32,11 +32,17 @@ def exact(level, y, surface=10):
     return (20 * wet + 16 * (surface - y - wet) + free, 10 * max(0, level - y))
 
 
-def check(name, result, level):
+def check(name, result, level, of_cell=False):
+    """Cells of degree 1 have the stress of their middle by gravity."""
     for place in ("deep", "above"):
         values = {key.removesuffix(" at " + place): value for key, value in
                   result.probes.items() if key.endswith(place)}
-        total, pore = exact(level, values["y"])
+        pore = exact(level, values["y"])[1]
+        if of_cell:
+            whole, in_middle = exact(level, int(values["y"]) + 0.5)
+            total = whole - in_middle + pore
+        else:
+            total = exact(level, values["y"])[0]
         for key, value in (("sigma_yy", pore - total), ("pore_pressure", pore),
                            ("total_sigma_yy", -total), ("sigma_xx", (pore - total) / 3)):
             bound(f"{name}, {place}, {key}", values[key] / value - 1 if value else
@@ -62,8 +68,8 @@ METHODS = {
 }
 for name, settings in METHODS.items():
     if "finite" not in name:
-        check(f"{name}, by gravity", run(SCENE, settings), 6)
-    result = run(SCENE, {**settings, **GEOSTATIC})
+        check(f"{name}, by gravity", run(SCENE, {**settings, **QUIET}), 6, name != "FE Q2")
+    result = run(SCENE, {**settings, **GEOSTATIC, **QUIET})
     text(f"{name}, geostatic", imbalance(result))
     check(f"{name}, geostatic", result, 6)
     bound(f"{name}, displacement", result.summary["largest_displacement"], 1e-13)
@@ -71,7 +77,7 @@ for name, settings in METHODS.items():
 # Under 3 m of free water, given as one level and as two; a level between points.
 for name, settings in (("FE", {}), ("GIMP", METHODS["GIMP"])):
     for water in ({"Water/Level": 13}, {"Water/Level": 13, "Water/Free level": 13}):
-        result = run(SCENE, {**settings, **water, **GEOSTATIC})
+        result = run(SCENE, {**settings, **water, **GEOSTATIC, **QUIET})
         text(f"{name}, under water", imbalance(result))
         check(f"{name}, under water", result, 13)
         bound(f"{name}, displacement", result.summary["largest_displacement"], 1e-13)
@@ -80,12 +86,12 @@ for name, settings in (("FE", {}), ("GIMP", METHODS["GIMP"])):
 
 # An expression of the pressure says the same, and suction is kept where it is told to.
 result = run(SCENE, {"Water/Level": "", "Water/Pressure": "10*(6 - y)"})
-check("pressure", result, 6)
+check("pressure", result, 6, True)
 result = run(SCENE, {"Water/Suction": "kept", "Materials/soil/Saturated density": ""})
 y = result.probes["y at above"]
 bound("suction", result.probes["pore_pressure at above"] / (10 * (6 - y)) - 1, 1e-12)
 bound("stress with suction",
-      result.probes["sigma_yy at above"] / (-16 * (10 - y) + 10 * (6 - y)) - 1, 1e-10)
+      result.probes["sigma_yy at above"] / (-16 * (10 - 8.5) + 10 * (6 - 8.5)) - 1, 1e-10)
 
 # In stages: dry, then water, which leaves again; and a level that rises with time.
 STAGES = """
@@ -99,11 +105,11 @@ staged = scene_file("staged.prm", GROUND.replace("Water/Level = 6 | Unit", "Wate
                     .replace("Time/Steps = 2\n", ""), STAGES)
 rows = run(staged).history()
 for row, level in zip(rows, (0, 6, 0)):
-    total, pore = exact(level, row["y at deep"])
+    total, pore = exact(level, 2.5)
     bound(f"stage {row['t']:g}", row["sigma_yy at deep"] / (pore - total) - 1, 1e-10)
 rows = run(SCENE, {"Water/Level": "3*t", "Time/End time": 2}).history()
 for row in rows:
-    total, pore = exact(3 * row["t"], row["y at deep"])
+    total, pore = exact(3 * row["t"], 2.5)
     bound(f"rising, t = {row['t']:g}", row["sigma_yy at deep"] / (pore - total) - 1,
           1e-10)
 bound("force of water", rows[-1]["force_y of water"] / (4 * 6 * 10) - 1, 1e-12)

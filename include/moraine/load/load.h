@@ -4,6 +4,7 @@
 #ifndef moraine_load_load_h
 #define moraine_load_load_h
 
+#include <moraine/load/water.h>
 #include <moraine/geometry/carried_places.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/mesh/grid_space.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -243,9 +245,10 @@ namespace moraine
   template <int dim>
   struct Loads
   {
-    std::vector<BodyForce<dim>>     body_forces;
-    std::vector<CarriedLoad<dim>>   carried;
-    std::vector<ForceOnPoints<dim>> on_points;
+    std::vector<BodyForce<dim>>         body_forces;
+    std::vector<CarriedLoad<dim>>       carried;
+    std::vector<ForceOnPoints<dim>>     on_points;
+    std::unique_ptr<WaterInBodies<dim>> water; ///< null without
   };
 } // namespace moraine
 

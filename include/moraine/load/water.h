@@ -5,9 +5,9 @@
 #define moraine_load_water_h
 
 #include <moraine/core/expression.h>
-#include <moraine/load/load.h>
 #include <moraine/points/point_fields.h>
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <optional>

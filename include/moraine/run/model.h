@@ -6,7 +6,6 @@
 
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/diagnostics/facts.h>
-#include <moraine/load/water.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/bodies.h>
 #include <moraine/scene/scene.h>
@@ -62,7 +61,6 @@ namespace moraine
     std::vector<GridCondition<dim>>              grid_conditions;
     std::vector<AbsorbingBoundary<dim>>          absorbing_boundaries;
     Loads<dim>                                   loads;
-    std::unique_ptr<WaterInBodies<dim>>          water; ///< null without
     MeshMotion<dim>                              mesh_motion;
     std::unique_ptr<MechanicsSystem<dim>>        system;
     std::unique_ptr<LinearSolver>                linear_solver;

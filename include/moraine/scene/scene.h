@@ -76,6 +76,7 @@ namespace moraine
   /** Section `Output`. */
   struct OutputParameters
   {
+    std::string title; ///< key `Title` of the scene
     std::string directory;
     bool        points    = true;
     bool        mesh      = true;
@@ -123,7 +124,6 @@ namespace moraine
       return prm;
     }
 
-    std::string                         title;
     MeshParameters<dim>                 mesh;
     MethodParameters<dim>               method;
     Named<MaterialParameters>           materials;

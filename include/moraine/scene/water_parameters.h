@@ -31,6 +31,13 @@ namespace moraine
       return !level.empty() || !pressure.empty();
     }
 
+    /** Whether pressures on both sides of a surface can differ. */
+    bool
+    differs_outside(const std::string &suction) const
+    {
+      return any() && (!free_level.empty() || suction == "kept");
+    }
+
     /** Take from the stage before what this one says nothing of. @p section is
      * that of a message. @throw InputError for both a level and a pressure. */
     void
