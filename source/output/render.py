@@ -338,10 +338,12 @@ class Panel:
         lines = [self.water.points[kind == k][:, :2].astype(float)
                  for k in (0, 1)]
         lines = [line[np.argsort(line[:, 0])] for line in lines]
+        lines = [line[(line[:, 0] >= low[0]) & (line[:, 0] <= high[0])]
+                 for line in lines]
         outside = lines[1] if len(lines[1]) else lines[0]
-        axes.fill_between(*outside.T, low[1] - size, color="#cfe4f7", lw=0,
-                          zorder=0, where=outside[:, 1] > low[1] - size)
-        for line, style, at in zip(lines, ("-", "--"), (0.88, 0.06)):
+        axes.fill_between(*outside.T, low[1], color="#cfe4f7", lw=0, zorder=0,
+                          where=outside[:, 1] > low[1])
+        for line, style, at in zip(lines, ("-", "--"), (0.4, 0.94)):
             if not len(line):
                 continue
             axes.plot(*line.T, style, color="#1060c0", lw=1.6, zorder=3)

@@ -226,13 +226,16 @@ namespace moraine
           Point<dim> x = box.center();
           x[0] =
             box.lower_bound(0) + double(k) / n_columns * box.side_length(0);
-          const auto line =
-            height_of_line(*model.loads.water->water, x, box, target.time);
-          if (line)
-            add(x, *line, 0.);
-          if (const auto level =
-                model.loads.water->water->free_level(x, target.time))
-            add(x, *level, 1.);
+          try
+            {
+              const Water<dim> &water = *model.loads.water->water;
+              if (const auto line = height_of_line(water, x, box, target.time))
+                add(x, *line, 0.);
+              if (const auto level = water.free_level(x, target.time))
+                add(x, *level, 1.);
+            }
+          catch (const InputError &)
+            {} // beside the bodies it need not have values
         }
     file.write(communicator, patches.size(), [&patches](const unsigned int i) {
       return patches[i];

@@ -49,7 +49,7 @@ namespace moraine
                        "factor of safety",
                        "bodies with inertia never lack equilibrium, they move, "
                        "and would count as standing at every factor");
-        return SceneOfSafety{scene.title,
+        return SceneOfSafety{scene.output.title,
                              scene.strength_reduction,
                              scene.start_time(),
                              scene.end_time(),
