@@ -4,8 +4,9 @@
 #ifndef moraine_output_stress_rows_h
 #define moraine_output_stress_rows_h
 
-#include <moraine/points/point_fields.h>
+#include <moraine/points/point_set.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,6 +39,31 @@ namespace moraine
     for (unsigned int c = 3; c < n_stress_components<dim>; ++c)
       square += 2. * sigma[c] * sigma[c];
     return std::sqrt(1.5 * square);
+  }
+
+  /** Whether there are undrained materials, so that stress is not effective. */
+  template <int dim>
+  bool
+  has_excess_pressure(const PointFields &fields)
+  {
+    return fields.find(FieldNames<dim>::excess_pressure).exists();
+  }
+
+  /** The n_stress_components numbers @f$\sigma + p_e 1@f$ of point @p p. */
+  template <int dim>
+  std::array<double, n_stress_components<dim>>
+  effective_stress(const PointSet<dim> &points, const unsigned int p)
+  {
+    const double *values = points.values(p);
+    const auto    v_0 = points.fields().find(FieldNames<dim>::initial_volume);
+    const double  J   = v_0.exists() ? points.volume(p) / v_0(values) : 1.;
+    const double  pressure =
+      points.fields().find(FieldNames<dim>::excess_pressure)(values) / J;
+    std::array<double, n_stress_components<dim>> sigma;
+    std::copy_n(values + points.stress_offset(), sigma.size(), sigma.begin());
+    for (unsigned int c = 0; c < 3; ++c)
+      sigma[c] += pressure;
+    return sigma;
   }
 } // namespace moraine
 

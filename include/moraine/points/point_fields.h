@@ -227,6 +227,9 @@ namespace moraine
     /** Where it goes back to nodes, see Motion. */
     inline static const Tensor velocity_gradient{"velocity_gradient", "1/time"};
     inline static const SymmetricTensor stress{"stress", "stress"};
+    /** Of undrained materials, compression positive; J times as much at finite
+     * strain. */
+    inline static const Number excess_pressure{"excess_pressure", "stress"};
     /** In dynamics at small strain, what recovered strains add to the stress;
      * see DoubleMapping. */
     inline static const SymmetricTensor stress_of_recovery{"stress_of_recovery",

@@ -5,6 +5,7 @@
 #define moraine_scene_stage_parameters_h
 
 #include <moraine/core/input_file.h>
+#include <moraine/material/undrained.h>
 #include <moraine/time/time_control.h>
 
 #include <string>
@@ -27,6 +28,8 @@ namespace moraine
       grid_conditions{"as before"}, loads{"as before"}, bodies{"as before"};
     /** Boundaries and grid conditions that absorb from this stage on. */
     std::vector<std::string> absorbing;
+    /** Undrained materials whose water flows; as the lists above. */
+    std::vector<std::string> drained{"as before"};
     bool                     reset_displacements = false;
 
     void
@@ -42,6 +45,8 @@ namespace moraine
     std::vector<std::string> boundaries, grid_conditions, loads;
     /** Without those that others are combined from. */
     std::vector<std::string> bodies;
+    /** Materials. */
+    std::vector<std::string> undrained;
   };
 
   /**
@@ -56,6 +61,10 @@ namespace moraine
                   const TimeParameters                &time,
                   const StageNames                    &names,
                   NamedStages                         &stages);
+
+  /** When the water of @p material flows. */
+  std::vector<DrainedSpan>
+  drained_spans(const NamedStages &stages, const std::string &material);
 
   /** Which bodies come and go, in words: ", with a, without b". */
   std::string
