@@ -37,11 +37,15 @@ refused("ratio of an incompressible body", {**WET, RATIO: 0.5})
 refused("ratio that is no number", {**WET, RATIO: "high"})
 refused("skeleton stiffer than both", {**WET, "Materials/soil/Poisson ratio": 0.496})
 refused("skeleton stiffer than both somewhere", {
-    **WET, "Materials/soil/Poisson ratio": "0.3 + 0.19*y", RATIO: 0.4})
+    **WET, "Materials/soil/Poisson ratio": "0.3 + 0.04*y", RATIO: 0.4})
 refused("pores that are all", {**WET, BULK: 2e6, POROSITY: 1})
 refused("negative modulus", {**WET, BULK: -2e6, POROSITY: 0.3})
 refused("negative suction", {**WET, SUCTION: -1})
-refused("UMAT", {**WET, "Materials/soil/Model": "UMAT", "Materials/soil/Library": "a.f"})
+refused("UMAT", WET, scene_file("umat.prm", """
+Materials/soil/Model = UMAT | Library = a.f
+Mesh/Lower corner = 0, 0 | Upper corner = 2, 2 | Cell size = 1
+Bodies/block/Lower corner = 0, 0 | Upper corner = 2, 2
+"""))
 refused("energy-momentum", {**WET, "Materials/soil/Density": 1,
                             "Time/Integrator": "energy-momentum"})
 refused("drained anyway", {"Stages/two/Drained": "soil"}, STAGED)

@@ -82,7 +82,7 @@ namespace undrained_test
     Pointer
     clay(const double OCR)
     {
-      CamClayParameters result;
+      CamClayParameters result{};
       result.friction_angle = std::asin(0.5);
       result.compression    = 0.1;
       result.swelling       = 0.02;
@@ -247,38 +247,46 @@ namespace undrained_test
                     0.0087719,
                     1e-6);
       }
-    const Pointer tresca = std::make_shared<VonMises>(
-      E, nu, 0., std::vector<std::pair<double, double>>{{0, 80}});
+    const Pointer tresca =
+      std::make_shared<VonMises>(E,
+                                 nu,
+                                 0.,
+                                 std::vector<std::pair<double, double>>{
+                                   {0, std::sqrt(2. / 3) * 80}});
     EXPECT_NEAR(triaxial(undrained(tresca), 0.02, 20).q, 80, 1e-8);
   }
 
 
 
-  // p_f = p_0 (OCR / 2)^(1 - kappa / lambda) as water becomes stiff; what is
-  // left is in proportion to its compressibility.
+  // p_f = p_0 (OCR / 2)^(1 - kappa / lambda) at the critical state as water
+  // becomes stiff. What is left is in proportion to its compressibility; the
+  // error of n implicit steps is 1 / n, and goes with its extrapolation.
   TEST(Undrained, CamClay)
   {
+    const auto at_end = [](const double OCR, const double stiff) {
+      const auto material = undrained(clay(OCR), water(stiff));
+      const End  coarse   = triaxial(material, 0.3, 400),
+                fine      = triaxial(material, 0.3, 800);
+      EXPECT_NEAR(fine.q / fine.p, 1.2, 1e-4);
+      EXPECT_NEAR(fine.excess, 100 + fine.q / 3 - fine.p, 1e-6);
+      return End{2 * fine.q - coarse.q,
+                 2 * fine.p - coarse.p,
+                 2 * fine.excess - coarse.excess};
+    };
     for (const double OCR : {1., 2., 4.})
       {
-        const double p_f    = 100 * std::pow(OCR / 2, 0.8);
-        double       before = 0;
-        for (const double stiff : {1e6, 1e7, 1e8})
-          {
-            const End end =
-              triaxial(undrained(clay(OCR), water(stiff)), 0.3, 60);
-            const double error = end.p / p_f - 1;
-            EXPECT_LE(std::abs(error), 2e3 / stiff) << OCR;
-            if (before != 0 && std::abs(before) > 1e-6)
-              EXPECT_NEAR(before / error, 10, 0.3) << OCR << ' ' << stiff;
-            before = error;
-            EXPECT_NEAR(end.q / end.p, 1.2, 1e-4);
-            EXPECT_NEAR(end.excess, 100 + end.q / 3 - end.p, 1e-6);
-          }
+        const double p_f   = 100 * std::pow(OCR / 2, 0.8);
+        const double soft  = at_end(OCR, 1e5).p / p_f - 1,
+                     stiff = at_end(OCR, 1e6).p / p_f - 1,
+                     rigid = at_end(OCR, 1e8).p / p_f - 1;
+        EXPECT_LE(std::abs(rigid), 1e-4) << OCR;
+        EXPECT_LE(std::abs(stiff), 1e-3) << OCR;
+        EXPECT_NEAR((soft - rigid) / (stiff - rigid), 10, 0.5) << OCR;
       }
-    const End end = triaxial(undrained(clay(1), water(1e9)), 0.3, 60);
-    EXPECT_NEAR(end.p, 57.434918, 1e-3);
-    EXPECT_NEAR(end.q, 68.921901, 1e-3);
-    EXPECT_NEAR(end.excess, 65.539050, 1e-3);
+    const End end = at_end(1, 1e8);
+    EXPECT_NEAR(end.p, 57.434918, 5e-3);
+    EXPECT_NEAR(end.q, 68.921901, 5e-3);
+    EXPECT_NEAR(end.excess, 65.539050, 5e-3);
     // K_w / n of the stiffness at the start, 5000 of skeleton.
     const auto by_ratio = undrained(clay(1));
     const auto internal = start_of(*by_ratio, 100);
@@ -415,9 +423,11 @@ namespace undrained_test
             continue;
           const auto          stress = soil_point::diagonal(-60, -70, -100);
           const MaterialPoint point(undrained(inner), measure, stress);
-          EXPECT_LE((point.stress() - stress).norm(), 1e-9);
-          const unsigned int p = inner->internal_variables().size();
-          EXPECT_NEAR(point.internal()[p], 0, 1e-9);
+          // Strains are known to round-off, which water makes a pressure of.
+          const unsigned int p     = inner->internal_variables().size();
+          const double       error = 3e-14 * K_w;
+          EXPECT_LE((point.stress() - stress).norm(), error);
+          EXPECT_NEAR(point.internal()[p], 0, error);
         }
   }
 
@@ -469,7 +479,8 @@ namespace undrained_test
             const auto         before = at;
             const Tensor<1, 3> trial  = e + random.vector(0, 3e-4);
             const auto         to     = answer(*wet, trial, at);
-            ASSERT_TRUE(std::isfinite(to.stress.norm()));
+            ASSERT_TRUE(std::isfinite(to.stress.norm()))
+              << inner->why_no_stress() << ' ' << i << ' ' << trial << ' ' << e;
             for (unsigned int B = 0; B < 3; ++B)
               {
                 const auto moved = [&](const double by) {
