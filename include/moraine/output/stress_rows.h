@@ -49,20 +49,29 @@ namespace moraine
     return fields.find(FieldNames<dim>::excess_pressure).exists();
   }
 
-  /** The n_stress_components numbers @f$\sigma + p_e 1@f$ of point @p p. */
+  /** Cauchy's excess pressure of point @p p; @f$p_e@f$ is J times that. */
+  template <int dim>
+  double
+  excess_pressure(const PointSet<dim> &points, const unsigned int p)
+  {
+    const double      *values = points.values(p);
+    const PointFields &fields = points.fields();
+    const auto         v_0    = fields.find(FieldNames<dim>::initial_volume);
+    return fields.find(FieldNames<dim>::excess_pressure)(values) /
+           (v_0.exists() ? points.volume(p) / v_0(values) : 1.);
+  }
+
+  /** The n_stress_components numbers @f$\sigma + p_e/J\, 1@f$ of point @p p. */
   template <int dim>
   std::array<double, n_stress_components<dim>>
   effective_stress(const PointSet<dim> &points, const unsigned int p)
   {
-    const double *values = points.values(p);
-    const auto    v_0 = points.fields().find(FieldNames<dim>::initial_volume);
-    const double  J   = v_0.exists() ? points.volume(p) / v_0(values) : 1.;
-    const double  pressure =
-      points.fields().find(FieldNames<dim>::excess_pressure)(values) / J;
     std::array<double, n_stress_components<dim>> sigma;
-    std::copy_n(values + points.stress_offset(), sigma.size(), sigma.begin());
+    std::copy_n(points.values(p) + points.stress_offset(),
+                sigma.size(),
+                sigma.begin());
     for (unsigned int c = 0; c < 3; ++c)
-      sigma[c] += pressure;
+      sigma[c] += excess_pressure(points, p);
     return sigma;
   }
 } // namespace moraine
