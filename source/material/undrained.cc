@@ -319,7 +319,8 @@ namespace moraine
                  ", that of the skeleton, and < 0.5");
       if (input.has("Cavitation suction"))
         result.suction =
-          input.number("Cavitation suction", {0., 1e300, true, false});
+          input.number("Cavitation suction",
+                       {0., std::numeric_limits<double>::infinity(), true});
       return result;
     }
   } // namespace

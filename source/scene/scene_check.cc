@@ -437,11 +437,16 @@ namespace moraine
                  material.model,
                  "without inertia; in dynamics a model whose elastic energy is "
                  "known");
-        const bool is_undrained = made->with_frozen_water(0) != nullptr;
+        if (made->with_frozen_water(0) && conserves_energy())
+          reject("Materials/" + name,
+                 "Drainage",
+                 "undrained",
+                 "drained; integrator 'energy-momentum' needs stress that is "
+                 "linear in the elastic strain");
         if (!made->has_linear_elasticity() && conserves_energy())
           reject("Materials/" + name,
-                 is_undrained ? "Drainage" : "Model",
-                 is_undrained ? "undrained" : material.model,
+                 "Model",
+                 material.model,
                  "another integrator than 'energy-momentum', which needs "
                  "linear elasticity");
         if (!made->has_symmetric_tangent() && linear_solver.solver == "amg-cg")
