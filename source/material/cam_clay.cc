@@ -534,33 +534,23 @@ namespace moraine
     CamClayParameters
     read_cam_clay(MaterialInput &input)
     {
-      const auto number = [&](const std::string &key,
-                              const NumberRange &range) {
-        if (!input.has(key))
-          throw InputError(place(input.section, key) +
-                           ": is not set, and has no default");
-        const auto value = number_from(input.text(key));
-        if (!value || !range.contains(*value))
-          input.refuse(key, range.describe());
-        return *value;
-      };
       CamClayParameters result;
       const double      angle =
-        number("Critical state angle", {1., 48., true, true});
+        input.number("Critical state angle", {1., 48., true, true});
       result.friction_angle    = angle * numbers::PI / 180;
       const std::string &shape = input.text("Critical state");
       result.critical_state =
         shape == "circle, compression"  ? Critical::circle_in_compression :
         shape == "circle, plane strain" ? Critical::circle_in_plane_strain :
                                           Critical::lode_angle;
-      result.swelling    = number("Swelling index", {0.});
-      result.compression = number("Compression index", {0.});
+      result.swelling    = input.number("Swelling index", {0.});
+      result.compression = input.number("Compression index", {0.});
       if (!(result.compression > result.swelling))
         input.refuse("Compression index",
                      "above 'Swelling index' = " + text_of(result.swelling) +
                        "; slopes of ln v over ln p");
       result.shear_modulus  = input.parameter("Shear modulus", {0.}, "stress");
-      result.least_pressure = number("Minimum pressure", {0.});
+      result.least_pressure = input.number("Minimum pressure", {0.});
       result.OCR =
         input.parameter("OCR",
                         {1., std::numeric_limits<double>::infinity(), true},
@@ -570,7 +560,7 @@ namespace moraine
                         {0., std::numeric_limits<double>::infinity(), true},
                         "stress");
       result.normal_K0 = input.has("Normal K0") ?
-                           number("Normal K0", {0., 1., false, true}) :
+                           input.number("Normal K0", {0., 1., false, true}) :
                            1 - std::sin(result.friction_angle);
       result.density   = input.number("Density");
       result.fields    = input.fields();

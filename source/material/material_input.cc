@@ -98,6 +98,20 @@ namespace moraine
 
 
 
+  double
+  MaterialInput::number(const std::string &key, const NumberRange &range) const
+  {
+    if (!has(key))
+      throw InputError(moraine::place(section, key) +
+                       ": is not set, and has no default");
+    const auto value = number_from(text(key));
+    if (!value || !range.contains(*value))
+      refuse(key, range.describe());
+    return *value;
+  }
+
+
+
   Parameter
   MaterialInput::parameter(const std::string &key,
                            const NumberRange &range,

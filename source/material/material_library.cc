@@ -70,6 +70,9 @@ namespace moraine
                 result.push_back(saturated_density_key());
               }
           }
+        result.insert(result.end(),
+                      drainage_keys().begin(),
+                      drainage_keys().end());
         return result;
       }();
       return keys;
@@ -136,14 +139,25 @@ namespace moraine
                                  saturated_density_key().name};
     for (const MaterialKey &key : model.keys)
       own.push_back(key.name);
+    const auto is_drainage = [](const MaterialKey &key) {
+      return any_of(drainage_keys(), [&](const MaterialKey &known) {
+        return known.name == key.name;
+      });
+    };
     for (const MaterialKey &key : all_keys())
       if (!contains(own, key.name) &&
+          !(model.is_isotropic && is_drainage(key)) &&
           input.text(key.name) != key.default_text &&
-          number_from(input.text(key.name)) != number_from(key.default_text))
+          !(number_from(key.default_text) &&
+            number_from(input.text(key.name)) == number_from(key.default_text)))
         input.refuse(key.name,
-                     "nothing; the keys of '" + model.name + "' are " +
-                       list_of(own));
-    return model.make(input);
+                     is_drainage(key) ?
+                       "nothing; what water does is a matter of the " +
+                         model.name :
+                       "nothing; the keys of '" + model.name + "' are " +
+                         list_of(own));
+    return model.is_isotropic ? with_drainage(model.make(input), input) :
+                                model.make(input);
   }
 
 

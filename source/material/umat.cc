@@ -541,6 +541,7 @@ namespace moraine
         "never quite 0.",
         "full",
         patterns::selection({"full", "symmetric"})}},
-      read_umat};
+      read_umat,
+      /* is_isotropic = */ false};
   }
 } // namespace moraine

@@ -55,13 +55,15 @@ namespace moraine
 
 
 
-    /** Append the rows of the stress at all nodes of a patch. */
+    /** Append the rows of the stress at all nodes of a patch, from
+     * @p first_row, and of its invariants if wanted. */
     template <int dim>
     void
     add_stress(const GridSpace<dim>                        &space,
                const typename GridSpace<dim>::CellIterator &cell,
                const SmoothedStress<dim>                   &stress,
                const unsigned int                           first_row,
+               const bool                                   with_invariants,
                Table<2, float>                             &data)
     {
       const auto         corners = stress_of_corners(cell, stress);
@@ -79,6 +81,8 @@ namespace moraine
           unsigned int row = first_row;
           for (const unsigned int c : tensor_components<dim>)
             data(row++, a) = c < here.size() ? here[c] : 0.;
+          if (!with_invariants)
+            continue;
           data(row++, a) = von_mises_stress<dim>(here.data());
           data(row++, a) = mean_stress(here.data());
         }
@@ -93,6 +97,7 @@ namespace moraine
                const typename GridSpace<dim>::CellIterator &cell,
                const std::vector<NodeField<dim>>           &fields,
                const SmoothedStress<dim>                   &stress,
+               const SmoothedStress<dim>                   *effective,
                const unsigned int                           n_rows)
     {
       const unsigned int           n_nodes = space.nodes_per_cell();
@@ -107,7 +112,10 @@ namespace moraine
 
       // After these come the places of the nodes, from the first vertex.
       patch.data.reinit(n_rows + dim, n_nodes);
-      add_stress(space, cell, stress, dim * fields.size(), patch.data);
+      const unsigned int first = dim * fields.size();
+      add_stress(space, cell, stress, first, true, patch.data);
+      if (effective)
+        add_stress(space, cell, *effective, first + 11, false, patch.data);
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           unsigned int row = 0;
@@ -129,7 +137,8 @@ namespace moraine
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
                  const SmoothedStress<dim>         &stress,
-                 const VtuTarget                   &target)
+                 const VtuTarget                   &target,
+                 const SmoothedStress<dim>         *effective)
   {
     VtuFile<dim, dim> file(target);
     for (const auto &field : fields)
@@ -140,13 +149,16 @@ namespace moraine
     file.add_tensor("smoothed_stress", "stress");
     file.add_scalar("smoothed_von_mises_stress", "stress");
     file.add_scalar("smoothed_mean_stress", "stress");
+    if (effective)
+      file.add_tensor("smoothed_effective_stress", "stress");
     std::vector<typename GridSpace<dim>::CellIterator> cells;
     for (const auto &cell :
          space.mesh().triangulation().active_cell_iterators())
       if (cell->is_locally_owned() && space.is_active(cell))
         cells.push_back(cell);
     file.write(space.communicator(), cells.size(), [&](const unsigned int i) {
-      return make_patch(space, cells[i], fields, stress, file.n_rows());
+      return make_patch(
+        space, cells[i], fields, stress, effective, file.n_rows());
     });
   }
 

@@ -39,6 +39,8 @@ namespace moraine
       file.add_scalar("von_mises_stress", "stress");
       file.add_scalar("mean_stress", "stress");
       file.add_scalar("smoothed_mean_stress", "stress");
+      if (has_excess_pressure<dim>(fields))
+        file.add_tensor("effective_stress", "stress");
     }
 
 
@@ -80,6 +82,12 @@ namespace moraine
       rows.push_back(von_mises_stress<dim>(sigma));
       rows.push_back(mean_stress(sigma));
       rows.push_back(smoothed_mean_stress[p]);
+      if (has_excess_pressure<dim>(points.fields()))
+        {
+          const auto effective = effective_stress(points, p);
+          for (const unsigned int c : tensor_components<dim>)
+            rows.push_back(c < effective.size() ? effective[c] : 0.);
+        }
       return rows;
     }
 

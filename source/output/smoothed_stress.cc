@@ -3,6 +3,8 @@
 
 #include <moraine/output/smoothed_stress.h>
 
+#include <moraine/output/stress_rows.h>
+
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
@@ -67,15 +69,19 @@ namespace moraine
 
 
   template <int dim>
-  SmoothedStress<dim>::SmoothedStress(const PointSet<dim> &points)
+  SmoothedStress<dim>::SmoothedStress(const PointSet<dim> &points,
+                                      const bool           effective)
     : means(vertex_means(
         points,
         n_stress_components<dim>,
         [](const unsigned int) { return true; },
-        [&points](const double v, const unsigned int p, double *sum) {
+        [&](const double v, const unsigned int p, double *sum) {
           const double *sigma = points.values(p) + points.stress_offset();
           for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
             sum[c] += v * sigma[c];
+          const double pressure = effective ? excess_pressure(points, p) : 0.;
+          for (unsigned int c = 0; c < 3 && effective; ++c)
+            sum[c] += v * pressure;
         }))
   {}
 

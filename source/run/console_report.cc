@@ -299,6 +299,8 @@ namespace moraine
       console << change_of_bodies(stage, scene.stages[k - 1].second);
     if (!stage.absorbing.empty())
       console << ", absorbing " << list_of(stage.absorbing);
+    if (!stage.drained.empty())
+      console << ", drained " << list_of(stage.drained);
     console << '\n';
     if (name.empty())
       return;

@@ -8,11 +8,13 @@
 #include <moraine/output/mesh_vtu.h>
 #include <moraine/output/on_root.h>
 #include <moraine/output/point_vtu.h>
+#include <moraine/output/stress_rows.h>
 #include <moraine/run/condition_results.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace moraine
 {
@@ -161,10 +163,14 @@ namespace moraine
             add("acceleration", "length/time^2", model.motion->accelerations());
           }
         add_file("mesh", t, [&](const VtuTarget &target) {
+          std::optional<SmoothedStress<dim>> effective;
+          if (has_excess_pressure<dim>(model.points->fields()))
+            effective.emplace(*model.points, true);
           write_mesh_vtu<dim>(*model.space,
                               fields,
                               SmoothedStress<dim>(*model.points),
-                              target);
+                              target,
+                              effective ? &*effective : nullptr);
         });
         if (!model.boundaries.empty())
           add_file("boundaries", t, [&](const VtuTarget &target) {

@@ -95,6 +95,19 @@ namespace moraine
 
 
 
+    template <class List>
+    std::vector<std::string>
+    undrained_of(const List &materials)
+    {
+      std::vector<std::string> names;
+      for (const auto &[name, parameters] : materials)
+        if (parameters.texts.at("Drainage") == "undrained")
+          names.push_back(name);
+      return names;
+    }
+
+
+
     template <class List, class Declare>
     void
     in_subsections(ParameterHandler  &prm,
@@ -185,13 +198,20 @@ namespace moraine
                     {names_of(boundaries),
                      names_of(grid_conditions),
                      names_of(loads),
-                     simulated_bodies(*this)},
+                     simulated_bodies(*this),
+                     undrained_of(materials)},
                     stages);
     complete_water(water.levels, stages);
-    const bool any_yields = any_of(materials, [](const auto &named) {
-      return make_material(named.second, "Materials/" + named.first)
-        ->dissipates();
-    });
+    strength_reduction.find_start(stages);
+    // Where water flows stress is not that of the undrained stiffness either.
+    const bool any_yields =
+      any_of(materials,
+             [](const auto &named) {
+               return make_material(named.second, "Materials/" + named.first)
+                 ->dissipates();
+             }) ||
+      any_of(stages,
+             [](const auto &named) { return !named.second.drained.empty(); });
     // A flux of effective stress would miss what water presses from one side.
     const bool water_differs = any_of(stages, [this](const auto &stage) {
       return stage.second.water.differs_outside(water.suction);

@@ -216,8 +216,11 @@ namespace moraine
         for (const auto &[name, material] : scene.materials)
           if (parameters->second.material == name ||
               scene.materials.size() == 1)
-            materials.push_back(scene.strength_reduction.reduced(
-              name, make_material(material, "Materials/" + name, place)));
+            {
+              place.drained = drained_spans(scene.stages, name);
+              materials.push_back(scene.strength_reduction.reduced(
+                name, make_material(material, "Materials/" + name, place)));
+            }
       }
     return materials;
   }

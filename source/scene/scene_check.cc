@@ -438,6 +438,12 @@ namespace moraine
                  material.model,
                  "without inertia; in dynamics a model whose elastic energy is "
                  "known");
+        if (made->with_frozen_water(0) && conserves_energy())
+          reject("Materials/" + name,
+                 "Drainage",
+                 "undrained",
+                 "drained; integrator 'energy-momentum' needs stress that is "
+                 "linear in the elastic strain");
         if (!made->has_linear_elasticity() && conserves_energy())
           reject("Materials/" + name,
                  "Model",

@@ -47,6 +47,13 @@ namespace moraine
       "Names of boundaries and of grid conditions on sides, active so far, that "
       "absorb waves from this stage on in place of what they did, and hold the "
       "tractions that they had by then.");
+    prm.add_parameter(
+      "Drained",
+      drained,
+      "Names of undrained materials whose water flows from this stage on. Their "
+      "excess pressure falls to zero over this stage, linearly in time, and "
+      "stays there. as before: those of the stage before, in the first none. "
+      "What a later stage leaves out is undrained again.");
     prm.add_parameter("Reset displacements",
                       reset_displacements,
                       "Let displacements count from the start of this stage.");
@@ -103,10 +110,12 @@ namespace moraine
 
 
 
-    /** The names that are active, by what key @p key of a stage says. */
+    /** The names that are active, by what key @p key of a stage says.
+     * @param allowed what they may be, in words */
     void
     complete_names(const std::string              &section,
                    const std::string              &key,
+                   const std::string              &allowed,
                    const std::vector<std::string> &all,
                    const std::vector<std::string> &before,
                    std::vector<std::string>       &names)
@@ -121,8 +130,7 @@ namespace moraine
           reject(section,
                  key,
                  name,
-                 "names of section '" + key + "', or none" +
-                   suggest(name, all));
+                 allowed + ", or none" + suggest(name, all));
       put_in_order(all, names);
     }
 
@@ -211,7 +219,49 @@ namespace moraine
                                before->absorbing.begin(),
                                before->absorbing.end());
     }
+
+
+
+    void
+    complete_drained(const std::string              &section,
+                     const std::vector<std::string> &undrained,
+                     const std::vector<std::string> &before,
+                     StageParameters                &stage)
+    {
+      complete_names(section,
+                     "Drained",
+                     "materials with 'Drainage = undrained'",
+                     undrained,
+                     before,
+                     stage.drained);
+      if (stage.time.follows_path() && stage.drained != before)
+        reject(section,
+               "Drained",
+               list_of(stage.drained),
+               "as before; a path ('Arc length') need not reach the end of the "
+               "stage, when pressure is gone");
+    }
   } // namespace
+
+
+
+  std::vector<DrainedSpan>
+  drained_spans(const NamedStages &stages, const std::string &material)
+  {
+    std::vector<DrainedSpan> spans;
+    bool                     before = false;
+    for (const auto &[name, stage] : stages)
+      {
+        const double start = stage.time.start_time, end = stage.time.end_time;
+        const bool   flows = contains(stage.drained, material);
+        if (flows && before)
+          spans.back().end = end;
+        else if (flows)
+          spans.push_back({start, end, end});
+        before = flows;
+      }
+    return spans;
+  }
 
 
 
@@ -245,6 +295,7 @@ namespace moraine
                                  all.loads,
                                  all.bodies,
                                  {},
+                                 {},
                                  false,
                                  {"as before", "as before", "as before"}};
       }
@@ -264,16 +315,19 @@ namespace moraine
         stage.time.check(time_section(name));
         complete_names(section,
                        "Boundaries",
+                       "names of section 'Boundaries'",
                        all.boundaries,
                        before ? before->boundaries : all.boundaries,
                        stage.boundaries);
         complete_names(section,
                        "Grid conditions",
+                       "names of section 'Grid conditions'",
                        all.grid_conditions,
                        before ? before->grid_conditions : all.grid_conditions,
                        stage.grid_conditions);
         complete_names(section,
                        "Loads",
+                       "names of section 'Loads'",
                        all.loads,
                        before ? before->loads : all.loads,
                        stage.loads);
@@ -282,6 +336,10 @@ namespace moraine
                         before ? before->bodies : all.bodies,
                         stage.bodies);
         complete_absorbing(name, before, stage);
+        complete_drained(section,
+                         all.undrained,
+                         before ? before->drained : std::vector<std::string>(),
+                         stage);
       }
   }
 

@@ -86,11 +86,15 @@ namespace moraine
       stiffness[i] = material.elastic_stiffness_at(&internal[i * n_internal]);
     dissipates = material.dissipates();
     energy_points.resize(points.size());
+    const bool by_stress =
+      measure == StrainMeasure::small && material.has_linear_elasticity();
+    if (!by_stress)
+      load_internal(state, block, begin, internal_at_start);
     if (measure == StrainMeasure::small)
       find_small_energies(state, block, begin, material);
     else
       find_finite_energies(state, block, begin);
-    if (measure == StrainMeasure::small && material.has_linear_elasticity())
+    if (by_stress)
       return;
     stored.resize(2 * points.size());
     for (unsigned int i = 0; i < points.size(); ++i)
@@ -102,6 +106,11 @@ namespace moraine
       {
         energy_points[i].energies.stored_at_start = stored[2 * i];
         energy_points[i].energies.stored          = stored[2 * i + 1];
+        const Tensor<1, 3> &trial                 = points[i].trial_strain;
+        energy_points[i].energies.dissipated +=
+          material.dissipated_by_water(trial[0] + trial[1] + trial[2],
+                                       elastic_points[2 * i + 1],
+                                       elastic_points[2 * i].internal);
       }
   }
 
@@ -151,14 +160,11 @@ namespace moraine
           }
         else
           {
-            const auto at_start =
-              state.fields().internal_of(set.body(block.points[begin + i]),
-                                         values);
-            strain = material.elastic_strain_of(end, answers[i].internal);
-            start_strain =
-              material.elastic_strain_of(at.stress, at_start.data());
+            const double *at_start = &internal_at_start[i * n_internal];
+            strain       = material.elastic_strain_of(end, answers[i].internal);
+            start_strain = material.elastic_strain_of(at.stress, at_start);
             elastic_points[2 * i] = {spectrum<dim>(start_strain).values,
-                                     answers[i].internal};
+                                     at_start};
           }
         at.energies = {0.5 * (at.stress * start_strain),
                        0.5 * (end * strain),
@@ -194,8 +200,9 @@ namespace moraine
           spectrum<dim>(state.fields().b(values)).values;
         for (unsigned int A = 0; A < 3; ++A)
           elastic_points[2 * i].strain[A] = 0.5 * std::log(start[A]);
-        elastic_points[2 * i].internal = answers[i].internal;
-        at.energies.dissipated         = 0;
+        elastic_points[2 * i].internal =
+          internal_at_start.data() + i * n_internal;
+        at.energies.dissipated = 0;
         if (!dissipates)
           continue;
         const Tensor<2, dim> dF =

@@ -124,7 +124,7 @@ namespace moraine
         ask_linear(state, block, begin);
         return;
       }
-    load_internal(state, block, begin);
+    load_internal(state, block, begin, internal);
     if (!isotropic)
       {
         answer_in_tensors(state, block, begin, material);
@@ -349,15 +349,16 @@ namespace moraine
   void
   TrialPoints<dim>::load_internal(const State<dim>        &state,
                                   const StencilBlock<dim> &block,
-                                  const unsigned int       begin)
+                                  const unsigned int       begin,
+                                  std::vector<double>     &values)
   {
     const auto &set    = state.material_points();
     const auto &fields = state.fields().internal[set.body(block.points[begin])];
     n_internal         = fields.size();
-    internal.resize(points.size() * n_internal);
+    values.resize(points.size() * n_internal);
     for (unsigned int i = 0; i < points.size() && n_internal > 0; ++i)
       for (unsigned int v = 0; v < n_internal; ++v)
-        internal[i * n_internal + v] =
+        values[i * n_internal + v] =
           fields[v](set.values(block.points[begin + i]));
   }
 

@@ -283,13 +283,20 @@ namespace moraine
     {
       const SceneOfSafety                scene = read_scene(study_case.input);
       const StrengthReductionParameters &parameters = scene.parameters;
+      const std::string                  from       = parameters.stage.empty() ?
+                                                        "" :
+                                                        " from stage '" + parameters.stage + "' on" +
+                                   (parameters.excess_pressure == "frozen" ?
+                                                             ", excess pressures frozen" :
+                                                             "");
       return (scene.title.empty() ? "" : scene.title + "\n") +
              (study_case.label.empty() ? "" : "  " + study_case.label + "\n") +
-             fmt::format("  shear strength of {} over F; F from {:.6g} to "
+             fmt::format("  shear strength of {} over F{}; F from {:.6g} to "
                          "{:.6g}, to within {:.6g}\n",
                          parameters.materials.empty() ?
                            "all materials" :
                            list_of(parameters.materials),
+                         from,
                          parameters.lower_factor,
                          parameters.upper_factor,
                          parameters.tolerance) +

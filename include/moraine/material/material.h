@@ -303,6 +303,30 @@ namespace moraine
     }
 
     /**
+     * What water in its pores adds to the dissipation of a step per initial
+     * volume, of which elastic strains know nothing.
+     *
+     * @param trial_volume sum of the trial elastic strains
+     * @param at_end elastic strains and internal variables after the step
+     * @param at_start internal variables before it
+     */
+    virtual double
+    dissipated_by_water(const double /*trial_volume*/,
+                        const ElasticPoint & /*at_end*/,
+                        const double * /*at_start*/) const
+    {
+      return 0;
+    }
+
+    /** The same material, the excess pressure of whose water stays as it is
+     * from a time on. nullptr if it has none. */
+    virtual std::shared_ptr<const Material>
+    with_frozen_water(const double /*from*/) const
+    {
+      return nullptr;
+    }
+
+    /**
      * The same material with its shear strength divided by @p factor > 0: what
      * strength reduction does to it, as c / F and tan(phi) / F of a soil.
      * nullptr if it has no strength.

@@ -7,6 +7,7 @@
 #include <moraine/core/expression.h>
 #include <moraine/material/material.h>
 #include <moraine/material/parameter.h>
+#include <moraine/material/undrained.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
@@ -55,7 +56,8 @@ namespace moraine
   struct MaterialPlace
   {
     double cell_size = 0; ///< of all cells; 0 if it is not known yet
-    std::optional<dealii::Point<3>> middle; ///< of the body, if it is known
+    std::optional<dealii::Point<3>> middle;  ///< of the body, if it is known
+    std::vector<DrainedSpan>        drained; ///< when its water flows
   };
 
   /** Reads the keys of one material. @throws InputError naming section, key,
@@ -98,6 +100,10 @@ namespace moraine
     /** A number that is the same everywhere. */
     double
     number(const std::string &key) const;
+
+    /** The same for a key without default, in a range. */
+    double
+    number(const std::string &key, const NumberRange &range) const;
 
     /** A number or an expression in x, y, z, which becomes one of fields() of
      * the name @p key and the @p unit. Points check @p range where they start.
@@ -149,6 +155,8 @@ namespace moraine
     std::vector<MaterialKey> keys;    ///< beside `Model` and `Density`
 
     std::function<std::shared_ptr<const Material>(MaterialInput &)> make;
+
+    bool is_isotropic = true; ///< and has drainage_keys()
   };
 
   /** `Young modulus` and `Poisson ratio`. */

@@ -33,6 +33,7 @@ namespace moraine
    * drawn as 2^dim smaller ones. The file appears only when it is
    * complete.
    *
+   * @param effective the smoothed effective stress, if materials are undrained
    * @throws InputError naming the file if it cannot be written.
    */
   template <int dim>
@@ -40,7 +41,8 @@ namespace moraine
   write_mesh_vtu(const GridSpace<dim>              &space,
                  const std::vector<NodeField<dim>> &fields,
                  const SmoothedStress<dim>         &stress,
-                 const VtuTarget                   &target);
+                 const VtuTarget                   &target,
+                 const SmoothedStress<dim>         *effective = nullptr);
 } // namespace moraine
 
 #endif

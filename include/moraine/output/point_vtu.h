@@ -25,6 +25,8 @@ namespace moraine
    * | von_mises_stress | @f$\sqrt{3/2\, s:s}@f$, @f$s@f$ the deviator       |
    * | mean_stress      | @f$(\sigma_{xx}+\sigma_{yy}+\sigma_{zz})/3@f$      |
    * | smoothed_mean_stress | that of smoothed_mean_stress()                 |
+   * | effective_stress | that of effective_stress(), if a material is undrained
+   * |
    *
    * Points are ordered by id within the part of each rank. Positions are
    * stored in double, other numbers in single precision; ids above 16 777 216

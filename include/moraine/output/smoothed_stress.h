@@ -31,8 +31,10 @@ namespace moraine
   public:
     using Stress = std::array<double, n_stress_components<dim>>;
 
-    /** Of all bodies together, at the vertices. Collective. */
-    explicit SmoothedStress(const PointSet<dim> &points);
+    /** Of all bodies together, at the vertices. Collective.
+     * @param effective whether of effective_stress() */
+    explicit SmoothedStress(const PointSet<dim> &points,
+                            const bool           effective = false);
 
     /** None where no cell around @p vertex, an index of the mesh, has points.
      */

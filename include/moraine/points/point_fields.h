@@ -231,6 +231,9 @@ namespace moraine
      * @f$\sigma' - p_w 1@f$. */
     inline static const Number pore_pressure{"pore_pressure", "stress"};
     inline static const SymmetricTensor total_stress{"total_stress", "stress"};
+    /** Of undrained materials, compression positive; J times as much at finite
+     * strain. */
+    inline static const Number excess_pressure{"excess_pressure", "stress"};
     /** In dynamics at small strain, what recovered strains add to the stress;
      * see DoubleMapping. */
     inline static const SymmetricTensor stress_of_recovery{"stress_of_recovery",

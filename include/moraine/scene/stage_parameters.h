@@ -5,6 +5,7 @@
 #define moraine_scene_stage_parameters_h
 
 #include <moraine/core/input_file.h>
+#include <moraine/material/undrained.h>
 #include <moraine/scene/water_parameters.h>
 #include <moraine/time/time_control.h>
 
@@ -28,6 +29,8 @@ namespace moraine
       grid_conditions{"as before"}, loads{"as before"}, bodies{"as before"};
     /** Boundaries and grid conditions that absorb from this stage on. */
     std::vector<std::string> absorbing;
+    /** Undrained materials whose water flows; as the lists above. */
+    std::vector<std::string> drained{"as before"};
     bool                     reset_displacements = false;
     /** As read, also the words "as before" and "none". */
     WaterLevels water{"as before", "as before", "as before"};
@@ -45,6 +48,8 @@ namespace moraine
     std::vector<std::string> boundaries, grid_conditions, loads;
     /** Without those that others are combined from. */
     std::vector<std::string> bodies;
+    /** Materials. */
+    std::vector<std::string> undrained;
   };
 
   /**
@@ -64,6 +69,10 @@ namespace moraine
    * that @p of_scene. @throws InputError for what contradicts itself. */
   void
   complete_water(const WaterLevels &of_scene, NamedStages &stages);
+
+  /** When the water of @p material flows. */
+  std::vector<DrainedSpan>
+  drained_spans(const NamedStages &stages, const std::string &material);
 
   /** Which bodies come and go, in words: ", with a, without b". */
   std::string

@@ -5,10 +5,12 @@
 #define moraine_scene_strength_reduction_h
 
 #include <moraine/material/material_library.h>
+#include <moraine/scene/stage_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,10 @@ namespace moraine
     double factor = 1;
     /** Names of the materials; none: all that have a strength. */
     std::vector<std::string> materials;
+    /** From the start of which on; from the first step on if empty. */
+    std::string stage;
+    /** Of undrained materials from then on: "undrained" or "frozen". */
+    std::string excess_pressure = "undrained";
 
     /** Between which a study looks for the factor of safety. */
     double lower_factor = 1;
@@ -31,6 +37,10 @@ namespace moraine
 
     void
     add_parameters(dealii::ParameterHandler &prm);
+
+    /** Find when `Stage` starts. @throws InputError if it is not there. */
+    void
+    find_start(const NamedStages &stages);
 
     /**
      * @param all the materials of the scene
@@ -46,6 +56,9 @@ namespace moraine
     std::shared_ptr<const Material>
     reduced(const std::string                     &name,
             const std::shared_ptr<const Material> &material) const;
+
+  private:
+    std::optional<double> start; ///< of `Stage`
   };
 } // namespace moraine
 

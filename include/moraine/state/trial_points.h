@@ -374,11 +374,12 @@ namespace moraine
            const unsigned int       begin,
            const unsigned int       i);
 
-    /** Copy the committed internal variables. */
+    /** Copy the committed internal variables into @p values. */
     void
     load_internal(const State<dim>        &state,
                   const StencilBlock<dim> &block,
-                  const unsigned int       begin);
+                  const unsigned int       begin,
+                  std::vector<double>     &values);
 
     void
     answer(const State<dim> &state, const Material &material);
@@ -407,6 +408,7 @@ namespace moraine
     /** After find_energies(). */
     std::vector<EnergyPoint>   energy_points;
     std::vector<ElasticPoint>  elastic_points;
+    std::vector<double>        internal_at_start;
     std::vector<double>        stored;
     std::vector<LameConstants> stiffness;
     bool                       dissipates = false;
