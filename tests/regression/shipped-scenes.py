@@ -1,12 +1,15 @@
 # ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""Shipped scenes that end with warnings, and these: all that take a few seconds."""
+"""Shipped scenes that end with warnings, and these: all that take less than three
+seconds."""
 
-# Longer ones, and studies.
+# Longer ones, which tests of their own run, and studies.
 LONG = {"geotechnics/pile", "geotechnics/slope", "geotechnics/cavity-box",
         "geotechnics/column-collapse", "geotechnics/retrogression",
-        "hard-cases/slope-fe",
+        "hard-cases/slope-fe", "hard-cases/bearing-cpdi1", "hard-cases/bearing-gimp",
+        "geotechnics/footing-sand", "geotechnics/cavity-expansion",
+        "dynamics/plastic-wave", "dynamics/disc", "dynamics/oblique-inclined",
         "hard-cases/punch", "wang-2018/twist-10-fine", "cortis-2017/block-study",
         "phuong-2023/footing-fixed-dmgc", "phuong-2023/footing-fixed-gimp",
         "phuong-2023/footing-viscoelastic-dmgc",
