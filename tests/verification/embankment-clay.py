@@ -16,17 +16,17 @@ bound("footing: error", abs(forces[-1] / s_u / 5.14159 - 1), 0.04)
 bound("footing: rise in the last quarter of the way",
       forces[-1] / forces[3 * len(forces) // 4] - 1, 0.01)
 
-settled = {}
+# The clay and its water, and the sand: what the base and the water bear.
+WEIGHT = 9.81 * (1.6 * 180 + 1.9 * (9 + 7))
 for method in ("GIMP", "finite element"):
     result = run(EMBANKMENT, {"Method/Method": method})
     rows = result.history()
-    at = {t: next(row for row in rows if abs(row["t"] - t) < 1e-9) for t in (2, 3)}
-    # The clay and its water, 16 kN/m3 * 9.81 / 10, and the sand.
-    weight = 9.81 * (1.6 * 180 + 1.9 * (1.5 * 21 / 2 + 1.5 * 15 / 2))
-    settled[method] = [-at[t]["u_y at ground"] for t in (2, 3)]
-    number(f"{method}: settlement below the axis when built", settled[method][0], 3)
-    number(f"{method}: settlement at the end", settled[method][1], 3)
-    for t in (2, 3):
-        print(at[t])
+    at = {t: next(row for row in rows if abs(row["t"] - t) < 1e-9) for t in (1, 3, 4)}
+    bound(f"{method}: settlement at rest", abs(at[1]["u_y at ground"]), 1e-10)
+    number(f"{method}: settlement below the axis when built", -at[3]["u_y at ground"], 3)
+    number(f"{method}: settlement at the end", -at[4]["u_y at ground"], 3)
+    bound(f"{method}: forces over the weight - 1",
+          abs((at[4]["reaction_y of base"] + at[4]["force_y of water"]) / WEIGHT - 1),
+          1e-6)
     excess, = zip(*result.points("excess_pressure"))
     bound(f"{method}: excess pressure at the end", max(map(abs, excess)), 1e-9)
