@@ -19,10 +19,11 @@ namespace moraine
   Tensor<1, dim>
   half_lengths(const State<dim> &state, const unsigned int p)
   {
-    // Gauss points next to a face of a cell are 0.30 times the root of their
-    // volume away from it, or more.
-    constexpr double part_in_cell = 0.29;
-    Tensor<1, dim>   half;
+    // Points that move fill space as squares. Gauss points next to a face of a
+    // cell are 0.30 times the root of their volume away from it, or more.
+    const double part =
+      state.mesh_after_step() == MeshAfterStep::reset ? 0.5 : 0.29;
+    Tensor<1, dim> half;
     if (state.point_basis().has_domains())
       {
         const auto corners = state.point_basis().domain_corners(p);
@@ -40,7 +41,7 @@ namespace moraine
       }
     const double length = std::pow(state.material_points().volume(p), 1. / dim);
     for (unsigned int d = 0; d < dim; ++d)
-      half[d] = part_in_cell * length;
+      half[d] = part * length;
     return half;
   }
 
@@ -224,6 +225,8 @@ namespace moraine
                       const State<dim>         &state,
                       PointSet<dim>            &points)
   {
+    if (!water.pore_pressure.exists())
+      return;
     for (unsigned int p = 0; p < points.n_local(); ++p)
       {
         const double pressure =

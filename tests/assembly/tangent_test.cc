@@ -6,6 +6,7 @@
 #include <moraine/assembly/hourglass_stiffness.h>
 #include <moraine/assembly/mechanics_system.h>
 #include <moraine/assembly/rayleigh_damping.h>
+#include <moraine/assembly/water_term.h>
 #include <moraine/basis/cpdi1_basis.h>
 #include <moraine/basis/cpdi2_basis.h>
 #include <moraine/material/drucker_prager.h>
@@ -397,6 +398,123 @@ namespace
                 check_cell_means<3>(method, plastic, measure, grouped);
               }
           }
+  }
+
+
+
+  /** Water whose level cuts the box at a slope, and weighs in its pores. */
+  template <int dim>
+  struct WaterAround
+  {
+    WaterAround(Box<dim> &box, const WaterTexts &texts)
+    {
+      water.water.emplace(texts);
+      water.extra_density = {0.4};
+      gravity             = {"weight",
+                             [](const Point<dim> &, const double) {
+                   Tensor<1, dim> g;
+                   g[0]       = 0.7;
+                   g[dim - 1] = -10;
+                   return g;
+                 },
+                             true,
+                             {true},
+                             false};
+      box.system->add(std::make_unique<WaterTerm<dim>>(
+        water,
+        box.points,
+        std::vector<const BodyForce<dim> *>{&gravity},
+        box.state->strain_measure()));
+      box.begin_step(0);
+    }
+
+    WaterInBodies<dim> water;
+    BodyForce<dim>     gravity;
+  };
+
+  WaterTexts
+  texts_of_water(const std::string &level, const std::string &free_level)
+  {
+    WaterTexts texts;
+    texts.level       = level;
+    texts.free_level  = free_level;
+    texts.section     = "Water";
+    texts.unit_weight = 90;
+    return texts;
+  }
+
+
+
+  template <int dim>
+  void
+  check_water(const Method method, const VolumetricStrain volumetric)
+  {
+    Box<dim> box(
+      method, false, Forces::at_the_end, StrainMeasure::finite, volumetric);
+    WaterAround<dim> around(box, texts_of_water("1.3 + 0.2*x", "0.9 - 0.1*x"));
+    EXPECT_FALSE(box.system->symmetric());
+    check_tangent(box);
+    box.deform();
+    check_tangent(box);
+  }
+
+  TEST(Water, TangentIsTheDerivativeOfTheForces)
+  {
+    for (const auto method : {Method::material_point,
+                              Method::linear_elements,
+                              Method::quadratic_elements,
+                              Method::gimp,
+                              Method::cpdi1,
+                              Method::cpdi2})
+      {
+        SCOPED_TRACE(static_cast<int>(method));
+        check_water<2>(method, VolumetricStrain::pointwise);
+        check_water<3>(method, VolumetricStrain::pointwise);
+        if (method != Method::quadratic_elements)
+          check_water<2>(method, VolumetricStrain::cell_mean);
+      }
+  }
+
+  TEST(Water, UniformPressureHasNoForceInElementsThatDeform)
+  {
+    for (const auto volumetric :
+         {VolumetricStrain::pointwise, VolumetricStrain::cell_mean})
+      {
+        Box<2>     box(Method::linear_elements,
+                   false,
+                   Forces::at_the_end,
+                   StrainMeasure::finite,
+                   volumetric);
+        Box<2>     dry(Method::linear_elements,
+                   false,
+                   Forces::at_the_end,
+                   StrainMeasure::finite,
+                   volumetric);
+        WaterTexts texts = texts_of_water("", "-100");
+        texts.pressure   = "50";
+        WaterAround<2> around(box, texts);
+        around.water.extra_density = {0.};
+        box.deform();
+        dry.deform();
+        const LA::Vector x     = box.displacements(0.03, 0.4);
+        LA::Vector       force = box.residual(x);
+        force -= dry.residual(x);
+        EXPECT_LT(imbalance(box, force, x), 1e-13);
+        std::vector<Tensor<1, 2>> of_nodes;
+        box.space.node_values(force, of_nodes);
+        double inside = 0, largest = 0;
+        for (unsigned int node = 0; node < box.space.n_nodes(); ++node)
+          {
+            const Tensor<1, 2> X =
+              box.space.node_position(node) - box.space.node_move(node);
+            const double f = of_nodes[node].norm();
+            largest        = std::max(largest, f);
+            if (X[0] > 0.5 && X[0] < 2.5 && X[1] > 0.5 && X[1] < 2.5)
+              inside = std::max(inside, f);
+          }
+        EXPECT_GT(largest, 10.);
+        EXPECT_LT(inside, 1e-11 * largest);
+      }
   }
 
 

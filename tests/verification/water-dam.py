@@ -44,6 +44,12 @@ for key in ("u_x at crest", "u_y at crest", "sigma_yy at core", "pore_pressure a
             "total_sigma_yy at core"):
     bound(f"two ranks, {key}", two.probes[key] / one.probes[key] - 1, 1e-8)
 
+through = run(DAM, {**COARSE, "Output/Checkpoint every": "1 step"})
+history = (through.folder / "history.csv").read_bytes()
+run(through.folder, command="resume", extra=["--from", 3])
+text("resumed: history is that of a run without a break",
+     history == (through.folder / "history.csv").read_bytes())
+
 for name, settings in (("dry", {"Water/Level": "0.3*t"}), ("with water", {})):
     result = run(DAM, {**COARSE, **settings, "Strength reduction/Factor": 1.5},
                  expect=None)

@@ -5,7 +5,7 @@
 #define moraine_assembly_water_term_h
 
 #include <moraine/assembly/term.h>
-#include <moraine/load/water.h>
+#include <moraine/load/load.h>
 
 #include <vector>
 
