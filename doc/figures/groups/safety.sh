@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 #
-# An embankment to failure: the factor of safety of step 9.
+# An embankment to failure: the factor of safety of step 9. A slope beside a
+# reservoir that is emptied fast: step 12.
 
 run stands geotechnics/factor-of-safety
 (run fails geotechnics/factor-of-safety "Strength reduction/Factor = 1.3") >fails.txt || true
@@ -42,3 +43,10 @@ set arrow from F,0 to F,0.15 nohead dt 2
 set label 'no equilibrium' at F + 0.005,0.11
 plot 'trials.csv' w lp lt 1 notitle
 GP
+
+# Step 12: it fails before the reservoir is empty.
+(run fast geotechnics/drawdown "Constants/inside = 0" \
+  'Water/Level = max(min(10, 20 - 10*t), $ground)' "Water/Free level = min(10, 20 - 10*t)" \
+  "Water/Curve = min(t, 1)" "Loads/weight/Curve = min(t, 1)" \
+  "Time/End time = 2" "Time/Steps = 20") >fast.txt || true
+render step-12 "$(last fast/points)" --field plastic_strain --range 0 0.003
