@@ -1,9 +1,10 @@
 # ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
-"""A stiff block sinks through the level of the water, carried by its sides: what holds
-it has its weight less that of the water that it displaces, without a kick as points
-go under, and Newton's method needs no more iterations than without water."""
+"""A stiff block sinks through the level of the water, held at its top: what holds it has
+its weight less that of the water that it displaces, without a kick as points go under,
+and Newton's method needs hardly more iterations than without water, but for elements
+that move, to which nothing happens in air."""
 
 SCENE = """
 Dimension = 2
