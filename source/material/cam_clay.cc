@@ -69,17 +69,24 @@ namespace moraine
 
 
 
-  CamClay::CamClay(const CamClayParameters &parameters)
+  CamClay::CamClay(const CamClayParameters &parameters, const double reduction)
     : parameters(parameters)
+    , reduction(reduction)
+    , mean(1)
+    , swing(0)
   {
-    using State          = CamClayParameters::CriticalState;
-    const double sin_phi = std::sin(parameters.friction_angle);
-    M_compression = parameters.critical_state == State::circle_in_plane_strain ?
-                      std::sqrt(3.) * sin_phi :
-                      ratio_in_compression(sin_phi);
-    mean          = 1;
-    swing         = 0;
-    if (parameters.critical_state == State::lode_angle)
+    using State      = CamClayParameters::CriticalState;
+    const auto state = parameters.critical_state;
+    const auto ratio = [state](const double sin_phi) {
+      return state == State::circle_in_plane_strain ?
+               std::sqrt(3.) * sin_phi :
+               ratio_in_compression(sin_phi);
+    };
+    const double tan_phi = std::tan(parameters.friction_angle);
+    const double sin_phi = std::sin(std::atan(tan_phi / reduction));
+    M_at_start           = ratio(std::sin(parameters.friction_angle));
+    M_compression        = ratio(sin_phi);
+    if (state == State::lode_angle)
       {
         const double fourth = std::pow((3 - sin_phi) / (3 + sin_phi), 4);
         mean                = (1 + fourth) / (2 * fourth);
@@ -92,10 +99,7 @@ namespace moraine
   std::shared_ptr<const Material>
   CamClay::with_strength_over(const double factor) const
   {
-    CamClayParameters weaker = parameters;
-    weaker.friction_angle =
-      std::atan(std::tan(parameters.friction_angle) / factor);
-    return std::make_shared<CamClay>(weaker);
+    return std::make_shared<CamClay>(parameters, reduction * factor);
   }
 
 
@@ -467,7 +471,7 @@ namespace moraine
       preconsolidation(-stress[vertical][vertical], internal);
     const double p = sigma * (1 + 2 * parameters.normal_K0) / 3;
     const double q = sigma * (1 - parameters.normal_K0);
-    internal[0]    = p + q * q / (M_compression * M_compression * p);
+    internal[0]    = p + q * q / (M_at_start * M_at_start * p);
     internal[2]    = -trace(stress) / 3;
   }
 

@@ -250,6 +250,28 @@ namespace cam_clay_test
       }
   }
 
+  // tan(phi) over F, but the surface that the soil starts with.
+  TEST(CamClay, StrengthOverFactor)
+  {
+    const CamClay         full(clay());
+    const auto            half = full.with_strength_over(2);
+    std::vector<double>   at_full(3), at_half(3);
+    SymmetricTensor<2, 3> stress = pressure(80);
+    full.initialise(stress, 2, at_full.data());
+    half->initialise(stress, 2, at_half.data());
+    EXPECT_EQ(at_full, at_half);
+    EXPECT_EQ(full.K0(80, at_full.data()), half->K0(80, at_half.data()));
+
+    CamClayParameters of = clay();
+    of.normal_K0         = 1;
+    MaterialTest test(CamClay(of).with_strength_over(2),
+                      StrainMeasure::small,
+                      pressure(100));
+    compress(test, 0.6, 200, Side::volume);
+    const double sin_phi = std::sin(std::atan(std::tan(of.friction_angle) / 2));
+    EXPECT_NEAR(q_of(test) / p_of(test), 6 * sin_phi / (3 - sin_phi), 2e-3);
+  }
+
   // elastic_strain_of() and the energy, whose derivative is the stress.
   TEST(CamClay, Elasticity)
   {

@@ -36,7 +36,7 @@ namespace moraine
     {
       try
         {
-          parameters.check(false);
+          parameters.check(false, false);
         }
       catch (const InputError &error)
         {

@@ -68,7 +68,10 @@ namespace moraine
   class CamClay : public Material
   {
   public:
-    explicit CamClay(const CamClayParameters &parameters);
+    /** @param reduction divides @f$\tan\varphi_{cs}@f$, but not in the start:
+     * the soil was loaded with all its strength. */
+    explicit CamClay(const CamClayParameters &parameters,
+                     const double             reduction = 1);
 
     using Material::respond;
 
@@ -272,8 +275,10 @@ namespace moraine
     preconsolidation(const double pressure, const double *internal) const;
 
     CamClayParameters parameters;
-    double M_compression; ///< M in triaxial compression, or everywhere
-    double mean, swing;   ///< @f$M_c^2/M^2 = \sqrt{mean - swing\,C}@f$
+    double            reduction;
+    double            M_at_start; ///< @f$M_c@f$ without reduction
+    double M_compression;         ///< M in triaxial compression, or everywhere
+    double mean, swing;           ///< @f$M_c^2/M^2 = \sqrt{mean - swing\,C}@f$
   };
 
   MaterialModel
