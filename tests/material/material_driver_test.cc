@@ -855,12 +855,13 @@ TEST(MaterialLibrary, YieldKeys)
   EXPECT_EQ(complaint(elastic),
             about("Shear yield stress", "3") +
               ", allowed: nothing; the keys of 'linear elastic' are Density, "
+              "Saturated density, "
               "Young modulus, Poisson ratio");
-  EXPECT_EQ(
-    complaint(parameters("neo-Hookean", "3")),
-    about(uniaxial, "3") +
-      ", allowed: nothing; the keys of 'neo-Hookean' are Density, Young "
-      "modulus, Poisson ratio");
+  EXPECT_EQ(complaint(parameters("neo-Hookean", "3")),
+            about(uniaxial, "3") +
+              ", allowed: nothing; the keys of 'neo-Hookean' are Density, "
+              "Saturated density, Young "
+              "modulus, Poisson ratio");
 }
 
 TEST(MaterialLibrary, YieldTables)

@@ -675,9 +675,11 @@ namespace umat_test
               section +
                 ", key 'State variables': found 'by SDVINI', allowed: a number "
                 "before 'by SDVINI', as '12 by SDVINI'");
-    EXPECT_EQ(message({{"Constants", "2e4, 0.3"}, {"Cohesion", "1"}}),
-              section + ", key 'Cohesion': found '1', allowed: nothing; the "
-                        "keys of 'UMAT' are Density, Library, Symbol, "
-                        "Constants, State variables, Objective rate, Tangent");
+    EXPECT_EQ(
+      message({{"Constants", "2e4, 0.3"}, {"Cohesion", "1"}}),
+      section +
+        ", key 'Cohesion': found '1', allowed: nothing; the "
+        "keys of 'UMAT' are Density, Saturated density, Library, Symbol, "
+        "Constants, State variables, Objective rate, Tangent");
   }
 } // namespace umat_test
