@@ -68,7 +68,7 @@ namespace moraine
   class CamClay : public Material
   {
   public:
-    /** @param reduction divides @f$\tan\varphi_{cs}@f$, but not in the start:
+    /** The @p reduction divides @f$\tan\varphi_{cs}@f$, but not in the start:
      * the soil was loaded with all its strength. */
     explicit CamClay(const CamClayParameters &parameters,
                      const double             reduction = 1);

@@ -304,11 +304,9 @@ namespace moraine
 
     /**
      * What water in its pores adds to the dissipation of a step per initial
-     * volume, of which elastic strains know nothing.
-     *
-     * @param trial_volume sum of the trial elastic strains
-     * @param at_end elastic strains and internal variables after the step
-     * @param at_start internal variables before it
+     * volume, of which elastic strains know nothing: of the sum of the trial
+     * elastic strains, elastic strains and internal variables after the step,
+     * and internal variables before it.
      */
     virtual double
     dissipated_by_water(const double /*trial_volume*/,

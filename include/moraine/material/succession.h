@@ -17,7 +17,7 @@ namespace moraine
   class Succession : public MaterialDecorator
   {
   public:
-    /** @param first up to time @p start, @param second from then on */
+    /** The @p first up to time @p start, the @p second from then on. */
     Succession(const std::shared_ptr<const Material> &first,
                std::shared_ptr<const Material>        second,
                const double                           start)

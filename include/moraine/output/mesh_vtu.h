@@ -31,9 +31,9 @@ namespace moraine
    * the other ones of the cell. Collective. Cells are drawn where the nodes
    * are, so a mesh that follows the material is drawn deformed. Q2 cells are
    * drawn as 2^dim smaller ones. The file appears only when it is
-   * complete.
+   * complete. The @p effective stress is written too, if materials are
+   * undrained.
    *
-   * @param effective the smoothed effective stress, if materials are undrained
    * @throws InputError naming the file if it cannot be written.
    */
   template <int dim>

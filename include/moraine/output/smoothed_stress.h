@@ -31,8 +31,8 @@ namespace moraine
   public:
     using Stress = std::array<double, n_stress_components<dim>>;
 
-    /** Of all bodies together, at the vertices. Collective.
-     * @param effective whether of effective_stress() */
+    /** Of all bodies together, at the vertices; @p effective: of
+     * effective_stress(). Collective. */
     explicit SmoothedStress(const PointSet<dim> &points,
                             const bool           effective = false);
 
