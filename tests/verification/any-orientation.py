@@ -86,7 +86,7 @@ CELLS_ACROSS = {2: (2.3, 3.3, 4, 6, 10), 3: (3.3, 4, 5)}
 LIMITS = {"augmented Lagrangian": {2: 1e-10, 3: 1e-6}, "weighted": {2: 1e-5, 3: 1e-5},
           "penalty": {2: 1e-5, 3: 1e-5}}
 
-for dim, n in ((2, 240), (3, 120)):
+for dim, n in ((2, 160), (3, 80)):
     rng = random.Random(dim)
     worst = {}
     met = 0

@@ -59,9 +59,6 @@ for method in METHODS:
             0.04 if quadratic else 0.1, unit=18)
 
 method = "GIMP"
-rough = {"Grid conditions/footing/Components": "x, y"}
-against("N_c, Tresca, rough", method, pressed(CLAY, method, TRESCA, rough), 2 + pi,
-        0.03, unit=10)
 against("N_q, rough", method, pressed(SAND, method, LOADED), 18.401, 0.06, surcharge=1)
 against("N_gamma, rough", method, pressed(SAND, method), 14.754, 0.1, unit=18)
 # Davis and Booker (1973): F is 1 for uniform strength and grows with rho B / s_u.
