@@ -87,7 +87,7 @@ namespace water_test
       return 10 * (30 - x[1]);
     }
 
-    /** Of the edges at the boundary of the cells of this rank. */
+    /** Of the edges at the boundary, at the nodes that this rank knows. */
     std::vector<Tensor<1, 2>>
     integrals(const Ring &ring)
     {
@@ -106,10 +106,14 @@ namespace water_test
               Tensor<1, 2>   normal({b[1] - a[1], a[0] - b[0]}); // times length
               if (normal * (face->center() - cell->center()) < 0)
                 normal *= -1;
-              forces[node_at(a)] -=
-                (pressure(a) / 3 + pressure(b) / 6) * normal;
-              forces[node_at(b)] -=
-                (pressure(a) / 6 + pressure(b) / 3) * normal;
+              const auto add = [&](const Point<2> &x, const Point<2> &other) {
+                const unsigned int node = node_at(x);
+                if (node != numbers::invalid_unsigned_int)
+                  forces[node] -=
+                    (pressure(x) / 3 + pressure(other) / 6) * normal;
+              };
+              add(a, b);
+              add(b, a);
             }
       return forces;
     }
