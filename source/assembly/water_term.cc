@@ -252,25 +252,10 @@ namespace moraine
   {
     Tensor<1, dim>       force;
     const PointSet<dim> &points = state.material_points();
-    const auto           add = [&](const unsigned int p, const double volume) {
-      force -=
-        volume * water.water->at(points.position(p), half_lengths(state, p), t)
-                   .outer.gradient;
-    };
-    if (water.water &&
-        state.mesh_after_step() == MeshAfterStep::follow_material)
-      {
-        StencilBlock<dim> block;
-        for (unsigned int g = 0; g < state.point_basis().n_batches(); ++g)
-          {
-            state.evaluate(g, block);
-            for (unsigned int i = 0; i < block.n_points; ++i)
-              add(block.points[i], state.volume_in_cell(block, i));
-          }
-      }
-    else if (water.water)
-      for (unsigned int p = 0; p < points.n_local(); ++p)
-        add(p, points.volume(p));
+    for (unsigned int p = 0; water.water && p < points.n_local(); ++p)
+      force -= points.volume(p) *
+               water.water->at(points.position(p), half_lengths(state, p), t)
+                 .outer.gradient;
     return Utilities::MPI::sum(force, state.grid().communicator());
   }
 
