@@ -223,8 +223,8 @@ namespace moraine
           text, place(section, key), 1, std::map<std::string, double>(), false);
       }
 
-      /** What water adds to the effective overburden of a column: the weight in
-       * the pores and above the surface, less the pore pressure. */
+      /** The share of water in the effective overburden of a column: its weight
+       * in the pores and above the surface, less the pore pressure. */
       double
       of_water(const Point<dim>                       &x,
                const Tensor<1, dim>                   &up,

@@ -218,7 +218,7 @@ make_fields(const Soils &soils)
 
 // @sect3{The term of the water}
 //
-// Stress at points is effective. What water adds are forces of nodes,
+// Points carry effective stress. Water adds nodal forces,
 //
 //   f_a = sum_p v_p [(p_w - p_r) grad S_ap - grad p_r S_ap] :
 //

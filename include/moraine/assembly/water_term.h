@@ -114,7 +114,7 @@ namespace moraine
                 const dealii::Tensor<1, dim> &extra_weight,
                 LocalSystem<dim>             &local) const;
 
-    /** What a wet point weighs more than a dry one. */
+    /** The weight of the water in the pores: saturated less dry soil. */
     dealii::Tensor<1, dim>
     extra_weight(const StepContext<dim> &context, const unsigned int p) const;
 

@@ -51,10 +51,10 @@ namespace moraine
    * t)@f$ in the water around them. As a level is given, it is a height of the
    * last coordinate with hydrostatic pressure below it.
    *
-   * What a point has is the mean over a box of its own size, so that a point
-   * that crosses the level feels no kick. With the mean q of the uncut
-   * pressure and the span @f$\pm k = \sum_d |\partial_d q|\, h_d@f$ that it has
-   * in the box of half lengths h,
+   * A point has the mean over a box of its own size. So the force on a point is
+   * continuous as it crosses the level. With the mean q of the uncut pressure
+   * and the span @f$\pm k = \sum_d |\partial_d q|\, h_d@f$ that it has in the
+   * box of half lengths h,
    * @f[ p = m(q) = q \text{ for } q \ge k, \quad 0 \text{ for } q \le -k,
    *     \quad (q + k)^2 / 4k \text{ between;} \qquad
    *     \text{wet part: } m'(q) . @f]

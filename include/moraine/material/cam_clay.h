@@ -196,7 +196,7 @@ namespace moraine
       dealii::Tensor<2, 3> hessian;
     };
 
-    /** What a point has at the start of a step. */
+    /** Data of a point at the start of a step. */
     struct Start
     {
       double p_c, mu;

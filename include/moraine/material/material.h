@@ -303,10 +303,10 @@ namespace moraine
     }
 
     /**
-     * What water in its pores adds to the dissipation of a step per initial
-     * volume, of which elastic strains know nothing: of the sum of the trial
-     * elastic strains, elastic strains and internal variables after the step,
-     * and internal variables before it.
+     * The dissipation by pore water in a step, per initial volume. The elastic
+     * strains alone do not contain it. Arguments: the trace of the trial
+     * elastic strain, elastic strains and internal variables after the step,
+     * internal variables before it.
      */
     virtual double
     dissipated_by_water(const double /*trial_volume*/,

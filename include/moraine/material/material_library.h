@@ -31,8 +31,8 @@ namespace moraine
                 const std::string        &section,
                 const MaterialPlace      &place = {});
 
-  /** What the material weighs more below the phreatic line than above it: key
-   * `Saturated density` less `Density` [mass/length^dim].
+  /** `Saturated density` less `Density` [mass/length^dim]; 0 if the first key
+   * is left out.
    * @throws InputError naming the section if it weighs less. */
   double
   extra_density_of(const MaterialParameters &parameters,

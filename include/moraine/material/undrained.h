@@ -142,8 +142,8 @@ namespace moraine
     with_frozen_water(const double from) const override;
 
   private:
-    /** What happens to the pressure in a step: without strain it keeps
-     * @p share of what it was. */
+    /** How the excess pressure changes in a step. Without strain it becomes
+     * @p share times its old value. */
     struct Change
     {
       bool   is_free; ///< whether strains change it
