@@ -486,8 +486,7 @@ TEST(Materials, RandomPaths)
   std::mt19937               generator(1);
   std::normal_distribution<> normal;
   for (const auto &[name, material] : all_materials())
-    for (unsigned int path = 0; path < (is_plastic(*material) ? 35000 : 100000);
-         ++path)
+    for (unsigned int path = 0; path < 20000; ++path)
       {
         Stress elastic;
         double kappa = 0;

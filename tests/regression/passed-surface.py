@@ -1,4 +1,5 @@
 # ranks: 2
+# debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A run ends where material has passed a surface by more than half a cell."""

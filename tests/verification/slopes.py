@@ -20,7 +20,7 @@ def ground(crest, run, foot, depth, **others):
     return {f"Constants/{name}": value for name, value in values.items()}
 
 
-def against(name, scene, settings, allowed, meshes, tolerance=0.02):
+def against(name, scene, settings, allowed, meshes, tolerance=0.03):
     """allowed: the lowest and the highest factor, or one that is allowed 3 %.
     meshes: of each method the cell size."""
     lower, upper = allowed if isinstance(allowed, tuple) else (
