@@ -97,6 +97,25 @@ namespace moraine
 
 
 
+    /** Columns of a surface that bodies touch. */
+    template <int dim>
+    void
+    add_contact(const BoundaryReport<dim> &report, std::vector<NamedValue> &row)
+    {
+      const ContactReport contact = report.contact.value_or(ContactReport());
+      const std::string   of      = " of " + report.name;
+      const std::string   area    = dim == 2 ? "length" : "length^2";
+      row.push_back({"moment" + of, "force length", report.moment});
+      row.push_back({"contact area" + of, area, contact.area});
+      row.push_back({"slipping area" + of, area, contact.slipping_area});
+      row.push_back({"penetration" + of, "length", report.penetration});
+      row.push_back({"slip" + of, "length", contact.slip});
+      row.push_back(
+        {"work of friction" + of, "force length", contact.work_of_friction});
+    }
+
+
+
     /** Columns of conditions that turn. Those of absorbing boundaries, which do
      * not, follow in @p reports. */
     template <int dim>
@@ -150,6 +169,8 @@ namespace moraine
     for (const auto &boundary : model.absorbing_boundaries)
       if (!scene.absorbs_later(boundary.name()))
         reports.push_back(report_of(boundary.name(), acting));
+    for (const auto &boundary : model.contact_boundaries)
+      reports.push_back(report_of(boundary.name(), acting));
     if (scene.changes_bodies())
       row.push_back({"mass", "mass", mass_of(model)});
     for (const auto &report : reports)
@@ -174,6 +195,8 @@ namespace moraine
                        "length",
                        reports[b].penetration});
       }
+    for (const auto &boundary : model.contact_boundaries)
+      add_contact(report_of(boundary.name(), acting), row);
     for (const auto &value : model.probes->values(*model.points))
       row.push_back(value);
     if (model.motion)

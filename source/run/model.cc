@@ -5,6 +5,7 @@
 
 #include <moraine/assembly/absorbing_term.h>
 #include <moraine/assembly/aggregation.h>
+#include <moraine/assembly/contact_term.h>
 #include <moraine/assembly/hourglass_stiffness.h>
 #include <moraine/assembly/load_terms.h>
 #include <moraine/assembly/water_term.h>
@@ -316,6 +317,8 @@ namespace moraine
                        covers_of_bodies(bodies, *mesh, *points));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
+    contact_boundaries =
+      make_contact_boundaries(scene, united(shapes_of(bodies)));
     if (scene.has_water())
       loads.water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
         {},
@@ -418,6 +421,9 @@ namespace moraine
       else if (absorbs_around(stage.time.start_time, scene, boundary))
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
+    for (auto &boundary : contact_boundaries)
+      if (contains(stage.boundaries, boundary.name()))
+        terms.push_back(std::make_unique<ContactTerm<dim>>(boundary));
     terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
     if (loads.water)
       terms.push_back(

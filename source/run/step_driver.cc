@@ -95,6 +95,8 @@ namespace moraine
       lasting.add(boundary);
     for (auto &boundary : model.absorbing_boundaries)
       lasting.add(boundary);
+    for (auto &boundary : model.contact_boundaries)
+      lasting.add(boundary);
     for (auto &load : model.loads.carried)
       lasting.add(load);
     for (auto &load : model.loads.on_points)

@@ -113,8 +113,11 @@ namespace moraine
       "fixed: all components. roller: the component normal to "
       "the surface. components: those of key 'Components'. "
       "absorbing: dashpots, and springs if wanted, that swallow "
-      "waves, in dynamics; the material carries its places.",
-      patterns::selection({"fixed", "roller", "components", "absorbing"}));
+      "waves, in dynamics; the material carries its places. "
+      "contact: the rims of bodies touch the surface, let go and "
+      "slide with friction.",
+      patterns::selection(
+        {"fixed", "roller", "components", "absorbing", "contact"}));
     prm.add_parameter("Components",
                       components,
                       "Of 'components': which, as x, y or x, y.",
@@ -134,6 +137,7 @@ namespace moraine
       patterns::non_negative());
     enforcement.add_parameters(prm);
     absorbing.add_parameters(prm);
+    contact.add_parameters(prm);
   }
 
 

@@ -353,6 +353,14 @@ namespace moraine
           continue;
         const std::string section = "Boundaries/" + name;
         prm.enter_subsection(name);
+        if (boundary.constraint == "contact")
+          {
+            prm.set("Enforcement", "augmented Lagrangian");
+            if (!input.has(section, "Band width"))
+              prm.set("Band width", 0.1);
+            prm.leave_subsection();
+            continue;
+          }
         if (!input.has(section, "Enforcement"))
           prm.set("Enforcement", if_left_out);
         if (if_left_out == "augmented Lagrangian" &&

@@ -279,6 +279,31 @@ namespace moraine
                "'quasi-static', and only waves are absorbed");
       parameters.law(section);
     }
+
+
+
+    void
+    check_contact(const std::string                   &section,
+                  const std::string                   &constraint,
+                  const ContactParameters             &parameters,
+                  const std::vector<InputFile::Entry> &given)
+    {
+      const bool touches = constraint == "contact";
+      for (const auto &entry : given)
+        if (entry.section == section &&
+            (touches ? contains({"Penetration limit",
+                                 "Held in a cell",
+                                 "Nitsche factor",
+                                 "Penalty factor"},
+                                entry.key) :
+                       ContactParameters::has(entry.key)))
+          reject(entry, "nothing; key 'Constraint' is '" + constraint + "'");
+        else if (touches && entry.section == section &&
+                 entry.key == "Enforcement" &&
+                 entry.value != "augmented Lagrangian")
+          reject(entry, "augmented Lagrangian; key 'Constraint' is 'contact'");
+      parameters.law(section);
+    }
   } // namespace
 
 
@@ -372,6 +397,7 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
+        check_contact(section, boundary.constraint, boundary.contact, given);
       }
     for (const auto &[name, condition] : grid_conditions)
       {

@@ -191,8 +191,46 @@ namespace moraine
 
 
 
-    /** The boundary @p name. A displacement that is the same everywhere moves
-     * its surface. */
+    /** Whether what the boundary prescribes is not the same everywhere. */
+    template <int dim>
+    bool
+    varies(const BoundaryParameters<dim> &parameters)
+    {
+      return has_name(parameters.displacement, {"x", "y", "z"});
+    }
+
+
+
+    /** Of the surface of the boundary @p name, which a displacement that is the
+     * same everywhere moves. */
+    template <int dim>
+    RigidMotion<dim>
+    motion_of_surface(const std::string             &name,
+                      const BoundaryParameters<dim> &parameters,
+                      const Scene<dim>              &scene)
+    {
+      const std::string section = "Boundaries/" + name;
+      const auto        given   = vector_function<dim>(parameters.displacement,
+                                              place(section, "Displacement"));
+      if (varies(parameters) &&
+          (scene.method.after_step() != MeshAfterStep::keep ||
+           parameters.constraint == "contact"))
+        reject(section,
+               "Displacement",
+               parameters.displacement,
+               "expressions in t, as the surface moves as a rigid body; in x, "
+               "y, z with 'Mesh after step = keep'");
+      std::function<Tensor<1, dim>(const double)> of_surface;
+      if (!varies(parameters) && !parameters.displacement.empty())
+        of_surface = [given,
+                      first = first_time_of(name, scene)](const double t) {
+          return given(Point<dim>(), t) - given(Point<dim>(), first);
+        };
+      return parameters.motion.make_motion(section, of_surface);
+    }
+
+
+
     template <int dim>
     ImplicitBoundary<dim>
     make_boundary(const std::string             &name,
@@ -201,25 +239,13 @@ namespace moraine
                   const Scene<dim>              &scene)
     {
       const std::string section = "Boundaries/" + name;
-      const auto        given   = vector_function<dim>(parameters.displacement,
-                                              place(section, "Displacement"));
-      const bool varies = has_name(parameters.displacement, {"x", "y", "z"});
-      if (varies && scene.method.after_step() != MeshAfterStep::keep)
-        reject(section,
-               "Displacement",
-               parameters.displacement,
-               "expressions in t, as the surface moves as a rigid body; in x, "
-               "y, z with 'Mesh after step = keep'");
-      std::function<Tensor<1, dim>(const double)> of_surface;
-      if (!varies && !parameters.displacement.empty())
-        of_surface = [given,
-                      first = first_time_of(name, scene)](const double t) {
-          return given(Point<dim>(), t) - given(Point<dim>(), first);
-        };
       return {name,
               make_surface<dim>(parameters.surface, shapes, section),
-              parameters.motion.make_motion(section, of_surface),
-              varies ? given : vector_function<dim>("", ""),
+              motion_of_surface(name, parameters, scene),
+              vector_function<dim>(varies(parameters) ?
+                                     parameters.displacement :
+                                     std::string(),
+                                   place(section, "Displacement")),
               make_constraint<dim>(parameters, section),
               parameters.enforcement.enforcement_of(),
               parameters.penetration_limit};
@@ -235,8 +261,42 @@ namespace moraine
     const NamedShapes<dim>             shapes = body_shapes(scene);
     std::vector<ImplicitBoundary<dim>> boundaries;
     for (const auto &[name, parameters] : scene.boundaries)
-      if (parameters.constraint != "absorbing")
+      if (parameters.constraint != "absorbing" &&
+          parameters.constraint != "contact")
         boundaries.push_back(make_boundary(name, parameters, shapes, scene));
+    return boundaries;
+  }
+
+
+
+  template <int dim>
+  std::vector<ContactBoundary<dim>>
+  make_contact_boundaries(const Scene<dim>        &scene,
+                          const ShapePointer<dim> &bodies)
+  {
+    const NamedShapes<dim>            shapes = body_shapes(scene);
+    std::vector<ContactBoundary<dim>> boundaries;
+    for (const auto &[name, parameters] : scene.boundaries)
+      {
+        if (parameters.constraint != "contact")
+          continue;
+        const std::string section = "Boundaries/" + name;
+        if (!bodies)
+          reject(section,
+                 "Constraint",
+                 parameters.constraint,
+                 "another one; the points of a body are given, so that it has "
+                 "no rim");
+        boundaries.emplace_back(
+          name,
+          make_surface<dim>(parameters.surface, shapes, section),
+          motion_of_surface(name, parameters, scene),
+          [rim = bodies->rim()](const BackgroundMesh<dim> &mesh) {
+            return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
+          },
+          parameters.contact.law(section),
+          parameters.enforcement.enforcement_of().stiffness_factor);
+      }
     return boundaries;
   }
 
@@ -541,6 +601,8 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                                       \
   template decltype(make_boundaries<dim>) make_boundaries<dim>;                \
+  template decltype(make_contact_boundaries<dim>)                              \
+    make_contact_boundaries<dim>;                                              \
   template decltype(make_absorbing_boundaries<dim>)                            \
                                                make_absorbing_boundaries<dim>; \
   template decltype(make_grid_conditions<dim>) make_grid_conditions<dim>;      \

@@ -7,10 +7,20 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
+#include <optional>
 #include <string>
 
 namespace moraine
 {
+  /** Of a surface that bodies touch. */
+  struct ContactReport
+  {
+    double area             = 0; ///< of the rims in contact
+    double slipping_area    = 0; ///< the part of it that slides
+    double slip             = 0; ///< longest path along the surface so far
+    double work_of_friction = 0; ///< so far, on the body
+  };
+
   /** Reaction force and worst violation of a boundary in an accepted step. */
   template <int dim>
   struct BoundaryReport
@@ -29,6 +39,8 @@ namespace moraine
     /** Of these forces in the motion that is prescribed in the step; of nodes
      * Works::of_prescribed has it. */
     double work_of_motion = 0;
+    /** If it is one of contact. */
+    std::optional<ContactReport> contact = {};
   };
 
   /** Add up what the ranks know of the forces of a boundary. */

@@ -12,6 +12,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,14 @@ namespace moraine
     /** The largest violation of the constraint on this rank. */
     virtual double
     violation(const StepContext<dim> &context) const = 0;
+
+    /** A violation that passes may leave where they get no better; else the
+     * step has no solution. */
+    virtual double
+    largest_violation_left(const StepContext<dim> &) const
+    {
+      return std::numeric_limits<double>::max();
+    }
 
     /** Take multipliers from the trial state, until the next begin_trial(). */
     virtual void

@@ -60,6 +60,7 @@ namespace moraine
     std::vector<ImplicitBoundary<dim>>           boundaries;
     std::vector<GridCondition<dim>>              grid_conditions;
     std::vector<AbsorbingBoundary<dim>>          absorbing_boundaries;
+    std::vector<ContactBoundary<dim>>            contact_boundaries;
     Loads<dim>                                   loads;
     MeshMotion<dim>                              mesh_motion;
     std::unique_ptr<MechanicsSystem<dim>>        system;

@@ -8,6 +8,7 @@
 #include <moraine/geometry/placement.h>
 #include <moraine/geometry/shape_library.h>
 #include <moraine/scene/absorbing_parameters.h>
+#include <moraine/scene/contact_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
@@ -56,6 +57,7 @@ namespace moraine
     MotionParameters<dim> motion;
     double                penetration_limit = 0;
     AbsorbingParameters   absorbing;
+    ContactParameters     contact;
 
     void
     add_parameters(dealii::ParameterHandler &prm);

@@ -5,6 +5,7 @@
 #define moraine_scene_scene_conditions_h
 
 #include <moraine/boundary/absorbing_boundary.h>
+#include <moraine/boundary/contact_boundary.h>
 #include <moraine/boundary/grid_condition.h>
 #include <moraine/boundary/implicit_boundary.h>
 #include <moraine/load/load.h>
@@ -24,6 +25,13 @@ namespace moraine
   template <int dim>
   std::vector<ImplicitBoundary<dim>>
   make_boundaries(const Scene<dim> &scene);
+
+  /** Surfaces that the rim of @p bodies touches; null if nothing is known of
+   * one. */
+  template <int dim>
+  std::vector<ContactBoundary<dim>>
+  make_contact_boundaries(const Scene<dim>        &scene,
+                          const ShapePointer<dim> &bodies);
 
   /** Boundaries and grid conditions that absorb, in this order. They end where
    * bodies do that are there when they begin to: of all that have @p body_names

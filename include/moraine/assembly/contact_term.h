@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_assembly_contact_term_h
+#define moraine_assembly_contact_term_h
+
+#include <moraine/assembly/term.h>
+#include <moraine/boundary/contact_boundary.h>
+
+#include <vector>
+
+namespace moraine
+{
+  /**
+   * What a rigid surface does to a body that touches it: for each unit, with
+   * the mean @f$\bar N_a@f$ of the functions over its part of the rim,
+   *
+   * @f[ f_a = |\Gamma_u|\, \bar N_a\, P(\tau^{tr}), \qquad
+   *     \tau^{tr} = t + c_n\, g\, n - c_t\, (1 - n \otimes n)
+   *     (\Delta u - \Delta g), \quad c_n = c_3 (\lambda + 2\mu),\;
+   *     c_t = c_3\, \mu, @f]
+   *
+   * with P of ContactLaw and t the traction of the last pass (augmented
+   * Lagrangian). Its tangent @f$|\Gamma_u|\, \bar N_a\, DP\, C \bar N_b@f$ is
+   * unsymmetric in slip.
+   */
+  template <int dim>
+  class ContactTerm : public ConstraintTerm<dim>
+  {
+  public:
+    explicit ContactTerm(ContactBoundary<dim> &boundary);
+
+    TermTraits
+    traits() const override
+    {
+      TermTraits is;
+      is.work_kind = WorkKind::boundaries;
+      is.timer     = "boundary pieces";
+      return is;
+    }
+
+    std::vector<Effect>
+    effects(const StepContext<dim> &context) const override;
+
+    bool
+    begin_step(const StepContext<dim> &context) override;
+
+    void
+    couple(const StepContext<dim>           &context,
+           const typename Term<dim>::Couple &couple) const override;
+
+    void
+    begin_trial(const StepContext<dim> &context) override;
+
+    void
+    move_trial(const StepContext<dim> &context) override;
+
+    void
+    add(const StepContext<dim> &context,
+        const bool              tangent,
+        GlobalSystem<dim>      &system) const override;
+
+    bool
+    symmetric(const StepContext<dim> &context) const override;
+
+    double
+    violation(const StepContext<dim> &context) const override;
+
+    double
+    largest_violation_left(const StepContext<dim> &context) const override;
+
+    void
+    augment(const StepContext<dim> &context) override;
+
+    std::string
+    failure(const StepContext<dim>                    &context,
+            const std::vector<dealii::Tensor<1, dim>> &moves) const override;
+
+    /** A force at the start of a step, of another gap, would feed impacts. */
+    bool
+    acts_over_step(const StepContext<dim> &context) const override
+    {
+      return context.motion && context.motion->integrator().start_forces() > 0;
+    }
+
+    void
+    prepare(const StepContext<dim> &context,
+            const LA::Vector       &unbalanced) override;
+
+    void
+    keep() noexcept override;
+
+    void
+    report(const StepContext<dim>           &context,
+           std::vector<BoundaryReport<dim>> &reports) const override;
+
+  private:
+    /** A unit, or this rank's part of one, with its functions. */
+    struct LocalUnit
+    {
+      unsigned int              number; ///< of ContactBoundary::units()
+      double                    area;
+      std::vector<unsigned int> nodes;
+      std::vector<double>       N; ///< means
+      double                    c_n, c_t;
+    };
+
+    /** A unit in the trial state. */
+    struct Trial
+    {
+      dealii::Tensor<1, dim> du;
+      ContactGap<dim>        gap;
+      dealii::Tensor<1, dim> multiplier; ///< t, turned with the normal
+      ContactResponse<dim>   response;
+    };
+
+    /** Find the functions of units. Collective. */
+    void
+    find_local_units(const StepContext<dim> &context);
+
+    void
+    find_stiffness(const StepContext<dim> &context);
+
+    Trial
+    trial(const StepContext<dim> &context, const LocalUnit &unit) const;
+
+    ContactBoundary<dim>                  &boundary;
+    PlaceFunctions<dim>                    functions; ///< of the places
+    std::vector<LocalUnit>                 local_units;
+    std::vector<std::vector<unsigned int>> coupled_before;
+    BoundaryReport<dim>                    prepared;
+  };
+} // namespace moraine
+
+#endif

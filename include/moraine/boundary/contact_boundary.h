@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#ifndef moraine_boundary_contact_boundary_h
+#define moraine_boundary_contact_boundary_h
+
+#include <moraine/boundary/contact_law.h>
+#include <moraine/core/simulation_state.h>
+#include <moraine/geometry/carried_places.h>
+#include <moraine/geometry/shape.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace moraine
+{
+  /** What a place of the rim carries from step to step. */
+  template <int dim>
+  struct ContactPlace
+  {
+    dealii::Tensor<1, dim> traction; ///< on the body [stress]
+    /** Since the contact began, where places stay in the mesh. */
+    dealii::Tensor<1, dim> displacement;
+    double                 slip    = 0; ///< path along the surface [length]
+    double                 work    = 0; ///< of friction [force length/area]
+    double                 is_open = 0; ///< 1: torn apart, or never closed
+  };
+
+  /**
+   * Places of the rim near a surface that are in contact as one: the mean over
+   * the rim in a cell, and in cells next to it if it is shorter than half a
+   * cell. Smaller ones would ask for more than the cells can follow. The same
+   * on all ranks.
+   */
+  template <int dim>
+  struct ContactUnit
+  {
+    std::vector<unsigned int> places;   ///< numbers, ascending
+    dealii::Point<dim>        x;        ///< mean place at the start of the step
+    dealii::Tensor<1, dim>    normal;   ///< of the surface, out of the body
+    double                    area = 0; ///< of the rim
+    unsigned int              cell = 0; ///< of the first place
+    double                    h    = 0; ///< size of that cell
+    /** Mean gap at the start less the level of the surface at @p x. */
+    double                 level = 0;
+    dealii::Tensor<1, dim> traction_at_start;
+    dealii::Tensor<1, dim> multiplier; ///< t of the present pass
+    bool                   was_open = false;
+  };
+
+  /** The end of a step at the mean place of a unit. */
+  template <int dim>
+  struct ContactGap
+  {
+    double                 gap; ///< positive: apart
+    dealii::Tensor<1, dim> normal;
+    /** @f$(1 - n \otimes n)(\Delta u - \Delta g)@f$ */
+    dealii::Tensor<1, dim> slip;
+  };
+
+  /**
+   * A rigid surface that bodies touch, let go and rub. The rim of the bodies
+   * carries places with it, so that a gap is known after they parted and
+   * contact ends where the body does. The gap is the distance from the surface
+   * at the end of the step, @f$\phi_{n+1}(x + \Delta u)@f$, never a sum.
+   */
+  template <int dim>
+  class ContactBoundary : public StatePart
+  {
+  public:
+    using Place = typename CarriedPlaces<dim>::Place;
+    /** The places of the rim of the bodies in the mesh as it was built. */
+    using Finder =
+      std::function<std::vector<Place>(const BackgroundMesh<dim> &)>;
+
+    /** @p stiffness_factor: @f$c_3 h@f$ of the penalty of a pass. */
+    ContactBoundary(const std::string         &name,
+                    const SurfacePointer<dim> &surface,
+                    const RigidMotion<dim>    &motion,
+                    const Finder              &find_places,
+                    const ContactLaw          &law,
+                    const double               stiffness_factor);
+
+    /** Place the surface at the start @p t of a step and find the cells of the
+     * places, which are found themselves the first time. Collective. */
+    void
+    find_cells(const GridSpace<dim> &space,
+               const double          search_tolerance,
+               const double          t);
+
+    /** Find the units of the step. Collective. */
+    void
+    find_units(const GridSpace<dim> &space);
+
+    /** Aim at @p t_end, with the multipliers of the start if @p anew. */
+    void
+    set_target(const double t_end, const bool anew);
+
+    /** Where a unit is if its mean place moves by @p du. */
+    ContactGap<dim>
+    gap(const ContactUnit<dim> &unit, const dealii::Tensor<1, dim> &du) const;
+
+    /** The traction @p t on a place with @p normal where the surface has the
+     * normal @p end: turned by the smallest rotation of one to the other. */
+    static dealii::Tensor<1, dim>
+    turned(const dealii::Tensor<1, dim> &t,
+           const dealii::Tensor<1, dim> &normal,
+           const dealii::Tensor<1, dim> &end);
+
+    /** @f$\nabla n@f$ where the mean place of a unit comes to by @p du. */
+    dealii::SymmetricTensor<2, dim>
+    normal_gradient(const ContactUnit<dim>       &unit,
+                    const dealii::Tensor<1, dim> &du) const;
+
+    /** Distance from the surface at the end of the step of the place @p k
+     * that moves by @p du; 0 if it is in front or beyond its ends. */
+    double
+    depth(const unsigned int k, const dealii::Tensor<1, dim> &du) const;
+
+    /** What places will carry: of unit u the traction, status, and what it
+     * slips and works; and how the places move. Collective. */
+    struct OfUnit
+    {
+      dealii::Tensor<1, dim> traction;
+      ContactStatus          status = ContactStatus::open;
+      double                 slip   = 0; ///< of the step
+      double                 work   = 0; ///< of friction in it, per area
+    };
+    void
+    prepare(const std::vector<OfUnit>                                 &of_units,
+            const std::vector<typename CarriedPlaces<dim>::Increment> &moves,
+            const bool moves_places,
+            const bool through_mesh,
+            const bool turns);
+
+    /** The longest path of a place along the surface, of what is prepared. */
+    double
+    largest_slip() const;
+
+    /** Over the rim, of what is prepared [force length]. */
+    double
+    work_of_friction() const;
+
+    /** Carry what was prepared. */
+    void
+    keep() noexcept
+    {
+      std::swap(carried, prepared);
+      rim.move();
+    }
+
+    void
+    write(Archive &archive) const override;
+
+    void
+    read(const Archive &archive) override;
+
+    void
+    undo() override
+    {
+      rim.undo();
+      prepared.clear();
+    }
+
+    const std::string &
+    name() const
+    {
+      return boundary_name;
+    }
+
+    const ContactLaw &
+    law() const
+    {
+      return contact_law;
+    }
+
+    const RigidMotion<dim> &
+    rigid_motion() const
+    {
+      return motion;
+    }
+
+    const CarriedPlaces<dim> &
+    places_of_rim() const
+    {
+      return rim;
+    }
+
+    const std::vector<ContactUnit<dim>> &
+    units() const
+    {
+      return all_units;
+    }
+
+    /** Take the multipliers of the next pass. */
+    void
+    set_multipliers(const std::vector<dealii::Tensor<1, dim>> &multipliers);
+
+    double
+    stiffness_factor() const
+    {
+      return factor;
+    }
+
+    bool
+    is_curved() const
+    {
+      return at_end.curved();
+    }
+
+  private:
+    std::string
+    group() const
+    {
+      return "contact/" + boundary_name;
+    }
+
+    /** Where a place is now. */
+    dealii::Point<dim>
+    position(const unsigned int k) const
+    {
+      return rim.places()[k].x + carried[k].displacement;
+    }
+
+    /** Let each cell's places near the surface be a unit. */
+    void
+    gather_units(const GridSpace<dim> &space);
+
+    /** Let units below half a cell join the nearest one. */
+    void
+    merge_small_units();
+
+    void
+    set_means();
+
+    const std::string              boundary_name;
+    MovedSurface<dim>              at_start, at_end;
+    const RigidMotion<dim>         motion;
+    const Finder                   find_places;
+    const ContactLaw               contact_law;
+    const double                   factor;
+    CarriedPlaces<dim>             rim{{}};
+    std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
+    std::vector<ContactUnit<dim>>  all_units;
+    bool                           placed = false; ///< once
+  };
+} // namespace moraine
+
+#endif

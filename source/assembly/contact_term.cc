@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/assembly/contact_term.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of the size of a cell: how much of a gap, or of a slip where it sticks,
+     * passes may leave. */
+    constexpr double largest_gap_left = 1e-6;
+
+    /** Of the size of a cell: a place of the rim that ends deeper behind the
+     * surface was not seen to come. */
+    constexpr double deepest_place = 0.5;
+
+    /** Of c_n h: a tension that is round-off. */
+    constexpr double no_tension = 1e-12;
+
+
+
+    /** What a rank knows of the functions of a unit. */
+    struct Entry
+    {
+      unsigned int            unit;
+      types::global_dof_index dof; ///< first of a node
+      double                  N;   ///< times the area
+
+      template <class BoostArchive>
+      void
+      serialize(BoostArchive &archive, const unsigned int)
+      {
+        archive &unit &dof &N;
+      }
+    };
+
+
+
+    /** Of unknowns, the nodes of this rank that have them. */
+    template <int dim>
+    std::map<types::global_dof_index, unsigned int>
+    nodes_of_dofs(const GridSpace<dim> &space)
+    {
+      std::map<types::global_dof_index, unsigned int> nodes;
+      for (unsigned int node = 0; node < space.n_nodes(); ++node)
+        nodes.emplace(space.node_dof(node), node);
+      return nodes;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactTerm<dim>::ContactTerm(ContactBoundary<dim> &boundary)
+    : boundary(boundary)
+  {}
+
+
+
+  template <int dim>
+  std::vector<Effect>
+  ContactTerm<dim>::effects(const StepContext<dim> &) const
+  {
+    const std::string &name = boundary.name();
+    return {{"contact with " + name,
+             "boundary",
+             name + ", contact, " + std::to_string(boundary.units().size()) +
+               " pieces of rims near it"}};
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::begin_step(const StepContext<dim> &context)
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    const bool            through_mesh =
+      context.state.mesh_after_step() == MeshAfterStep::reset;
+    boundary.find_cells(space, context.search_tolerance, context.t_start);
+    const Basis<dim> &basis  = context.state.point_basis();
+    const auto       &places = boundary.places_of_rim().places();
+    functions                = through_mesh ? basis.functions_at(places) :
+                                              basis.functions_of_cells(places);
+    boundary.find_units(space);
+    find_local_units(context);
+    find_stiffness(context);
+    std::vector<std::vector<unsigned int>> coupled;
+    for (const LocalUnit &unit : local_units)
+      if (unit.nodes.size() > space.nodes_per_cell())
+        coupled.push_back(unit.nodes);
+    const bool changed = coupled != coupled_before;
+    coupled_before     = std::move(coupled);
+    return changed;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::find_local_units(const StepContext<dim> &context)
+  {
+    const GridSpace<dim>     &space        = context.state.grid();
+    const MPI_Comm            communicator = space.communicator();
+    const auto               &places       = boundary.places_of_rim().places();
+    const auto               &units        = boundary.units();
+    std::vector<unsigned int> unit_of(places.size(),
+                                      numbers::invalid_unsigned_int);
+    for (unsigned int u = 0; u < units.size(); ++u)
+      for (const unsigned int k : units[u].places)
+        unit_of[k] = u;
+
+    // Sums by unit and node of this rank.
+    const unsigned int n = space.nodes_per_cell();
+    std::map<std::pair<unsigned int, types::global_dof_index>, double> sums;
+    for (unsigned int i = 0; i < functions.places.size(); ++i)
+      {
+        const unsigned int k = functions.places[i];
+        if (unit_of[k] == numbers::invalid_unsigned_int)
+          continue;
+        const unsigned int *nodes = space.cell_nodes(functions.cells[i]);
+        for (unsigned int a = 0; a < n; ++a)
+          if (functions.N[n * i + a] != 0.)
+            sums[{unit_of[k], space.node_dof(nodes[a])}] +=
+              places[k].weight * functions.N[n * i + a];
+      }
+    std::vector<Entry> entries;
+    for (const auto &[where, value] : sums)
+      entries.push_back({where.first, where.second, value});
+
+    // The first rank that knows all nodes of a unit has it.
+    const auto         nodes   = nodes_of_dofs(space);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const auto of_ranks = Utilities::MPI::all_gather(communicator, entries);
+    std::vector<unsigned int> owners(units.size(), n_ranks - 1 - rank);
+    for (const auto &of_rank : of_ranks)
+      for (const Entry &entry : of_rank)
+        if (nodes.count(entry.dof) == 0)
+          owners[entry.unit] = numbers::invalid_unsigned_int;
+    for (unsigned int &owner : owners)
+      owner = owner == numbers::invalid_unsigned_int ? 0 : owner + 1;
+    Utilities::MPI::max(owners, communicator, owners);
+
+    std::vector<std::map<unsigned int, double>> N(units.size());
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      for (const Entry &entry : of_ranks[r])
+        // Where none knows all, each has its part.
+        if (owners[entry.unit] == n_ranks - rank ||
+            (owners[entry.unit] == 0 && r == rank))
+          N[entry.unit][nodes.at(entry.dof)] += entry.N;
+    local_units.clear();
+    for (unsigned int u = 0; u < units.size(); ++u)
+      {
+        if (N[u].empty())
+          continue;
+        LocalUnit unit{u, 0., {}, {}, 0., 0.};
+        for (const auto &[node, value] : N[u])
+          unit.area += value;
+        for (const auto &[node, value] : N[u])
+          {
+            unit.nodes.push_back(node);
+            unit.N.push_back(value / unit.area);
+          }
+        local_units.push_back(unit);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::find_stiffness(const StepContext<dim> &context)
+  {
+    const auto         &units = boundary.units();
+    std::vector<double> moduli(2 * units.size(), 0.);
+    for (unsigned int u = 0; u < units.size(); ++u)
+      for (const unsigned int k : units[u].places)
+        if (boundary.places_of_rim().places()[k].active_cell_index ==
+            units[u].cell)
+          {
+            const LameConstants &C =
+              context.cell_materials.elastic_stiffness(units[u].cell);
+            // Cells with one change of volume cannot follow it at all places.
+            moduli[2 * u] =
+              2 * C.mu + (context.state.averages_volume() ? 0. : C.lambda);
+            moduli[2 * u + 1] = C.mu;
+            break;
+          }
+    Utilities::MPI::max(moduli, context.state.grid().communicator(), moduli);
+    for (LocalUnit &unit : local_units)
+      {
+        const double c3 = boundary.stiffness_factor() / units[unit.number].h;
+        unit.c_n        = c3 * moduli[2 * unit.number];
+        unit.c_t        = c3 * moduli[2 * unit.number + 1];
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::couple(const StepContext<dim> &,
+                           const typename Term<dim>::Couple &couple) const
+  {
+    for (const auto &nodes : coupled_before)
+      couple(nodes.data(), nodes.size());
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::begin_trial(const StepContext<dim> &context)
+  {
+    boundary.set_target(context.t_end, /* anew = */ true);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::move_trial(const StepContext<dim> &context)
+  {
+    boundary.set_target(context.t_end, /* anew = */ false);
+  }
+
+
+
+  template <int dim>
+  typename ContactTerm<dim>::Trial
+  ContactTerm<dim>::trial(const StepContext<dim> &context,
+                          const LocalUnit        &local) const
+  {
+    const ContactUnit<dim> &unit = boundary.units()[local.number];
+    Trial                   trial;
+    for (unsigned int a = 0; a < local.nodes.size(); ++a)
+      trial.du += local.N[a] * context.increments()[local.nodes[a]];
+    trial.gap = boundary.gap(unit, trial.du);
+    trial.multiplier =
+      boundary.turned(unit.multiplier, unit.normal, trial.gap.normal);
+    const Tensor<1, dim> traction =
+      trial.multiplier + local.c_n * trial.gap.gap * trial.gap.normal -
+      local.c_t * trial.gap.slip;
+    trial.response = boundary.law().response(traction,
+                                             trial.gap.normal,
+                                             unit.was_open,
+                                             no_tension * local.c_n * unit.h);
+    return trial;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::add(const StepContext<dim> &context,
+                        const bool              tangent,
+                        GlobalSystem<dim>      &system) const
+  {
+    LocalSystem<dim>     local;
+    const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+    for (const LocalUnit &unit : local_units)
+      {
+        const Trial           now     = trial(context, unit);
+        const Tensor<1, dim> &n       = now.gap.normal;
+        const Tensor<1, dim> &t       = now.response.traction;
+        const unsigned int    n_nodes = unit.nodes.size();
+        local.reinit(context.state, unit.nodes.data(), n_nodes, tangent);
+        Tensor<2, dim> stiffness;
+        if (tangent && now.response.status != ContactStatus::open)
+          {
+            const Tensor<2, dim> nn = outer_product(n, n);
+            stiffness =
+              now.response.derivative * (unit.c_n * nn + unit.c_t * (one - nn));
+            if (boundary.is_curved())
+              stiffness -= (t * n) * Tensor<2, dim>(boundary.normal_gradient(
+                                       boundary.units()[unit.number], now.du));
+          }
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              local.force[dim * a + i] = unit.area * unit.N[a] * t[i];
+              if (tangent)
+                for (unsigned int b = 0; b < n_nodes; ++b)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    local.matrix(dim * a + i, dim * b + j) =
+                      unit.area * unit.N[a] * unit.N[b] * stiffness[i][j];
+            }
+        system.add(local, tangent);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::symmetric(const StepContext<dim> &) const
+  {
+    return boundary.law().friction == 0.;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactTerm<dim>::violation(const StepContext<dim> &context) const
+  {
+    double largest = 0;
+    for (const LocalUnit &unit : local_units)
+      {
+        const Trial          now    = trial(context, unit);
+        const Tensor<1, dim> change = now.response.traction - now.multiplier;
+        const double         normal = change * now.gap.normal;
+        largest =
+          std::max({largest,
+                    std::abs(normal) / unit.c_n,
+                    (change - normal * now.gap.normal).norm() / unit.c_t});
+      }
+    return largest;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactTerm<dim>::largest_violation_left(
+    const StepContext<dim> &context) const
+  {
+    return largest_gap_left * context.state.grid().mesh().cell_size();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::augment(const StepContext<dim> &context)
+  {
+    const unsigned int  n_units = boundary.units().size();
+    std::vector<double> sums((dim + 1) * n_units, 0.);
+    for (const LocalUnit &unit : local_units)
+      {
+        const Trial          now = trial(context, unit);
+        const Tensor<1, dim> t =
+          boundary.turned(now.response.traction,
+                          now.gap.normal,
+                          boundary.units()[unit.number].normal);
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[(dim + 1) * unit.number + d] += unit.area * t[d];
+        sums[(dim + 1) * unit.number + dim] += unit.area;
+      }
+    Utilities::MPI::sum(sums, context.state.grid().communicator(), sums);
+    std::vector<Tensor<1, dim>> multipliers(n_units);
+    for (unsigned int u = 0; u < n_units; ++u)
+      for (unsigned int d = 0; d < dim; ++d)
+        multipliers[u][d] = sums[(dim + 1) * u + d] / sums[(dim + 1) * u + dim];
+    boundary.set_multipliers(multipliers);
+  }
+
+
+
+  template <int dim>
+  std::string
+  ContactTerm<dim>::failure(const StepContext<dim> &context,
+                            const std::vector<Tensor<1, dim>> &) const
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    const auto            moves =
+      boundary.places_of_rim().increments(space, context.increments());
+    for (unsigned int k = 0; k < moves.size(); ++k)
+      if (boundary.depth(k, moves[k].u) >
+          deepest_place * space.mesh().cell_size())
+        return "a rim would end behind the surface '" + boundary.name() + "'";
+    return "";
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::prepare(const StepContext<dim> &context, const LA::Vector &)
+  {
+    using OfUnit                  = typename ContactBoundary<dim>::OfUnit;
+    const State<dim>      &state  = context.state;
+    const GridSpace<dim>  &space  = state.grid();
+    const auto            &motion = boundary.rigid_motion();
+    const Placement<dim>   pose   = motion.pose(context.t_end);
+    constexpr unsigned int n      = dim + 5;
+    std::vector<double>    sums(n * boundary.units().size(), 0.);
+    prepared = {boundary.name(), {}, 0., 0., 0., 0.};
+    prepared.contact.emplace();
+    for (const LocalUnit &unit : local_units)
+      {
+        const Trial           now = trial(context, unit);
+        const Tensor<1, dim> &t   = now.response.traction;
+        const auto           &of  = boundary.units()[unit.number];
+        const double          slip =
+          now.response.status == ContactStatus::slip ? now.gap.slip.norm() : 0.;
+        double *sum = &sums[n * unit.number];
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[d] += unit.area * t[d];
+        sum[dim + unsigned(now.response.status)] += unit.area;
+        sum[dim + 3] += unit.area * slip;
+        sum[dim + 4] += slip > 0. ? unit.area * (t * now.gap.slip) : 0.;
+        prepared.reaction += unit.area * t;
+        prepared.force_magnitude += unit.area * t.norm();
+        prepared.moment += motion.moment(of.x + now.du, unit.area * t, pose);
+        prepared.work_of_motion += unit.area * (t * (now.du - now.gap.slip));
+      }
+    sum_over_ranks(prepared, space.communicator());
+    Utilities::MPI::sum(sums, space.communicator(), sums);
+    std::vector<OfUnit> of_units(boundary.units().size());
+    for (unsigned int u = 0; u < of_units.size(); ++u)
+      {
+        const double *sum    = &sums[n * u];
+        const double *status = sum + dim;
+        const double  area   = status[0] + status[1] + status[2];
+        for (unsigned int d = 0; d < dim; ++d)
+          of_units[u].traction[d] = sum[d] / area;
+        of_units[u].status = static_cast<ContactStatus>(
+          std::max_element(status, status + 3) - status);
+        of_units[u].slip = sum[dim + 3] / area;
+        of_units[u].work = sum[dim + 4] / area;
+        prepared.contact->area += status[1] + status[2];
+        prepared.contact->slipping_area += status[2];
+      }
+    const auto moves =
+      boundary.places_of_rim().increments(space, context.increments());
+    for (unsigned int k = 0; k < moves.size(); ++k)
+      prepared.penetration =
+        std::max(prepared.penetration, boundary.depth(k, moves[k].u));
+    boundary.prepare(of_units,
+                     moves,
+                     state.mesh_after_step() != MeshAfterStep::keep,
+                     state.mesh_after_step() == MeshAfterStep::reset,
+                     state.strain_measure() == StrainMeasure::finite);
+    prepared.contact->slip             = boundary.largest_slip();
+    prepared.contact->work_of_friction = boundary.work_of_friction();
+    prepared.violation =
+      Utilities::MPI::max(violation(context), space.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::keep() noexcept
+  {
+    boundary.keep();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::report(const StepContext<dim> &,
+                           std::vector<BoundaryReport<dim>> &reports) const
+  {
+    reports.push_back(prepared);
+  }
+
+
+
+  template class ContactTerm<2>;
+  template class ContactTerm<3>;
+} // namespace moraine

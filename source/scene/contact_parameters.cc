@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/scene/contact_parameters.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/core/patterns.h>
+#include <moraine/core/words.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  void
+  ContactParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Friction",
+                      friction,
+                      "Of 'contact': coefficient of friction mu; the shear "
+                      "traction is at most 'Adhesion' + mu times the pressure.",
+                      patterns::non_negative());
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "Of 'contact': angle of friction in degrees, instead of "
+                      "the coefficient mu = tan(angle).",
+                      Patterns::Double(0, 89));
+    prm.add_parameter("Adhesion",
+                      adhesion,
+                      "Of 'contact': shear strength without pressure (stress), "
+                      "until the body lets go.",
+                      patterns::non_negative());
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "Of 'contact': normal tension (stress) at which the body "
+                      "lets go for good: it is 0 from then on.",
+                      patterns::non_negative());
+    prm.add_parameter("Separation",
+                      separation,
+                      "Of 'contact': whether the body can let go. false: a "
+                      "roller with friction that also carries tension.");
+  }
+
+
+
+  bool
+  ContactParameters::has(const std::string &key)
+  {
+    return contains(std::vector<std::string>{"Friction",
+                                             "Friction angle",
+                                             "Adhesion",
+                                             "Tensile strength",
+                                             "Separation"},
+                    key);
+  }
+
+
+
+  ContactLaw
+  ContactParameters::law(const std::string &section) const
+  {
+    if (friction > 0 && friction_angle > 0)
+      reject(section,
+             "Friction angle",
+             Patterns::Tools::to_string(friction_angle),
+             "nothing beside key 'Friction'");
+    if (!separation && tensile_strength > 0)
+      reject(section,
+             "Tensile strength",
+             Patterns::Tools::to_string(tensile_strength),
+             "nothing with 'Separation = false'");
+    if (separation && adhesion > 0 && tensile_strength == 0)
+      reject(
+        section,
+        "Adhesion",
+        Patterns::Tools::to_string(adhesion),
+        "0, or a 'Tensile strength', or 'Separation = false': without them "
+        "the bond breaks under the least tension");
+    return {friction > 0 ? friction :
+                           std::tan(friction_angle * numbers::PI / 180.),
+            adhesion,
+            tensile_strength,
+            separation};
+  }
+} // namespace moraine
