@@ -5,6 +5,7 @@
 #define moraine_run_model_h
 
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/boundary/contact_boundary.h>
 #include <moraine/diagnostics/facts.h>
 #include <moraine/output/probes.h>
 #include <moraine/points/bodies.h>
