@@ -483,13 +483,15 @@ namespace moraine
     const MPI_Comm communicator = state.grid().communicator();
     state.set_trial(x);
     double violation = 0, motion = 0;
-    bool   must_go_on = false;
+    bool   must_go_on = false, may_go_on = false;
     for (const auto &u : state.nodal_increments())
       motion = std::max(motion, u.norm());
     each<ConstraintTerm<dim>>([&](const auto &term) {
       const double of_term = term.violation(context);
       violation            = std::max(violation, of_term);
-      must_go_on = must_go_on || of_term > term.largest_violation_left(context);
+      const double left    = term.largest_violation_left(context);
+      must_go_on           = must_go_on || of_term > left;
+      may_go_on = may_go_on || left < std::numeric_limits<double>::max();
     });
     must_go_on = Utilities::MPI::logical_or(must_go_on, communicator);
     violation  = Utilities::MPI::max(violation, communicator);
@@ -497,7 +499,10 @@ namespace moraine
     // Stop when the constraint holds to round-off or gets no better, and where
     // it holds well when it gets little better: some ways in which nodes
     // alternate along a surface have next to no mean in a cell.
-    const double little = violation <= 1e-10 * motion ? 0.3 : 0.5;
+    // What slides settles slowly.
+    const double little = violation <= 1e-10 * motion ? 0.3 :
+                          may_go_on                   ? 0.9 :
+                                                        0.5;
     if (violation <= 1e-14 * motion ||
         (violation > little * last_violation && !must_go_on))
       return false;
