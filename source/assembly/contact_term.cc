@@ -256,6 +256,9 @@ namespace moraine
                                              trial.gap.normal,
                                              unit.was_open,
                                              no_tension * local.c_n * unit.h);
+    // The first correction of a body that nothing else holds.
+    if (unit.touches_first && trial.du.norm_square() == 0.)
+      trial.response.derivative = unit_symmetric_tensor<dim>();
     return trial;
   }
 
@@ -277,7 +280,7 @@ namespace moraine
         const unsigned int    n_nodes = unit.nodes.size();
         local.reinit(context.state, unit.nodes.data(), n_nodes, tangent);
         Tensor<2, dim> stiffness;
-        if (tangent && now.response.status != ContactStatus::open)
+        if (tangent)
           {
             const Tensor<2, dim> nn = outer_product(n, n);
             stiffness =
@@ -327,6 +330,26 @@ namespace moraine
                     (change - normal * now.gap.normal).norm() / unit.c_t});
       }
     return largest;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::is_settled(const StepContext<dim> &context,
+                               const double            tolerance) const
+  {
+    double change = 0, largest = 0;
+    for (const LocalUnit &unit : local_units)
+      {
+        const Trial           now = trial(context, unit);
+        const Tensor<1, dim> &t   = now.response.traction;
+        change  = std::max(change, (t - now.multiplier).norm());
+        largest = std::max(largest, t.norm());
+      }
+    const MPI_Comm communicator = context.state.grid().communicator();
+    return Utilities::MPI::max(change, communicator) <=
+           tolerance * Utilities::MPI::max(largest, communicator);
   }
 
 

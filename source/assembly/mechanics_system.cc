@@ -478,30 +478,34 @@ namespace moraine
 
   template <int dim>
   bool
-  MechanicsSystem<dim>::augment(const LA::Vector &x)
+  MechanicsSystem<dim>::augment(const LA::Vector &x, const double tolerance)
   {
+    // Of tractions: displacements of a cell are wrong by a tenth of that.
+    const double   settled      = 1e5 * tolerance;
     const MPI_Comm communicator = state.grid().communicator();
     state.set_trial(x);
     double violation = 0, motion = 0;
-    bool   must_go_on = false, may_go_on = false;
+    bool   must_go_on = false, slides = false;
     for (const auto &u : state.nodal_increments())
       motion = std::max(motion, u.norm());
     each<ConstraintTerm<dim>>([&](const auto &term) {
+      if (term.is_settled(context, settled))
+        return;
       const double of_term = term.violation(context);
-      violation            = std::max(violation, of_term);
       const double left    = term.largest_violation_left(context);
+      violation            = std::max(violation, of_term);
       must_go_on           = must_go_on || of_term > left;
-      may_go_on = may_go_on || left < std::numeric_limits<double>::max();
+      slides = slides || left < std::numeric_limits<double>::max();
     });
     must_go_on = Utilities::MPI::logical_or(must_go_on, communicator);
     violation  = Utilities::MPI::max(violation, communicator);
     motion     = Utilities::MPI::max(motion, communicator);
     // Stop when the constraint holds to round-off or gets no better, and where
     // it holds well when it gets little better: some ways in which nodes
-    // alternate along a surface have next to no mean in a cell.
-    // What slides settles slowly.
+    // alternate along a surface have next to no mean in a cell. What slides
+    // settles slowly.
     const double little = violation <= 1e-10 * motion ? 0.3 :
-                          may_go_on                   ? 0.9 :
+                          slides                      ? 0.9 :
                                                         0.5;
     if (violation <= 1e-14 * motion ||
         (violation > little * last_violation && !must_go_on))

@@ -27,6 +27,10 @@ namespace moraine
     /** Pieces whose normals differ by more than 45 degrees meet in a corner. */
     constexpr double cosine_of_one_unit = 0.7071;
 
+    /** Of the size of a cell: a mean gap that a step may close though nothing
+     * else holds the body. */
+    constexpr double touches_soon = 0.1;
+
     /** Of the size of a cell: a gap at the start that is none. */
     constexpr double touching = 1e-6;
 
@@ -87,6 +91,20 @@ namespace moraine
     gather_units(space);
     merge_small_units();
     set_means();
+    double least    = touches_soon * space.mesh().cell_size();
+    auto   of_least = all_units.end();
+    for (auto unit = all_units.begin(); unit != all_units.end(); ++unit)
+      {
+        unit->touches_first = false;
+        const double gap    = unit->level + at_start.level(unit->x);
+        if (gap < least)
+          {
+            least    = gap;
+            of_least = unit;
+          }
+      }
+    if (least > 0 && of_least != all_units.end())
+      of_least->touches_first = true;
   }
 
 

@@ -365,7 +365,7 @@ namespace moraine
       bool
       settle_multipliers()
       {
-        while (system.augment(x))
+        while (system.augment(x, parameters.tolerance))
           {
             if (report.augmentations == parameters.maximum_augmentations)
               return stop(NewtonStatus::too_many_iterations,

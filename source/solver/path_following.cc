@@ -53,7 +53,7 @@ namespace moraine
         prescribed = x;
         if (!predict() || !settle())
           return report;
-        while (system.augment(x))
+        while (system.augment(x, parameters.tolerance))
           {
             if (report.augmentations == parameters.maximum_augmentations)
               {

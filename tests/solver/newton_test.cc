@@ -489,7 +489,7 @@ namespace
     {}
 
     bool
-    augment(const LA::Vector &x) override
+    augment(const LA::Vector &x, const double) override
     {
       const double gap = g - everywhere(x)[1];
       if (std::abs(gap) < 1e-13)

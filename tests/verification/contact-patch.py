@@ -43,7 +43,7 @@ Loads/right/Type = surface traction | Body = block | Part = right
 Loads/right/Value = {turned(angle, -across, tau)} | Curve = t
 {top}
 Time/Steps = 2
-Solver/Solver = direct | Tolerance = 1e-11
+Solver/Solver = direct | Tolerance = 1e-12
 """
 
 

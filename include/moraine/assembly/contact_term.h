@@ -66,6 +66,10 @@ namespace moraine
     double
     violation(const StepContext<dim> &context) const override;
 
+    bool
+    is_settled(const StepContext<dim> &context,
+               const double            tolerance) const override;
+
     double
     largest_violation_left(const StepContext<dim> &context) const override;
 

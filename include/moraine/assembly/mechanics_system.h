@@ -262,7 +262,7 @@ namespace moraine
     }
 
     bool
-    augment(const LA::Vector &x) override;
+    augment(const LA::Vector &x, const double tolerance) override;
 
     /** The time at which the step ends. */
     void

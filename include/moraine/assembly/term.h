@@ -188,6 +188,14 @@ namespace moraine
     virtual double
     violation(const StepContext<dim> &context) const = 0;
 
+    /** Whether another pass would change tractions by less than @p tolerance
+     * times the largest one. Collective. */
+    virtual bool
+    is_settled(const StepContext<dim> &, const double /*tolerance*/) const
+    {
+      return false;
+    }
+
     /** A violation that passes may leave where they get no better; else the
      * step has no solution. */
     virtual double

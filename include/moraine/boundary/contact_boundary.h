@@ -47,6 +47,8 @@ namespace moraine
     dealii::Tensor<1, dim> traction_at_start;
     dealii::Tensor<1, dim> multiplier; ///< t of the present pass
     bool                   was_open = false;
+    /** Nothing touches the surface yet, and this is nearest to it. */
+    bool touches_first = false;
   };
 
   /** The end of a step at the mean place of a unit. */

@@ -137,10 +137,10 @@ namespace moraine
     /**
      * Called at a converged @p x: update what the system carries along
      * (multipliers of an augmented Lagrangian). True asks for another pass
-     * with the same tangent.
+     * with the same tangent. @p tolerance: that of Newton's method.
      */
     virtual bool
-    augment(const LA::Vector &)
+    augment(const LA::Vector &, const double /*tolerance*/)
     {
       return false;
     }
