@@ -76,8 +76,8 @@ namespace moraine
         rim.catch_up(space);
         carried.assign(rim.places().size(), {});
         for (unsigned int k = 0; k < carried.size(); ++k)
-          carried[k].is_open =
-            at_start.level(position(k)) > touching * space.mesh().cell_size();
+          if (at_start.level(position(k)) > touching * space.mesh().cell_size())
+            carried[k].status = 0;
       }
     placed = true;
   }
@@ -194,7 +194,7 @@ namespace moraine
             unit.level += share * nearest.level;
             unit.normal += share * nearest.normal;
             unit.traction_at_start += share * carried[k].traction;
-            open += share * carried[k].is_open;
+            open += carried[k].status == 0 ? share : 0.;
           }
         unit.normal /= unit.normal.norm();
         unit.level -= at_start.level(unit.x);
@@ -366,13 +366,13 @@ namespace moraine
     for (ContactPlace<dim> &place : prepared)
       {
         place.traction = Tensor<1, dim>();
-        place.is_open  = 1;
+        place.status   = 0;
       }
     for (unsigned int u = 0; u < all_units.size(); ++u)
       for (const unsigned int k : all_units[u].places)
         {
           prepared[k].traction = of_units[u].traction;
-          prepared[k].is_open  = of_units[u].status == ContactStatus::open;
+          prepared[k].status   = unsigned(of_units[u].status);
           prepared[k].slip += of_units[u].slip;
           prepared[k].work += of_units[u].work;
         }
@@ -431,7 +431,7 @@ namespace moraine
                   components_of(carried, &Of::work),
                   1,
                   "stress length");
-    archive.write(group() + "/is_open", components_of(carried, &Of::is_open));
+    archive.write(group() + "/status", components_of(carried, &Of::status));
     archive.write(group() + "/is_placed", placed ? 1u : 0u);
   }
 
@@ -456,7 +456,7 @@ namespace moraine
     read("displacement", &Of::displacement, dim);
     read("slip", &Of::slip, 1);
     read("work", &Of::work, 1);
-    read("is_open", &Of::is_open, 1);
+    read("status", &Of::status, 1);
     undo();
   }
 

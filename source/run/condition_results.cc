@@ -203,6 +203,54 @@ namespace moraine
 
   template <int dim>
   void
+  write_contact_vtu(const Model<dim> &model, const VtuTarget &target)
+  {
+    const MPI_Comm  communicator = model.space->communicator();
+    VtuFile<0, dim> file(target);
+    file.add_vector("traction", "stress");
+    file.add_vector("normal", "-");
+    for (const char *name : {"gap", "slip"})
+      file.add_scalar(name, "length");
+    file.add_scalar("size", dim == 2 ? "length" : "length^2");
+    for (const char *name : {"status", "boundary"})
+      file.add_scalar(name, "-");
+    std::vector<typename VtuFile<0, dim>::Patch> patches;
+    // All ranks know all places.
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      for (unsigned int b = 0; b < model.contact_boundaries.size(); ++b)
+        {
+          const ContactBoundary<dim> &boundary = model.contact_boundaries[b];
+          const auto &places = boundary.places_of_rim().places();
+          for (unsigned int k = 0; k < places.size(); ++k)
+            {
+              const ContactPlace<dim> &carried = boundary.at_place(k);
+              patches.emplace_back();
+              patches.back().vertices[0] = boundary.position(k);
+              auto &data                 = patches.back().data;
+              data.reinit(file.n_rows(), 1);
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  data(d, 0)       = carried.traction[d];
+                  data(dim + d, 0) = places[k].normal[d];
+                }
+              const std::array<double, 5> rest = {{boundary.distance(k),
+                                                   carried.slip,
+                                                   places[k].weight,
+                                                   carried.status,
+                                                   double(b)}};
+              for (unsigned int i = 0; i < rest.size(); ++i)
+                data(2 * dim + i, 0) = rest[i];
+            }
+        }
+    file.write(communicator, patches.size(), [&patches](const unsigned int i) {
+      return patches[i];
+    });
+  }
+
+
+
+  template <int dim>
+  void
   write_water_vtu(const Model<dim> &model, const VtuTarget &target)
   {
     constexpr unsigned int n_columns = 200;
@@ -248,6 +296,7 @@ namespace moraine
   template decltype(translations_of_conditions<dim>)                          \
                                              translations_of_conditions<dim>; \
   template decltype(write_boundary_vtu<dim>) write_boundary_vtu<dim>;         \
+  template decltype(write_contact_vtu<dim>)  write_contact_vtu<dim>;          \
   template decltype(write_water_vtu<dim>)    write_water_vtu<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -53,6 +53,8 @@ namespace moraine
     add("mesh");
     if (scene.output.mesh && !model.boundaries.empty())
       add("boundaries");
+    if (scene.output.mesh && !model.contact_boundaries.empty())
+      add("contact");
     if (scene.output.points && model.basis->has_domains())
       add("domains");
     if (scene.output.points && model.loads.water)
@@ -175,6 +177,10 @@ namespace moraine
         if (!model.boundaries.empty())
           add_file("boundaries", t, [&](const VtuTarget &target) {
             write_boundary_vtu(model, acting, target);
+          });
+        if (!model.contact_boundaries.empty())
+          add_file("contact", t, [&](const VtuTarget &target) {
+            write_contact_vtu(model, target);
           });
       }
     ++n_vtu_written;

@@ -35,4 +35,7 @@ Time/Steps = 2
 for h in (0.3, 0.15):
     result = run(scene_file(f"hertz-{h}.prm", cylinder(h, "GIMP")))
     row = result.history()[-1]
-    print(h, A, P0, row["contact area of plane"], row["reaction_y of plane"], result.summary["newton_iterations"], result.summary["seconds"] if "seconds" in result.summary else "")
+    pressed = sorted((x, -t) for (x, _, _), (_, t, _) in result._fields("contact", ("position", "traction")) if x < 2)
+    print(h, P0, row["reaction_y of plane"], result.summary["newton_iterations"])
+    for x, p in pressed[::8]:
+        print(x, p, P0 * sqrt(max(0, 1 - (x / A) ** 2)))

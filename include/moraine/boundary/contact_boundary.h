@@ -24,7 +24,7 @@ namespace moraine
     dealii::Tensor<1, dim> displacement;
     double                 slip    = 0; ///< path along the surface [length]
     double                 work    = 0; ///< of friction [force length/area]
-    double                 is_open = 0; ///< 1: torn apart, or never closed
+    double                 status  = 1; ///< of ContactStatus; at first stick
   };
 
   /**
@@ -136,6 +136,27 @@ namespace moraine
             const bool through_mesh,
             const bool turns);
 
+    /** Where a place is now. */
+    dealii::Point<dim>
+    position(const unsigned int k) const
+    {
+      return rim.places()[k].x + carried[k].displacement;
+    }
+
+    /** What a place carries. */
+    const ContactPlace<dim> &
+    at_place(const unsigned int k) const
+    {
+      return carried[k];
+    }
+
+    /** Distance of a place from the surface at the end of the last step. */
+    double
+    distance(const unsigned int k) const
+    {
+      return at_end.level(position(k));
+    }
+
     /** The longest path of a place along the surface, of what is prepared. */
     double
     largest_slip() const;
@@ -216,13 +237,6 @@ namespace moraine
     group() const
     {
       return "contact/" + boundary_name;
-    }
-
-    /** Where a place is now. */
-    dealii::Point<dim>
-    position(const unsigned int k) const
-    {
-      return rim.places()[k].x + carried[k].displacement;
     }
 
     /** Let each cell's places near the surface be a unit. */

@@ -45,6 +45,16 @@ namespace moraine
                      const VtuTarget                &target);
 
   /**
+   * Write the places of rims that carry contact: traction on the body, normal
+   * of the rim, gap, slip so far, size, `status` (0 open, 1 stick, 2 slip) and
+   * number of the surface. Collective.
+   * @throws InputError naming the file if it cannot be written.
+   */
+  template <int dim>
+  void
+  write_contact_vtu(const Model<dim> &model, const VtuTarget &target);
+
+  /**
    * Write places of the phreatic line (`kind` 0) and, if it is given, of the
    * level of free water (1), from one side of the mesh to the other. Where the
    * pressure is given, the line is the highest place without it. Collective.
