@@ -101,6 +101,10 @@ class Run:
         """The same of the mesh, for the nodes of each cell."""
         return self._fields("mesh", names)
 
+    def contact(self, *names):
+        """The same of the places of rims that may touch a surface."""
+        return self._fields("contact", names)
+
     def _fields(self, kind, names):
         text = sorted((self.folder / kind).glob("*.vtu"))[-1].read_text()
         columns = []

@@ -256,9 +256,12 @@ namespace moraine
                                              trial.gap.normal,
                                              unit.was_open,
                                              no_tension * local.c_n * unit.h);
-    // The first correction of a body that nothing else holds.
+    // The first correction brings a body that nothing else holds to the
+    // surface.
     if (unit.touches_first && trial.du.norm_square() == 0.)
-      trial.response.derivative = unit_symmetric_tensor<dim>();
+      trial.response = {traction,
+                        unit_symmetric_tensor<dim>(),
+                        ContactStatus::stick};
     return trial;
   }
 

@@ -22,6 +22,32 @@ namespace moraine
 
   namespace
   {
+    /** That bodies are in front of a surface of contact, which they may touch
+     * later; an overlap of a tenth of a cell is a fit. */
+    template <int dim>
+    void
+    check_overlap(const ContactBoundary<dim> &boundary, const double h)
+    {
+      constexpr double largest_fit = 0.1;
+      const auto      &places      = boundary.places_of_rim().places();
+      const auto       deepest     = std::min_element(
+        places.begin(), places.end(), [&](const auto &a, const auto &b) {
+          return boundary.level_at_start(a.x) < boundary.level_at_start(b.x);
+        });
+      if (deepest == places.end() ||
+          boundary.level_at_start(deepest->x) >= -largest_fit * h)
+        return;
+      std::ostringstream text;
+      text << "section 'Boundaries/" << boundary.name()
+           << "': found a body that is behind the surface by "
+           << -boundary.level_at_start(deepest->x) << " at (" << deepest->x
+           << "), allowed: at most a tenth of a cell; points the other way "
+              "round, or 'Flip', turn it";
+      throw InputError(text.str());
+    }
+
+
+
     /** That boundaries which act are on material. */
     template <int dim>
     void
@@ -37,6 +63,9 @@ namespace moraine
                            "': found a surface that touches no body, allowed: "
                            "a surface on or in a body, which is behind it: "
                            "points the other way round, or 'Flip', turn it");
+      for (const auto &boundary : model.contact_boundaries)
+        if (contains(stage.boundaries, boundary.name()))
+          check_overlap(boundary, model.mesh->cell_size());
       for (const auto &boundary : model.absorbing_boundaries)
         if (boundary.has_cells() && boundary.n_on_material() == 0)
           throw InputError(

@@ -115,7 +115,7 @@ namespace moraine
       "absorbing: dashpots, and springs if wanted, that swallow "
       "waves, in dynamics; the material carries its places. "
       "contact: the rims of bodies touch the surface, let go and "
-      "slide with friction.",
+      "slide with friction; the band is 0.1 if it is left out.",
       patterns::selection(
         {"fixed", "roller", "components", "absorbing", "contact"}));
     prm.add_parameter("Components",

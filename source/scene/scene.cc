@@ -193,6 +193,7 @@ namespace moraine
     if (for_materials)
       return;
     locate_files(input);
+    choose_for_contact(input);
     complete_stages(given,
                     time,
                     {names_of(boundaries),
@@ -343,24 +344,45 @@ namespace moraine
 
   template <int dim>
   void
+  Scene<dim>::choose_for_contact(const InputFile &input)
+  {
+    bool any = false;
+    prm.enter_subsection("Boundaries");
+    for (const auto &[name, boundary] : boundaries)
+      {
+        if (boundary.constraint != "contact")
+          continue;
+        any = true;
+        prm.enter_subsection(name);
+        if (!input.has("Boundaries/" + name, "Enforcement"))
+          prm.set("Enforcement", std::string("augmented Lagrangian"));
+        if (!input.has("Boundaries/" + name, "Band width"))
+          prm.set("Band width", 0.1);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+    // Impacts would live on in the highest frequencies.
+    prm.enter_subsection("Time");
+    if (any && !input.has("Time", "Spectral radius"))
+      prm.set("Spectral radius", 0.);
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
   Scene<dim>::choose_enforcement(const std::string &if_left_out,
                                  const InputFile   &input)
   {
     prm.enter_subsection("Boundaries");
     for (auto &[name, boundary] : boundaries)
       {
-        if (boundary.constraint == "absorbing")
+        if (boundary.constraint == "absorbing" ||
+            boundary.constraint == "contact")
           continue;
         const std::string section = "Boundaries/" + name;
         prm.enter_subsection(name);
-        if (boundary.constraint == "contact")
-          {
-            prm.set("Enforcement", "augmented Lagrangian");
-            if (!input.has(section, "Band width"))
-              prm.set("Band width", 0.1);
-            prm.leave_subsection();
-            continue;
-          }
         if (!input.has(section, "Enforcement"))
           prm.set("Enforcement", if_left_out);
         if (if_left_out == "augmented Lagrangian" &&

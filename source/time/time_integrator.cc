@@ -44,7 +44,8 @@ namespace moraine
       "Spectral radius",
       spectral_radius,
       "Of integrators generalised-alpha and Bathe: what is left of the highest "
-      "frequencies after a step. 1: no damping, 0: they end at once.",
+      "frequencies after a step. 1: no damping, 0: they end at once. 0 if it is "
+      "left out and there is contact.",
       Patterns::Double(0, 1));
     prm.add_parameter(
       "Mass",

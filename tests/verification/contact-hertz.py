@@ -32,10 +32,22 @@ Time/Steps = 2
 """
 
 
+errors = {}
 for h in (0.3, 0.15):
     result = run(scene_file(f"hertz-{h}.prm", cylinder(h, "GIMP")))
     row = result.history()[-1]
-    pressed = sorted((x, -t) for (x, _, _), (_, t, _) in result._fields("contact", ("position", "traction")) if x < 2)
-    print(h, P0, row["reaction_y of plane"], result.summary["newton_iterations"])
-    for x, p in pressed[::8]:
-        print(x, p, P0 * sqrt(max(0, 1 - (x / A) ** 2)))
+    bound(f"h = {h}: force over P/2 - 1", row["reaction_y of plane"] / (P / 2) - 1, 1e-6)
+    # The end of the contact is that of a cell.
+    bound(f"h = {h}: half width less a, over a cell",
+          (row["contact area of plane"] - A) / h, 0.6)
+    # Of means over cells, as they are.
+    errors[h] = sum(
+        size * (t - P0 * sqrt(max(0, 1 - (x / A) ** 2))) ** 2
+        for (x, y, _), (_, t, _), size in result.contact("position", "traction", "size")
+        if y < 0.05 * R and (x > 1e-6 or y < 1e-6)) ** 0.5
+    if h < 0.2:
+        peak = max(t for (_, t, _), in result.contact("traction"))
+        number("peak", peak, 4)
+        bound("peak over p0 - 1", peak / P0 - 1, 0.04)
+at_least("error of the pressure with cells of twice the size, over it",
+         errors[0.3] / errors[0.15], 1.3)

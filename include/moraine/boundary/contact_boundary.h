@@ -10,6 +10,7 @@
 #include <moraine/geometry/shape.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -148,6 +149,16 @@ namespace moraine
     at_place(const unsigned int k) const
     {
       return carried[k];
+    }
+
+    /** Distance of @p x from the surface at the start of the step; nothing
+     * beyond its ends. */
+    double
+    level_at_start(const dealii::Point<dim> &x) const
+    {
+      const NearestPoint<dim> nearest = at_start.nearest(x);
+      return nearest.in_extent ? nearest.level :
+                                 std::numeric_limits<double>::max();
     }
 
     /** Distance of a place from the surface at the end of the last step. */

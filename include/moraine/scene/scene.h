@@ -236,6 +236,10 @@ namespace moraine
     void
     choose_enforcement(const std::string &if_left_out, const InputFile &input);
 
+    /** What is left out, if there is contact. */
+    void
+    choose_for_contact(const InputFile &input);
+
     /** GIMP, which needs equal cells, or else CPDI1. */
     void
     choose_method();
