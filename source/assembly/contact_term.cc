@@ -97,11 +97,43 @@ namespace moraine
     find_stiffness(context);
     std::vector<std::vector<unsigned int>> coupled;
     for (const LocalUnit &unit : local_units)
-      if (unit.nodes.size() > space.nodes_per_cell())
+      if (!is_in_its_cell(space, unit))
         coupled.push_back(unit.nodes);
     const bool changed = coupled != coupled_before;
     coupled_before     = std::move(coupled);
     return changed;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::owns(const ContactUnit<dim> &unit) const
+  {
+    const auto &places = boundary.places_of_rim().places();
+    return std::any_of(unit.places.begin(),
+                       unit.places.end(),
+                       [&](const unsigned int k) {
+                         return places[k].active_cell_index == unit.cell;
+                       });
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::is_in_its_cell(const GridSpace<dim> &space,
+                                   const LocalUnit      &local) const
+  {
+    const ContactUnit<dim> &unit = boundary.units()[local.number];
+    if (!owns(unit))
+      return false;
+    const unsigned int *nodes = space.cell_nodes(unit.cell);
+    return std::all_of(
+      local.nodes.begin(), local.nodes.end(), [&](const unsigned int node) {
+        return std::find(nodes, nodes + space.nodes_per_cell(), node) !=
+               nodes + space.nodes_per_cell();
+      });
   }
 
 
@@ -138,26 +170,28 @@ namespace moraine
     for (const auto &[where, value] : sums)
       entries.push_back({where.first, where.second, value});
 
-    // The first rank that knows all nodes of a unit has it.
+    // The rank of its first cell has a unit, or another that knows all nodes.
     const auto         nodes   = nodes_of_dofs(space);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const auto of_ranks = Utilities::MPI::all_gather(communicator, entries);
-    std::vector<unsigned int> owners(units.size(), n_ranks - 1 - rank);
+    std::vector<unsigned int> claims(units.size(), 1 + rank);
+    for (unsigned int u = 0; u < units.size(); ++u)
+      if (owns(units[u]))
+        claims[u] += n_ranks;
     for (const auto &of_rank : of_ranks)
       for (const Entry &entry : of_rank)
         if (nodes.count(entry.dof) == 0)
-          owners[entry.unit] = numbers::invalid_unsigned_int;
-    for (unsigned int &owner : owners)
-      owner = owner == numbers::invalid_unsigned_int ? 0 : owner + 1;
-    Utilities::MPI::max(owners, communicator, owners);
+          claims[entry.unit] = 0;
+    const std::vector<unsigned int> mine(claims);
+    Utilities::MPI::max(claims, communicator, claims);
 
     std::vector<std::map<unsigned int, double>> N(units.size());
     for (unsigned int r = 0; r < n_ranks; ++r)
       for (const Entry &entry : of_ranks[r])
         // Where none knows all, each has its part.
-        if (owners[entry.unit] == n_ranks - rank ||
-            (owners[entry.unit] == 0 && r == rank))
+        if (claims[entry.unit] > 0 ? claims[entry.unit] == mine[entry.unit] :
+                                     r == rank)
           N[entry.unit][nodes.at(entry.dof)] += entry.N;
     local_units.clear();
     for (unsigned int u = 0; u < units.size(); ++u)
@@ -185,18 +219,15 @@ namespace moraine
     const auto         &units = boundary.units();
     std::vector<double> moduli(2 * units.size(), 0.);
     for (unsigned int u = 0; u < units.size(); ++u)
-      for (const unsigned int k : units[u].places)
-        if (boundary.places_of_rim().places()[k].active_cell_index ==
-            units[u].cell)
-          {
-            const LameConstants &C =
-              context.cell_materials.elastic_stiffness(units[u].cell);
-            // Cells with one change of volume cannot follow it at all places.
-            moduli[2 * u] =
-              2 * C.mu + (context.state.averages_volume() ? 0. : C.lambda);
-            moduli[2 * u + 1] = C.mu;
-            break;
-          }
+      if (owns(units[u]))
+        {
+          const LameConstants &C =
+            context.cell_materials.elastic_stiffness(units[u].cell);
+          // Cells with one change of volume cannot follow it at all places.
+          moduli[2 * u] =
+            2 * C.mu + (context.state.averages_volume() ? 0. : C.lambda);
+          moduli[2 * u + 1] = C.mu;
+        }
     Utilities::MPI::max(moduli, context.state.grid().communicator(), moduli);
     for (LocalUnit &unit : local_units)
       {

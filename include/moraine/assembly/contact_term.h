@@ -118,6 +118,14 @@ namespace moraine
       ContactResponse<dim>   response;
     };
 
+    /** Whether the first cell of a unit is one of this rank. */
+    bool
+    owns(const ContactUnit<dim> &unit) const;
+
+    /** Whether it couples no nodes but those of a cell of this rank. */
+    bool
+    is_in_its_cell(const GridSpace<dim> &space, const LocalUnit &unit) const;
+
     /** Find the functions of units. Collective. */
     void
     find_local_units(const StepContext<dim> &context);
