@@ -194,6 +194,7 @@ namespace moraine
                                      r == rank)
           N[entry.unit][nodes.at(entry.dof)] += entry.N;
     local_units.clear();
+    statuses_of_tangent.clear();
     for (unsigned int u = 0; u < units.size(); ++u)
       {
         if (N[u].empty())
@@ -306,6 +307,8 @@ namespace moraine
   {
     LocalSystem<dim>     local;
     const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+    if (tangent)
+      statuses_of_tangent.clear();
     for (const LocalUnit &unit : local_units)
       {
         const Trial           now     = trial(context, unit);
@@ -316,6 +319,7 @@ namespace moraine
         Tensor<2, dim> stiffness;
         if (tangent)
           {
+            statuses_of_tangent.push_back(now.response.status);
             const Tensor<2, dim> nn = outer_product(n, n);
             stiffness =
               now.response.derivative * (unit.c_n * nn + unit.c_t * (one - nn));
@@ -364,6 +368,19 @@ namespace moraine
                     (change - normal * now.gap.normal).norm() / unit.c_t});
       }
     return largest;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::acts_otherwise(const StepContext<dim> &context) const
+  {
+    for (unsigned int u = 0; u < statuses_of_tangent.size(); ++u)
+      if (trial(context, local_units[u]).response.status !=
+          statuses_of_tangent[u])
+        return true;
+    return false;
   }
 
 

@@ -478,6 +478,23 @@ namespace moraine
 
   template <int dim>
   bool
+  MechanicsSystem<dim>::acts_otherwise() const
+  {
+    bool any = false, can = false;
+    for (const auto &term : terms)
+      if (const auto *of =
+            dynamic_cast<const ConstraintTerm<dim> *>(term.get()))
+        {
+          can = can || of->traits().has_statuses;
+          any = any || of->acts_otherwise(context);
+        }
+    return can && Utilities::MPI::logical_or(any, state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  bool
   MechanicsSystem<dim>::augment(const LA::Vector &x, const double tolerance)
   {
     // Of tractions: displacements of a cell are wrong by a tenth of that.

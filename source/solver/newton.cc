@@ -20,6 +20,9 @@ namespace moraine
   {
     constexpr unsigned int maximum_halvings = 8;
 
+    /** Of full steps after which other forces act, between two passes. */
+    constexpr unsigned int maximum_free_steps = 12;
+
     /** A step of length s must reduce the residual by this times s (Armijo). */
     constexpr double sufficient_decrease = 1e-4;
 
@@ -146,6 +149,7 @@ namespace moraine
       NewtonReport            report;
       double                  length                = 1.;
       unsigned int            iterations_since_pass = 0;
+      unsigned int            free_steps            = 0;
       bool                    tangent_is_at_x       = false;
       bool                    tangent_is_factorised = false;
 
@@ -263,7 +267,7 @@ namespace moraine
             x.add(factor, dx);
             evaluate(false);
             if (measure.finite() &&
-                (any_will_do || small() ||
+                (any_will_do || small() || acts_otherwise() ||
                  measure.ratio_to(start) <= 1. - sufficient_decrease * factor ||
                  (i == 0 && next_is_shorter(dx))))
               return true;
@@ -273,6 +277,15 @@ namespace moraine
                       cause("the residual is not a number after a correction"));
         return stop(NewtonStatus::diverged,
                     "no step along the correction reduces the residual");
+      }
+
+      /** Whether a step counts as good because other forces act after it, which
+       * the next one will know; not for ever, lest they come and go. */
+      bool
+      acts_otherwise()
+      {
+        return free_steps < maximum_free_steps && length == 1. &&
+               system.acts_otherwise() && ++free_steps > 0;
       }
 
       /**
@@ -372,7 +385,7 @@ namespace moraine
                           "multipliers still change after " +
                             std::to_string(report.augmentations) + " updates");
             ++report.augmentations;
-            iterations_since_pass = 0;
+            iterations_since_pass = free_steps = 0;
             evaluate(false);
             if (!iterate_with_kept_tangent())
               return false;

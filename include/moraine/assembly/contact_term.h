@@ -34,8 +34,9 @@ namespace moraine
     traits() const override
     {
       TermTraits is;
-      is.work_kind = WorkKind::boundaries;
-      is.timer     = "boundary pieces";
+      is.work_kind    = WorkKind::boundaries;
+      is.timer        = "boundary pieces";
+      is.has_statuses = true;
       return is;
     }
 
@@ -65,6 +66,9 @@ namespace moraine
 
     double
     violation(const StepContext<dim> &context) const override;
+
+    bool
+    acts_otherwise(const StepContext<dim> &context) const override;
 
     bool
     is_settled(const StepContext<dim> &context,
@@ -136,9 +140,11 @@ namespace moraine
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
 
-    ContactBoundary<dim>                  &boundary;
-    PlaceFunctions<dim>                    functions; ///< of the places
-    std::vector<LocalUnit>                 local_units;
+    ContactBoundary<dim>  &boundary;
+    PlaceFunctions<dim>    functions; ///< of the places
+    std::vector<LocalUnit> local_units;
+    /** Of local units when the tangent was added last. */
+    mutable std::vector<ContactStatus>     statuses_of_tangent;
     std::vector<std::vector<unsigned int>> coupled_before;
     BoundaryReport<dim>                    prepared;
   };

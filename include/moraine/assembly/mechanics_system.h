@@ -197,6 +197,9 @@ namespace moraine
     start_over() override;
 
     bool
+    acts_otherwise() const override;
+
+    bool
     linearised() const override
     {
       return predicting;

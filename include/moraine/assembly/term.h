@@ -39,6 +39,8 @@ namespace moraine
     bool stabilises = false;
     /** failure() reads where points would move. */
     bool watches_points = false;
+    /** What it does depends on statuses, as of contact. */
+    bool has_statuses = false;
     /** prepare() reads the forces of nodes. */
     bool wants_unbalanced_forces = false;
   };
@@ -187,6 +189,14 @@ namespace moraine
     /** The largest violation of the constraint on this rank. */
     virtual double
     violation(const StepContext<dim> &context) const = 0;
+
+    /** Whether places of this rank have another status than when the last
+     * tangent was added. */
+    virtual bool
+    acts_otherwise(const StepContext<dim> &) const
+    {
+      return false;
+    }
 
     /** Whether another pass would change tractions by less than @p tolerance
      * times the largest one. Collective. */

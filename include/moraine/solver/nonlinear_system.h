@@ -48,6 +48,15 @@ namespace moraine
     virtual void
     assemble(const LA::Vector &x, const bool tangent) = 0;
 
+    /** Whether other forces act than when the last tangent was assembled, as
+     * places have come into contact: the residual at the end of Newton's step
+     * may be larger, though the step is a good one. Collective. */
+    virtual bool
+    acts_otherwise() const
+    {
+      return false;
+    }
+
     /** Whether those of the last assemble() were linearised. */
     virtual bool
     linearised() const
