@@ -76,8 +76,13 @@ namespace moraine
         rim.catch_up(space);
         carried.assign(rim.places().size(), {});
         for (unsigned int k = 0; k < carried.size(); ++k)
-          if (at_start.level(position(k)) > touching * space.mesh().cell_size())
-            carried[k].status = 0;
+          {
+            const NearestPoint<dim> nearest = at_start.nearest(position(k));
+            if (!nearest.in_extent ||
+                nearest.level > touching * space.mesh().cell_size() ||
+                nearest.normal * rim.places()[k].normal <= cosine_of_contact)
+              carried[k].status = 0;
+          }
       }
     placed = true;
   }

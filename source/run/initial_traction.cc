@@ -9,6 +9,8 @@
 #include <moraine/points/body_cover.h>
 #include <moraine/points/linear_fit.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <vector>
 
 namespace moraine
@@ -107,6 +109,52 @@ namespace moraine
         }
       return tractions;
     }
+
+
+
+    /** What the law lets through of @f$\sigma n@f$ where rims touch a surface.
+     * Collective. */
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    tractions_on(const ContactBoundary<dim> &boundary,
+                 const PointSet<dim>        &points)
+    {
+      const auto &places = boundary.places_of_rim().places();
+      std::vector<std::vector<unsigned int>> places_in(
+        points.mesh().triangulation().n_active_cells());
+      for (unsigned int k = 0; k < places.size(); ++k)
+        if (places[k].active_cell_index != GridSpace<dim>::no_cell &&
+            boundary.touches(k))
+          places_in[places[k].active_cell_index].push_back(k);
+      std::vector<double> components(dim * places.size(), 0.);
+      for (const auto &in_cell : points.cells())
+        {
+          const auto &here = places_in[in_cell.cell->active_cell_index()];
+          if (here.empty())
+            continue;
+          const auto stress = fit_stress(points, in_cell);
+          for (const unsigned int k : here)
+            {
+              const Point<dim>     x = boundary.position(k);
+              const Tensor<1, dim> n = boundary.normal_at_start(x);
+              const Tensor<1, dim> t =
+                boundary.law()
+                  .template response<dim>(
+                    stress.at(x - in_cell.cell->center()) * n, n, true, 0.)
+                  .traction;
+              for (unsigned int d = 0; d < dim; ++d)
+                components[dim * k + d] = t[d];
+            }
+        }
+      Utilities::MPI::sum(components,
+                          points.mesh().triangulation().get_communicator(),
+                          components);
+      std::vector<Tensor<1, dim>> tractions(places.size());
+      for (unsigned int k = 0; k < places.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          tractions[k][d] = components[dim * k + d];
+      return tractions;
+    }
   } // namespace
 
 
@@ -137,6 +185,13 @@ namespace moraine
       boundary.keep();
       model.system->begin_step(stage.time.start_time);
     };
+    for (ContactBoundary<dim> &boundary : model.contact_boundaries)
+      if (contains(stage.boundaries, boundary.name()) &&
+          !contains(before, boundary.name()))
+        {
+          boundary.set_tractions(tractions_on(boundary, *model.points));
+          model.system->begin_step(stage.time.start_time);
+        }
     // Walls that share nodes balance them together or not at all.
     for (ImplicitBoundary<dim> *boundary : holding)
       hold(*boundary, tractions_on(*boundary, *model.points, covers));

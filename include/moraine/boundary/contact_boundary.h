@@ -168,6 +168,27 @@ namespace moraine
       return at_end.level(position(k));
     }
 
+    dealii::Tensor<1, dim>
+    normal_at_start(const dealii::Point<dim> &x) const
+    {
+      return at_start.normal(x);
+    }
+
+    /** Whether a place is at the surface, or was at the start of a run. */
+    bool
+    touches(const unsigned int k) const
+    {
+      return carried[k].status != 0;
+    }
+
+    /** Let the places have these tractions; nothing where they do not touch. */
+    void
+    set_tractions(const std::vector<dealii::Tensor<1, dim>> &tractions)
+    {
+      for (unsigned int k = 0; k < carried.size(); ++k)
+        carried[k].traction = tractions[k];
+    }
+
     /** The longest path of a place along the surface, of what is prepared. */
     double
     largest_slip() const;
