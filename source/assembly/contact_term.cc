@@ -288,12 +288,23 @@ namespace moraine
                                              trial.gap.normal,
                                              unit.was_open,
                                              no_tension * local.c_n * unit.h);
-    // The first correction brings a body that nothing else holds to the
-    // surface.
-    if (unit.touches_first && trial.du.norm_square() == 0.)
-      trial.response = {traction,
-                        unit_symmetric_tensor<dim>(),
-                        ContactStatus::stick};
+    if (trial.du.norm_square() > 0.)
+      return trial;
+    // Nothing has moved yet: linearised about the start of the step, so that a
+    // surface that moves takes along what touches it; the first correction
+    // brings a body that nothing holds to the surface.
+    ContactResponse<dim> &response = trial.response;
+    if (unit.touches_first)
+      response = {traction, unit_symmetric_tensor<dim>(), ContactStatus::stick};
+    else if (!unit.was_open)
+      {
+        response = boundary.law().response(trial.multiplier,
+                                           trial.gap.normal,
+                                           unit.was_open,
+                                           no_tension * local.c_n * unit.h);
+        response.traction +=
+          response.derivative * (traction - trial.multiplier);
+      }
     return trial;
   }
 
