@@ -73,10 +73,17 @@ def error_of_stress(result, angle, tau, across):
                for a, in result.points("stress")) / P
 
 
-for name, make, tau, across in (("stick", stick, 1.5, P * 0.3 / 0.7),
-                                ("slide", slide, P * MU, 0)):
+for name, make, tau, across in (("sticks", stick, 1.5, P * 0.3 / 0.7),
+                                ("slides", slide, P * MU, 0)):
     for angle in 0, 17, 30:
         result = run(scene_file(f"{name}-{angle}.prm", make(angle)))
-        print(error_of_stress(result, angle, tau, across))
         row = result.history()[-1]
-        print(row)
+        exact = turned(angle, -4 * tau, 4 * P).split("; ")
+        # Files have 7 digits.
+        bound(f"{name}, {angle} degrees: error of stress over p",
+              error_of_stress(result, angle, tau, across), 1e-6)
+        bound(f"{name}, {angle} degrees: error of the force over p",
+              max(abs(row[f"reaction_{c} of floor"] - float(value))
+                  for c, value in zip("xy", exact)) / P, 1e-8)
+        number(f"{name}, {angle} degrees: contact, part that slides",
+               row["slipping area of floor"] / row["contact area of floor"], 3)

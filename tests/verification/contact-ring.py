@@ -20,8 +20,18 @@ Boundaries/shaft/Rotation angle = 0.2*t
 Boundaries/rim/Surface = circle | Centre = 0, 0 | Radius = {B} | Body side = inside | Constraint = fixed
 Time/Steps = 4
 """
-result = run(scene_file("ring.prm", RING))
-for row in result.history():
-    print(row["moment of shaft"], row["contact area of shaft"], row["slipping area of shaft"])
-p = [sum(c * c for c in t) ** 0.5 for t, s in result.contact("traction", "size") if abs(t[0]) + abs(t[1]) > 0]
-print(min(p), max(p), sum(p) / len(p), 1.66667 * (1 + MU * MU) ** 0.5, result.summary["newton_iterations"])
+# Lame's ring with u(a) = delta, u(b) = 0: sigma_r(a) = 2 (lambda + mu) c - 2 mu d/a^2
+# for u = c r + d/r.
+LAMBDA = E * NU / (1 + NU) / (1 - 2 * NU)
+D = DELTA / (1 / A - A / B ** 2)
+PRESSURE = 2 * G * D / A ** 2 + 2 * (LAMBDA + G) * D / B ** 2
+number("pressure", PRESSURE, 6)
+for method in ("GIMP", "CPDI1"):
+    result = run(scene_file("ring.prm", RING), {"Method/Method": method})
+    row = result.history()[-1]
+    for name, found, exact in (
+            ("torque", row["moment of shaft"], 2 * pi * A ** 2 * MU * PRESSURE),
+            ("area that slides", row["slipping area of shaft"], 2 * pi * A)):
+        number(f"{method}: {name}, exact {exact:.6g}", found, 5)
+        bound(f"{method}: error", found / exact - 1, 0.005)
+    number(f"{method}: Newton iterations", result.summary["newton_iterations"], 3)
