@@ -285,6 +285,7 @@ namespace moraine
     void
     check_contact(const std::string                   &section,
                   const std::string                   &constraint,
+                  const std::string                   &enforcement,
                   const ContactParameters             &parameters,
                   const std::vector<InputFile::Entry> &given)
     {
@@ -298,10 +299,11 @@ namespace moraine
                                 entry.key) :
                        ContactParameters::has(entry.key)))
           reject(entry, "nothing; key 'Constraint' is '" + constraint + "'");
-        else if (touches && entry.section == section &&
-                 entry.key == "Enforcement" &&
-                 entry.value != "augmented Lagrangian")
-          reject(entry, "augmented Lagrangian; key 'Constraint' is 'contact'");
+      if (touches && enforcement != "augmented Lagrangian")
+        reject(section,
+               "Enforcement",
+               enforcement,
+               "augmented Lagrangian; key 'Constraint' is 'contact'");
       parameters.law(section);
     }
   } // namespace
@@ -397,7 +399,11 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
-        check_contact(section, boundary.constraint, boundary.contact, given);
+        check_contact(section,
+                      boundary.constraint,
+                      boundary.enforcement.enforcement,
+                      boundary.contact,
+                      given);
       }
     for (const auto &[name, condition] : grid_conditions)
       {

@@ -212,9 +212,13 @@ namespace moraine
       const std::string section = "Boundaries/" + name;
       const auto        given   = vector_function<dim>(parameters.displacement,
                                               place(section, "Displacement"));
+      if (varies(parameters) && parameters.constraint == "contact")
+        reject(section,
+               "Displacement",
+               parameters.displacement,
+               "expressions in t, as the surface moves as a rigid body");
       if (varies(parameters) &&
-          (scene.method.after_step() != MeshAfterStep::keep ||
-           parameters.constraint == "contact"))
+          scene.method.after_step() != MeshAfterStep::keep)
         reject(section,
                "Displacement",
                parameters.displacement,
