@@ -379,7 +379,7 @@ namespace moraine
     for (unsigned int b = 0; b < model.body_names.size(); ++b)
       console << fmt::format("  body        {}, volume {:.8g}\n",
                              model.body_names[b],
-                             model.body_volumes[b]);
+                             model.bodies[b].volume);
   }
 
 

@@ -573,13 +573,15 @@ namespace moraine
       }
     request_columns(bodies, fields);
     points = std::make_unique<PointSet<dim>>(*mesh, fields);
-    body_volumes =
+    const std::vector<double> volumes =
       seed_bodies(bodies,
                   method.make_seeder(parameters),
                   *points,
                   [&](const unsigned int a, const unsigned int b) {
                     return scene.are_together(body_names[a], body_names[b]);
                   });
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      bodies[b].volume = volumes[b];
     points->set_return_tolerance(parameters.return_tolerance *
                                  mesh->cell_size());
     basis = method.make_basis({parameters, *space, *points, bodies});

@@ -51,6 +51,11 @@ for angle, mu in ((17, 0.2), (30, 0.3), (30, 0.5)):
     number(f"{name}: Newton iterations in a step",
            result.summary["newton_iterations"] / 40, 2)
 
+row = run("prm/dynamics/sliding-block.prm", QUIET).history()[-1]
+bound("shipped scene: work of friction over exact - 1",
+      row["work of friction of plane"] / (4 * G * cos(radians(17)) * 0.2 * (
+          row["u_x at middle"] ** 2 + row["u_y at middle"] ** 2) ** 0.5) + 1, 2e-3)
+
 # Statics: 1 % on either side of tan(angle).
 for angle in (17, 30):
     for share in (1.01, 0.99):

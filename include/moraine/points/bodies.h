@@ -47,6 +47,7 @@ namespace moraine
     std::shared_ptr<const Shape<dim>> shape; ///< null if the points are given
     PointList<dim>                    listed;
     std::shared_ptr<const Shape<dim>> outline; ///< of the points given
+    double volume = 0; ///< of its points at first, if somebody counted
   };
 
 

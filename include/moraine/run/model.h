@@ -49,7 +49,6 @@ namespace moraine
 
     std::vector<Body<dim>>                       bodies;
     std::vector<std::string>                     body_names;
-    std::vector<double>                          body_volumes;
     std::vector<bool>                            present; ///< bodies, by now
     std::vector<std::shared_ptr<const Material>> materials;
     std::unique_ptr<BackgroundMesh<dim>>         mesh;
