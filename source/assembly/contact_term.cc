@@ -61,8 +61,9 @@ namespace moraine
 
 
   template <int dim>
-  ContactTerm<dim>::ContactTerm(ContactBoundary<dim> &boundary)
+  ContactTerm<dim>::ContactTerm(ContactBoundary<dim> &boundary, const bool acts)
     : boundary(boundary)
+    , acts(acts)
   {}
 
 
@@ -71,6 +72,8 @@ namespace moraine
   std::vector<Effect>
   ContactTerm<dim>::effects(const StepContext<dim> &) const
   {
+    if (!acts)
+      return {};
     const std::string &name = boundary.name();
     return {{"contact with " + name,
              "boundary",
@@ -87,7 +90,12 @@ namespace moraine
     const GridSpace<dim> &space = context.state.grid();
     const bool            through_mesh =
       context.state.mesh_after_step() == MeshAfterStep::reset;
-    boundary.find_cells(space, context.search_tolerance, context.t_start);
+    boundary.find_cells(space, context.search_tolerance, context.t_start, acts);
+    if (!acts)
+      {
+        local_units.clear();
+        return false;
+      }
     const Basis<dim> &basis  = context.state.point_basis();
     const auto       &places = boundary.places_of_rim().places();
     functions                = through_mesh ? basis.functions_at(places) :
@@ -458,6 +466,8 @@ namespace moraine
   ContactTerm<dim>::failure(const StepContext<dim> &context,
                             const std::vector<Tensor<1, dim>> &) const
   {
+    if (!acts)
+      return "";
     const GridSpace<dim> &space = context.state.grid();
     const auto            moves =
       boundary.places_of_rim().increments(space, context.increments());
@@ -550,7 +560,8 @@ namespace moraine
   ContactTerm<dim>::report(const StepContext<dim> &,
                            std::vector<BoundaryReport<dim>> &reports) const
   {
-    reports.push_back(prepared);
+    if (acts)
+      reports.push_back(prepared);
   }
 
 

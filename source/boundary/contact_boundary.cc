@@ -62,7 +62,8 @@ namespace moraine
   void
   ContactBoundary<dim>::find_cells(const GridSpace<dim> &space,
                                    const double          search_tolerance,
-                                   const double          t)
+                                   const double          t,
+                                   const bool            acts)
   {
     at_start.see_over(space.mesh().cell_size());
     at_end.see_over(space.mesh().cell_size());
@@ -75,16 +76,20 @@ namespace moraine
         rim.remove(without);
         rim.catch_up(space);
         carried.assign(rim.places().size(), {});
-        for (unsigned int k = 0; k < carried.size(); ++k)
-          {
-            const NearestPoint<dim> nearest = at_start.nearest(position(k));
-            if (!nearest.in_extent ||
-                nearest.level > touching * space.mesh().cell_size() ||
-                nearest.normal * rim.places()[k].normal <= cosine_of_contact)
-              carried[k].status = 0;
-          }
       }
+    if (acts && !acted)
+      for (unsigned int k = 0; k < carried.size(); ++k)
+        {
+          const NearestPoint<dim> nearest = at_start.nearest(position(k));
+          const bool              touches =
+            nearest.in_extent &&
+            nearest.level <= touching * space.mesh().cell_size() &&
+            nearest.normal * rim.places()[k].normal > cosine_of_contact;
+          carried[k].status = touches ? 1 : 0;
+        }
+    acted  = acts;
     placed = true;
+    all_units.clear();
   }
 
 
@@ -438,6 +443,7 @@ namespace moraine
                   "stress length");
     archive.write(group() + "/status", components_of(carried, &Of::status));
     archive.write(group() + "/is_placed", placed ? 1u : 0u);
+    archive.write(group() + "/acted", acted ? 1u : 0u);
   }
 
 
@@ -449,6 +455,7 @@ namespace moraine
     using Of = ContactPlace<dim>;
     rim.read(archive, group());
     placed = archive.integer(group() + "/is_placed") != 0;
+    acted  = archive.integer(group() + "/acted") != 0;
     carried.resize(rim.places().size());
     const auto read = [&](const std::string &name,
                           const auto         member,

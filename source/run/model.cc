@@ -422,8 +422,8 @@ namespace moraine
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
     for (auto &boundary : contact_boundaries)
-      if (contains(stage.boundaries, boundary.name()))
-        terms.push_back(std::make_unique<ContactTerm<dim>>(boundary));
+      terms.push_back(std::make_unique<ContactTerm<dim>>(
+        boundary, contains(stage.boundaries, boundary.name())));
     terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
     if (loads.water)
       terms.push_back(

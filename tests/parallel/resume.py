@@ -16,7 +16,7 @@ import signal
 import subprocess
 import time
 
-KILLS = int(os.environ.get("MORAINE_KILLS", "6"))
+KILLS = int(os.environ.get("MORAINE_KILLS", "7"))
 moments = random.Random(2026)
 
 # On several ranks a direct solver (MUMPS) does not repeat itself bit by bit.
@@ -34,6 +34,8 @@ SCENES = {
         "prm/phuong-2023/column-viscous-gimp.prm",
         {"Time/Integrator": "Bathe", "Loads/pulse/Curve": 0.1,
          "Time/End time": 0.2, "Time/Steps": 80}, 1),
+    "contact that slides": (
+        "prm/dynamics/sliding-block.prm", {}, 1),
     "3D on 3 ranks": (
         "prm/large-deformation/stretch-3d.prm", {"Solver/Solver": "gmres"}, 3),
 }

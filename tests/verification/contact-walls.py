@@ -5,6 +5,8 @@
 sand; passive and active force of clay on smooth walls, where they hold the soil and
 where they let it go."""
 
+from pathlib import Path
+
 WALL = """
 Dimension = 2
 Method/Method = GIMP
@@ -31,6 +33,20 @@ def force(scene, motion, method, **keys):
     return result.history()[-1]["reaction_x of wall"]
 
 
+def then_lets_go():
+    """The same fill, held by a roller as its weight grows; then by contact."""
+    scene = scene_file("later.prm", Path(root / SAND).read_text(), """
+Boundaries/held/Points = 0 6; 0 -1 | Constraint = roller
+Stages/filled/Time/Steps = 4
+Stages/filled/Boundaries = held
+Stages/gives way/Time/End time = 2 | Steps = 20
+Stages/gives way/Boundaries = wall
+""")
+    return run(scene, {"Boundaries/wall/Translation": "-0.02*(max(t, 1) - 1); 0",
+                       "Bodies/fill/Initial stress": "", "Bodies/fill/K0": "",
+                       "Loads/weight/Curve": "min(t, 1)", **QUIET}).history()
+
+
 FINITE, SMALL = {}, {"Method/Strain": "small", "Method/Mesh after step": "keep"}
 for name, found, exact in (
         ("sand, active", force(SAND, -0.02, FINITE), 20 * 5 ** 2 / 2 / 3),
@@ -40,6 +56,10 @@ for name, found, exact in (
          20 * 10 ** 2 / 2 - 2 * 20 * 10)):
     number(f"{name}: exact {exact:.6g} kN/m", found, 4)
     bound(f"{name}: error", found / exact - 1, 0.01)
+rows = then_lets_go()
+number("in a later stage: roller before", rows[3]["reaction_x of held"], 4)
+number("contact, first step", rows[4]["reaction_x of wall"], 4)
+bound("at the end: error", rows[-1]["reaction_x of wall"] / (250 / 3) - 1, 0.01)
 # Bounds: a wall that pulls, and a crack that is dry down to 2 k/gamma.
 found = force(CLAY, -0.1, SMALL)
 number("clay, active, let go: 600 to 640 kN/m", found, 4)

@@ -28,7 +28,10 @@ namespace moraine
   class ContactTerm : public ConstraintTerm<dim>
   {
   public:
-    explicit ContactTerm(ContactBoundary<dim> &boundary);
+    /** If it does not act yet, the material carries its places all the same.
+     */
+    explicit ContactTerm(ContactBoundary<dim> &boundary,
+                         const bool            acts = true);
 
     TermTraits
     traits() const override
@@ -141,6 +144,7 @@ namespace moraine
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
 
     ContactBoundary<dim>  &boundary;
+    const bool             acts;
     PlaceFunctions<dim>    functions; ///< of the places
     std::vector<LocalUnit> local_units;
     /** Of local units when the tangent was added last. */

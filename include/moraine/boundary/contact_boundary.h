@@ -23,9 +23,9 @@ namespace moraine
     dealii::Tensor<1, dim> traction; ///< on the body [stress]
     /** Since the contact began, where places stay in the mesh. */
     dealii::Tensor<1, dim> displacement;
-    double                 slip    = 0; ///< path along the surface [length]
-    double                 work    = 0; ///< of friction [force length/area]
-    double                 status  = 1; ///< of ContactStatus; at first stick
+    double                 slip   = 0; ///< path along the surface [length]
+    double                 work   = 0; ///< of friction [force length/area]
+    double                 status = 1; ///< of ContactStatus; at first stick
   };
 
   /**
@@ -86,11 +86,13 @@ namespace moraine
                     const double               stiffness_factor);
 
     /** Place the surface at the start @p t of a step and find the cells of the
-     * places, which are found themselves the first time. Collective. */
+     * places, which are found themselves the first time. As it begins to act,
+     * bodies touch it where they are at it. Collective. */
     void
     find_cells(const GridSpace<dim> &space,
                const double          search_tolerance,
-               const double          t);
+               const double          t,
+               const bool            acts);
 
     /** Find the units of the step. Collective. */
     void
@@ -292,6 +294,7 @@ namespace moraine
     std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
     std::vector<ContactUnit<dim>>  all_units;
     bool                           placed = false; ///< once
+    bool                           acted  = false; ///< in the last step
   };
 } // namespace moraine
 
