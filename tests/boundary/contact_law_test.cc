@@ -7,16 +7,14 @@
 
 #include <random>
 
+using namespace moraine;
+using dealii::Tensor;
+
 namespace
 {
-  using namespace moraine;
-  using dealii::Tensor;
-
-  constexpr double mu = 0.3, c = 2, p_t = 1;
-
   template <int dim>
   Tensor<1, dim>
-  random_vector(std::mt19937 &generator)
+  any_vector(std::mt19937 &generator)
   {
     std::normal_distribution<> normal;
     Tensor<1, dim>             v;
@@ -31,14 +29,15 @@ namespace
   void
   check_random_tractions()
   {
+    constexpr double mu = 0.3, c = 2, p_t = 1;
     std::mt19937     generator(1);
     const ContactLaw law{mu, c, p_t, true};
     unsigned int     n_of[3] = {0, 0, 0};
     for (unsigned int i = 0; i < 2000; ++i)
       {
-        Tensor<1, dim> n = random_vector<dim>(generator);
+        Tensor<1, dim> n = any_vector<dim>(generator);
         n /= n.norm();
-        const Tensor<1, dim> trial    = 5. * random_vector<dim>(generator);
+        const Tensor<1, dim> trial    = 5. * any_vector<dim>(generator);
         const bool           was_open = i % 2;
         const auto           of       = [&](const Tensor<1, dim> &t) {
           return law.response(t, n, was_open, 0.);
@@ -84,7 +83,7 @@ namespace
 
   TEST(ContactLaw, WithoutSeparationTensionHasNoLimit)
   {
-    const ContactLaw law{mu, c, 0., false};
+    const ContactLaw law{0.3, 2., 0., false};
     Tensor<1, 2>     n, trial;
     n[0]             = 1;
     trial[0]         = 10;
@@ -101,11 +100,11 @@ namespace
     std::mt19937 generator(2);
     for (unsigned int i = 0; i < 100; ++i)
       {
-        Tensor<1, 3> a = random_vector<3>(generator),
-                     b = a + 0.3 * random_vector<3>(generator);
+        Tensor<1, 3> a = any_vector<3>(generator),
+                     b = a + 0.3 * any_vector<3>(generator);
         a /= a.norm();
         b /= b.norm();
-        const Tensor<1, 3> t    = random_vector<3>(generator);
+        const Tensor<1, 3> t    = any_vector<3>(generator);
         const Tensor<1, 3> turn = ContactBoundary<3>::turned(t, a, b);
         EXPECT_NEAR(turn.norm(), t.norm(), 1e-12);
         EXPECT_NEAR(turn * b, t * a, 1e-12);

@@ -16,7 +16,8 @@ def cylinder(h, method, more=""):
     """Half of the lower part, 8 wide."""
     return f"""
 Dimension = 2
-Mesh/Lower corner = 0, {-1.37 * h!r} | Upper corner = {h * round(8 / h)!r}, {h * round(8 / h) - 1.37 * h!r}
+Mesh/Lower corner = 0, {-1.37 * h!r}
+Mesh/Upper corner = {h * round(8 / h)!r}, {h * round(8 / h) - 1.37 * h!r}
 Mesh/Cell size = {h!r}
 Method/Method = {method} | Mesh after step = keep
 Materials/steel/Young modulus = {E} | Poisson ratio = {NU}

@@ -14,10 +14,12 @@ Mesh/Lower corner = -2.25, -2.25 | Upper corner = 2.25, 2.25 | Cell size = 0.125
 Method/Method = GIMP | Mesh after step = keep
 Materials/steel/Young modulus = {E} | Poisson ratio = {NU}
 Bodies/ring/Shape = ring | Centre = 0, 0 | Inner radius = {A} | Radius = {B}
-Boundaries/shaft/Surface = circle | Centre = 0, 0 | Radius = {A + DELTA} | Body side = outside
+Boundaries/shaft/Surface = circle | Centre = 0, 0 | Radius = {A + DELTA}
+Boundaries/shaft/Body side = outside
 Boundaries/shaft/Constraint = contact | Friction = {MU}
 Boundaries/shaft/Rotation angle = 0.2*t
-Boundaries/rim/Surface = circle | Centre = 0, 0 | Radius = {B} | Body side = inside | Constraint = fixed
+Boundaries/rim/Surface = circle | Centre = 0, 0 | Radius = {B}
+Boundaries/rim/Body side = inside | Constraint = fixed
 Time/Steps = 4
 """
 # Lame's ring with u(a) = delta, u(b) = 0: sigma_r(a) = 2 (lambda + mu) c - 2 mu d/a^2
