@@ -29,23 +29,6 @@ namespace moraine
 
 
 
-    /** What a rank knows of the functions of a unit. */
-    struct Entry
-    {
-      unsigned int            unit;
-      types::global_dof_index dof; ///< first of a node
-      double                  N;   ///< times the area
-
-      template <class BoostArchive>
-      void
-      serialize(BoostArchive &archive, const unsigned int)
-      {
-        archive &unit &dof &N;
-      }
-    };
-
-
-
     /** Of unknowns, the nodes of this rank that have them. */
     template <int dim>
     std::map<types::global_dof_index, unsigned int>
@@ -147,20 +130,16 @@ namespace moraine
 
 
   template <int dim>
-  void
-  ContactTerm<dim>::find_local_units(const StepContext<dim> &context)
+  std::vector<ContactEntry>
+  ContactTerm<dim>::entries_of_this_rank(const GridSpace<dim> &space) const
   {
-    const GridSpace<dim>     &space        = context.state.grid();
-    const MPI_Comm            communicator = space.communicator();
-    const auto               &places       = boundary.places_of_rim().places();
-    const auto               &units        = boundary.units();
+    const auto               &places = boundary.places_of_rim().places();
+    const auto               &units  = boundary.units();
     std::vector<unsigned int> unit_of(places.size(),
                                       numbers::invalid_unsigned_int);
     for (unsigned int u = 0; u < units.size(); ++u)
       for (const unsigned int k : units[u].places)
         unit_of[k] = u;
-
-    // Sums by unit and node of this rank.
     const unsigned int n = space.nodes_per_cell();
     std::map<std::pair<unsigned int, types::global_dof_index>, double> sums;
     for (unsigned int i = 0; i < functions.places.size(); ++i)
@@ -174,21 +153,33 @@ namespace moraine
             sums[{unit_of[k], space.node_dof(nodes[a])}] +=
               places[k].weight * functions.N[n * i + a];
       }
-    std::vector<Entry> entries;
+    std::vector<ContactEntry> entries;
     for (const auto &[where, value] : sums)
       entries.push_back({where.first, where.second, value});
+    return entries;
+  }
 
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::find_local_units(const StepContext<dim> &context)
+  {
+    const GridSpace<dim> &space        = context.state.grid();
+    const MPI_Comm        communicator = space.communicator();
+    const auto           &units        = boundary.units();
     // The rank of its first cell has a unit, or another that knows all nodes.
     const auto         nodes   = nodes_of_dofs(space);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const auto of_ranks = Utilities::MPI::all_gather(communicator, entries);
+    const auto         of_ranks =
+      Utilities::MPI::all_gather(communicator, entries_of_this_rank(space));
     std::vector<unsigned int> claims(units.size(), 1 + rank);
     for (unsigned int u = 0; u < units.size(); ++u)
       if (owns(units[u]))
         claims[u] += n_ranks;
     for (const auto &of_rank : of_ranks)
-      for (const Entry &entry : of_rank)
+      for (const ContactEntry &entry : of_rank)
         if (nodes.count(entry.dof) == 0)
           claims[entry.unit] = 0;
     const std::vector<unsigned int> mine(claims);
@@ -196,7 +187,7 @@ namespace moraine
 
     std::vector<std::map<unsigned int, double>> N(units.size());
     for (unsigned int r = 0; r < n_ranks; ++r)
-      for (const Entry &entry : of_ranks[r])
+      for (const ContactEntry &entry : of_ranks[r])
         // Where none knows all, each has its part.
         if (claims[entry.unit] > 0 ? claims[entry.unit] == mine[entry.unit] :
                                      r == rank)

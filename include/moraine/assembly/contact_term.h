@@ -11,6 +11,21 @@
 
 namespace moraine
 {
+  /** What a rank knows of the functions of a unit of contact. */
+  struct ContactEntry
+  {
+    unsigned int                    unit;
+    dealii::types::global_dof_index dof; ///< first of a node
+    double                          N;   ///< times the area
+
+    template <class BoostArchive>
+    void
+    serialize(BoostArchive &archive, const unsigned int)
+    {
+      archive &unit &dof &N;
+    }
+  };
+
   /**
    * What a rigid surface does to a body that touches it: for each unit, with
    * the mean @f$\bar N_a@f$ of the functions over its part of the rim,
@@ -132,6 +147,9 @@ namespace moraine
     /** Whether it couples no nodes but those of a cell of this rank. */
     bool
     is_in_its_cell(const GridSpace<dim> &space, const LocalUnit &unit) const;
+
+    std::vector<ContactEntry>
+    entries_of_this_rank(const GridSpace<dim> &space) const;
 
     /** Find the functions of units. Collective. */
     void
