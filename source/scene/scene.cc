@@ -362,9 +362,25 @@ namespace moraine
       }
     prm.leave_subsection();
     // Impacts would live on in the highest frequencies.
+    const auto set_radius = [&](const std::string          &section,
+                                const IntegratorParameters &chosen) {
+      if (any && contains({"generalised-alpha", "Bathe"}, chosen.integrator) &&
+          !input.has("Time", "Spectral radius") &&
+          !input.has(section, "Spectral radius"))
+        prm.set("Spectral radius", 0.);
+    };
     prm.enter_subsection("Time");
-    if (any && !input.has("Time", "Spectral radius"))
-      prm.set("Spectral radius", 0.);
+    set_radius("Time", time.integrator);
+    prm.leave_subsection();
+    prm.enter_subsection("Stages");
+    for (const auto &[name, stage] : stages)
+      {
+        prm.enter_subsection(name);
+        prm.enter_subsection("Time");
+        set_radius("Stages/" + name + "/Time", stage.time.integrator);
+        prm.leave_subsection();
+        prm.leave_subsection();
+      }
     prm.leave_subsection();
   }
 

@@ -404,6 +404,15 @@ namespace moraine
                       boundary.enforcement.enforcement,
                       boundary.contact,
                       given);
+        if (boundary.constraint == "contact")
+          for (const auto &[body, parameters] : bodies)
+            if (comes_later(body))
+              reject(section,
+                     "Constraint",
+                     boundary.constraint,
+                     "another one; body '" + body +
+                       "' comes in a later stage, and rims are those of the "
+                       "first");
       }
     for (const auto &[name, condition] : grid_conditions)
       {

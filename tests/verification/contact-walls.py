@@ -1,4 +1,4 @@
-# ranks: 1-2  # debug: no
+# ranks: 1  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Walls that are pushed into soil or give way, by contact: earth pressure of Rankine on

@@ -23,7 +23,9 @@ def force(c, factor, crack=False):
 IN = {"Boundaries/wall/Translation": "0.2*t; 0"}
 C = {"Materials/sand/Cohesion": 5}
 HELD = {"Materials/sand/Tensile strength": 8.66}
-CASES = (("active", {}, force(0, ACTIVE), 1e-6),
+# Later, soil that yields all over flows where round-off says.
+EARLY = {"Time/Steps": 4, "Time/End time": 0.4}
+CASES = (("active", EARLY, force(0, ACTIVE), 1e-6),
          ("passive", IN, force(0, 1 / ACTIVE), 1e-6),
          ("active, c = 5, tension held", {**C, **HELD}, force(5, ACTIVE), 1e-6),
          ("active, c = 5, cracked", C, force(5, ACTIVE, crack=True), 3e-3),
