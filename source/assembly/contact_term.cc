@@ -289,6 +289,12 @@ namespace moraine
                                              no_tension * local.c_n * unit.h);
     if (trial.du.norm_square() > 0.)
       return trial;
+    // What it carries, not what a pass more would.
+    if (context.motion && context.t_end == context.t_start)
+      {
+        trial.response.traction = trial.multiplier;
+        return trial;
+      }
     // Nothing has moved yet: linearised about the start of the step, so that a
     // surface that moves takes along what touches it; the first correction
     // brings a body that nothing holds to the surface.
@@ -316,7 +322,8 @@ namespace moraine
                         GlobalSystem<dim>      &system) const
   {
     LocalSystem<dim>     local;
-    const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+    const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
+    const double         weight = 1. + share_of_start(context);
     if (tangent)
       statuses_of_tangent.clear();
     for (const LocalUnit &unit : local_units)
@@ -340,12 +347,13 @@ namespace moraine
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int i = 0; i < dim; ++i)
             {
-              local.force[dim * a + i] = unit.area * unit.N[a] * t[i];
+              local.force[dim * a + i] = weight * unit.area * unit.N[a] * t[i];
               if (tangent)
                 for (unsigned int b = 0; b < n_nodes; ++b)
                   for (unsigned int j = 0; j < dim; ++j)
                     local.matrix(dim * a + i, dim * b + j) =
-                      unit.area * unit.N[a] * unit.N[b] * stiffness[i][j];
+                      weight * unit.area * unit.N[a] * unit.N[b] *
+                      stiffness[i][j];
             }
         system.add(local, tangent);
       }

@@ -109,6 +109,14 @@ namespace moraine
       return context.motion && context.motion->integrator().start_forces() > 0;
     }
 
+    /** Forces at the end, over the whole step. */
+    double
+    work_of_step(const StepContext<dim> &context,
+                 const double            of_force) const override
+    {
+      return of_force / (1. + share_of_start(context));
+    }
+
     void
     prepare(const StepContext<dim> &context,
             const LA::Vector       &unbalanced) override;
@@ -121,6 +129,16 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
+    /** The weight that forces at the start of the step would have, which its
+     * forces at the end have too. */
+    double
+    share_of_start(const StepContext<dim> &context) const
+    {
+      return acts_over_step(context) && context.step_size() > 0 ?
+               context.motion->integrator().start_forces() :
+               0.;
+    }
+
     /** A unit, or this rank's part of one, with its functions. */
     struct LocalUnit
     {
