@@ -1,4 +1,4 @@
-# ranks: 1-2
+# ranks: 1-2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """A block on a plane with friction: it stays or slides with g (sin - mu cos), and comes

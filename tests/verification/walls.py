@@ -1,3 +1,4 @@
+# ranks: 1-2  # debug: no
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Smooth walls that are moved away from and towards soil, beside Rankine's active
