@@ -11,7 +11,8 @@
 
 namespace moraine
 {
-  /** What a rank knows of the functions of a unit of contact. */
+  /** The integral of a node's function over a unit of contact, or the part of
+   * it on one rank. */
   struct ContactEntry
   {
     unsigned int                    unit;
@@ -27,7 +28,7 @@ namespace moraine
   };
 
   /**
-   * What a rigid surface does to a body that touches it: for each unit, with
+   * The contact forces of a rigid surface on the bodies. Each unit adds, with
    * the mean @f$\bar N_a@f$ of the functions over its part of the rim,
    *
    * @f[ f_a = |\Gamma_u|\, \bar N_a\, P(\tau^{tr}), \qquad

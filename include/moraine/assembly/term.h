@@ -39,7 +39,7 @@ namespace moraine
     bool stabilises = false;
     /** failure() reads where points would move. */
     bool watches_points = false;
-    /** What it does depends on statuses, as of contact. */
+    /** Its places have a status: open, sticking or slipping. */
     bool has_statuses = false;
     /** prepare() reads the forces of nodes. */
     bool wants_unbalanced_forces = false;

@@ -16,7 +16,7 @@
 
 namespace moraine
 {
-  /** What a place of the rim carries from step to step. */
+  /** State of a place of the rim, kept from step to step. */
   template <int dim>
   struct ContactPlace
   {
@@ -123,8 +123,7 @@ namespace moraine
     double
     depth(const unsigned int k, const dealii::Tensor<1, dim> &du) const;
 
-    /** What places will carry: of unit u the traction, status, and what it
-     * slips and works; and how the places move. Collective. */
+    /** Result of a step for a unit; all its places take it over. */
     struct OfUnit
     {
       dealii::Tensor<1, dim> traction;
@@ -132,6 +131,8 @@ namespace moraine
       double                 slip   = 0; ///< of the step
       double                 work   = 0; ///< of friction in it, per area
     };
+    /** Compute the state at the end of the step, and where the places move.
+     * Nothing changes before keep(). Collective. */
     void
     prepare(const std::vector<OfUnit>                                 &of_units,
             const std::vector<typename CarriedPlaces<dim>::Increment> &moves,
@@ -146,7 +147,7 @@ namespace moraine
       return rim.places()[k].x + carried[k].displacement;
     }
 
-    /** What a place carries. */
+    /** The state of place @p k. */
     const ContactPlace<dim> &
     at_place(const unsigned int k) const
     {

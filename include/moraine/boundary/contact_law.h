@@ -8,7 +8,7 @@
 
 namespace moraine
 {
-  /** What a place of a rim does at a rigid surface. */
+  /** Whether a rim is apart from a surface, sticks to it or slides on it. */
   enum class ContactStatus : unsigned int
   {
     open,

@@ -236,7 +236,8 @@ namespace moraine
     void
     choose_enforcement(const std::string &if_left_out, const InputFile &input);
 
-    /** What is left out, if there is contact. */
+    /** Set defaults that differ if the scene has contact: enforcement, band
+     * width and spectral radius. */
     void
     choose_for_contact(const InputFile &input);
 
