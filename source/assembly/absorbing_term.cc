@@ -181,18 +181,11 @@ namespace moraine
             const double      area  = boundary.places()[place.number].weight;
             const Vector      force =
               area * traction(context, end, local.nodal_increments);
-            const Matrix stiffness =
-              area * (dv_du * place.dashpots + share * place.springs);
-            for (unsigned int a = 0; a < n; ++a)
-              for (unsigned int i = 0; i < dim; ++i)
-                {
-                  local.force[dim * a + i] += N[a] * force[i];
-                  if (tangent)
-                    for (unsigned int b = 0; b < n; ++b)
-                      for (unsigned int j = 0; j < dim; ++j)
-                        local.matrix(dim * a + i, dim * b + j) +=
-                          N[a] * N[b] * stiffness[i][j];
-                }
+            local.add_force(N, force);
+            if (tangent)
+              local.add_stiffness(N,
+                                  area * (dv_du * place.dashpots +
+                                          share * place.springs));
           }
         system.add(local, tangent);
       }

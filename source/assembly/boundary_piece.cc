@@ -18,6 +18,7 @@ namespace moraine
                              const double                 share)
   {
     const auto &points = boundary.points();
+    this->boundary     = &boundary;
     first_point        = first;
     cell_index         = points[first].cell;
     find_nodes(context.state);
@@ -28,7 +29,7 @@ namespace moraine
          q < points.size() && points[q].cell == cell_index;
          ++q)
       {
-        set_place(boundary, q);
+        set_place(q);
         increments.push_back(increment_here(context.increments()));
         constraints.push_back(
           boundary.constraint_state(points[q], increments.back().value, share));
@@ -74,13 +75,12 @@ namespace moraine
 
   template <int dim>
   void
-  BoundaryPiece<dim>::set_place(const ImplicitBoundary<dim> &boundary,
-                                const unsigned int           q)
+  BoundaryPiece<dim>::set_place(const unsigned int q)
   {
-    std::copy_n(boundary.N(q), n_of_cell, N.begin());
-    std::copy_n(boundary.grad_N(q), n_of_cell, grad_N.begin());
+    std::copy_n(boundary->N(q), n_of_cell, N.begin());
+    std::copy_n(boundary->grad_N(q), n_of_cell, grad_N.begin());
     if (parts.empty())
-      std::copy_n(boundary.grad_N(q), n_of_cell, mean_grad_N.begin());
+      std::copy_n(boundary->grad_N(q), n_of_cell, mean_grad_N.begin());
   }
 
 

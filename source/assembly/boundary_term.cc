@@ -83,22 +83,8 @@ namespace moraine
 
 
 
-    /** See Term::holds_mean_in(). */
-    template <int dim>
-    bool
-    holds_mean_in(const StepContext<dim>                      &context,
-                  ImplicitBoundary<dim>                       &boundary,
-                  const typename GridSpace<dim>::CellIterator &cell)
-    {
-      return points_pass_cells(context.state) &&
-             boundary.holds_mean_in(context.state.grid(),
-                                    cell,
-                                    context.t_start);
-    }
-
-
-
-    /** Of the step, along the normal that turns: see add_turn_of_normal(). */
+    /** Of the step, along the normal that turns: which the multiplier follows.
+     */
     template <int dim>
     double
     turning_force(const BoundaryPoint<dim> &point, const double of_start)
@@ -161,7 +147,7 @@ namespace moraine
     const std::string &how  = boundary.enforcement().name;
     return {{"implicit boundary " + name + " (" + how + ")",
              "boundary",
-             name + ", " + boundary.constraint_name() + ", " + how + ", " +
+             name + ", " + boundary.constraint().name() + ", " + how + ", " +
                std::to_string(
                  boundary.n_points(context.state.grid().communicator())) +
                " quadrature points"}};
@@ -171,11 +157,12 @@ namespace moraine
 
   template <int dim>
   bool
-  BoundaryTerm<dim>::holds_mean_in(
-    const StepContext<dim>                      &context,
-    const typename GridSpace<dim>::CellIterator &cell)
+  holds_mean_in(const StepContext<dim>                      &context,
+                ImplicitBoundary<dim>                       &boundary,
+                const typename GridSpace<dim>::CellIterator &cell)
   {
-    return moraine::holds_mean_in(context, boundary, cell);
+    return points_pass_cells(context.state) &&
+           boundary.holds_mean_in(context.state.grid(), cell, context.t_start);
   }
 
 
@@ -335,33 +322,31 @@ namespace moraine
                      tangent);
         for (; q < piece.end(); ++q)
           {
-            piece.set_place(boundary, q);
+            piece.set_place(q);
             if (!std::isfinite(piece.N[0]) && local.failure.empty())
               local.failure = why_no_place(boundary.name(), points[q].x);
-            add_boundary_point(points[q],
-                               piece.constraint(q),
+            add_boundary_point(piece,
+                               q,
                                of_start,
                                how,
                                C,
                                context.state.strain_measure(),
-                               piece.N.data(),
-                               piece.grad_N.data(),
-                               piece.mean_grad_N.data(),
-                               piece.increment(q).gradient,
-                               piece.increment(q).mean_gradient,
                                tangent,
                                fluxes,
                                local);
-            if (tangent && boundary.follows_curve() &&
+            // A multiplier turns with the normal of a curved wall. Of the
+            // penalty that is left out: before a step has found its way it is
+            // large.
+            if (tangent && boundary.follows_curve() && points[q].holds &&
                 points[q].multiplier.norm_square() > 0.)
-              add_turn_of_normal(
-                turning_force(points[q], of_start),
-                boundary.normal_gradient(points[q], piece.increment(q).value),
-                piece.N.data(),
-                local);
+              local.add_stiffness(piece.N.data(),
+                                  -turning_force(points[q], of_start) *
+                                    boundary.surface_at_end().normal_gradient(
+                                      points[q].x + piece.increment(q).value,
+                                      points[q].h));
           }
         if (tangent && how.mean_factor > 0)
-          add_mean_penalty(boundary, piece, how, C, local);
+          add_mean_penalty(piece, how, C, local);
         system.add(local, tangent);
       }
     add_slopes(context, tangent, system);
@@ -388,14 +373,12 @@ namespace moraine
           {
             states[q] = piece.constraint(q);
             tractions[q] =
-              boundary_traction(points[q],
-                                states[q],
+              boundary_traction(piece,
+                                q,
                                 how,
                                 context.cell_materials.elastic_stiffness(
                                   piece.cell()),
-                                context.state.strain_measure(),
-                                piece.increment(q).gradient,
-                                piece.increment(q).mean_gradient);
+                                context.state.strain_measure());
           }
       }
   }
@@ -428,26 +411,19 @@ namespace moraine
     std::vector<Tensor<1, dim>>       multipliers;
     std::vector<ConstraintState<dim>> states;
     evaluate(context, multipliers, states);
-    Enforcement no_flux   = boundary.enforcement();
-    no_flux.w_constrained = no_flux.w_free = 0;
+    // Along the normal of the start, as multipliers are.
     for (unsigned int q = 0; q < boundary.points().size(); ++q)
       {
-        const auto          &point = boundary.points()[q];
-        ConstraintState<dim> constraint;
-        constraint.normal    = point.normal;
-        constraint.push      = point.normal;
-        constraint.violation = states[q].violation;
+        const BoundaryPoint<dim> &point = boundary.points()[q];
+        multipliers[q]                  = point.multiplier;
         if (point.holds)
-          constraint.M = boundary.projection(point.normal);
-        multipliers[q] =
-          boundary_traction(point,
-                            constraint,
-                            no_flux,
-                            context.cell_materials.elastic_stiffness(
-                              point.cell),
-                            context.state.strain_measure(),
-                            Tensor<2, dim>(),
-                            Tensor<2, dim>());
+          multipliers[q] -=
+            penalty(boundary.enforcement(),
+                    point.depth,
+                    point.normal,
+                    boundary.constraint().projection(point.normal),
+                    context.cell_materials.elastic_stiffness(point.cell)) *
+            states[q].violation;
       }
     boundary.set_multipliers(multipliers);
   }
@@ -455,28 +431,62 @@ namespace moraine
 
 
   template <int dim>
-  double
-  BoundaryTerm<dim>::deepest_point(
-    const StepContext<dim>            &context,
-    const std::vector<Tensor<1, dim>> &moves) const
+  void
+  BoundaryTerm<dim>::add_slopes(const StepContext<dim> &context,
+                                const bool              tangent,
+                                GlobalSystem<dim>      &system) const
   {
-    const PointSet<dim> &points = context.state.material_points();
-    const double         range  = 2 * context.state.grid().mesh().cell_size();
-    const auto           place  = [&](const unsigned int p) {
-      return moves.empty() ? points.position(p) : points.position(p) + moves[p];
-    };
-    double deepest = 0;
-    for (const auto &in_cell : points.cells())
+    const GridSpace<dim> &space = context.state.grid();
+    LocalSystem<dim>      local;
+    for (unsigned int k = 0; k < boundary.slopes().size(); ++k)
       {
-        const Point<dim> centre = place(in_cell.first);
-        double           radius = range;
-        for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-          radius = std::max(radius, range + centre.distance(place(p)));
-        if (!boundary.is_far(centre, radius))
-          for (unsigned int p = in_cell.first; p < in_cell.last; ++p)
-            deepest = std::max(deepest, boundary.penetration(place(p), range));
+        const auto      &slope = boundary.slopes()[k];
+        const SlopeState now = slope_state(context, k, context.share_of_step());
+        local.reinit(context.state,
+                     space.cell_nodes(slope.cell),
+                     space.nodes_per_cell(),
+                     tangent);
+        local.add_force(boundary.slope_of_N(k), slope.JxW * now.traction);
+        if (tangent)
+          local.add_stiffness(
+            boundary.slope_of_N(k),
+            slope.JxW *
+              penalty(now.how,
+                      slope.depth,
+                      slope.normal,
+                      now.constraint.M,
+                      context.cell_materials.elastic_stiffness(slope.cell)));
+        system.add(local, tangent);
       }
-    return Utilities::MPI::max(deepest, context.state.grid().communicator());
+  }
+
+
+
+  template <int dim>
+  typename BoundaryTerm<dim>::SlopeState
+  BoundaryTerm<dim>::slope_state(const StepContext<dim> &context,
+                                 const unsigned int      k,
+                                 const double            share) const
+  {
+    const GridSpace<dim> &space = context.state.grid();
+    const auto           &slope = boundary.slopes()[k];
+    Tensor<1, dim>        du;
+    for (unsigned int a = 0; a < space.nodes_per_cell(); ++a)
+      du += boundary.slope_of_N(k)[a] *
+            context.increments()[space.cell_nodes(slope.cell)[a]];
+    SlopeState state{boundary.constraint_state(slope, du, 1.),
+                     boundary.enforcement().of_slopes(share),
+                     du,
+                     {}};
+    state.traction =
+      boundary_traction(slope,
+                        state.constraint,
+                        state.how,
+                        context.cell_materials.elastic_stiffness(slope.cell),
+                        context.state.strain_measure(),
+                        Tensor<2, dim>(),
+                        Tensor<2, dim>());
+    return state;
   }
 
 
@@ -498,71 +508,6 @@ namespace moraine
 
   template <int dim>
   void
-  BoundaryTerm<dim>::prepare(const StepContext<dim> &context,
-                             const LA::Vector &)
-  {
-    const MPI_Comm communicator = context.state.grid().communicator();
-    std::vector<Tensor<1, dim>>       tractions, violations;
-    std::vector<ConstraintState<dim>> states;
-    evaluate(context, tractions, states);
-    for (unsigned int q = 0; !context.balances_at_end() && q < states.size();
-         ++q)
-      states[q].place = boundary.points()[q].x;
-    prepared = {boundary.name(), {}, 0., 0., 0., 0.};
-    holding_points.clear();
-    for (unsigned int q = 0; q < tractions.size(); ++q)
-      {
-        const auto          &point = boundary.points()[q];
-        const Tensor<1, dim> force = point.JxW * tractions[q];
-        prepared.reaction += force;
-        prepared.work_of_motion += work_of_motion(q, force, point.prescribed);
-        prepared.moment += moment(context, states[q].place, force);
-        prepared.violation =
-          std::max(prepared.violation, states[q].violation.norm());
-        violations.push_back(states[q].violation);
-        holding_points.push_back({point.cell,
-                                  q,
-                                  states[q].place,
-                                  force,
-                                  states[q].normal,
-                                  states[q].M,
-                                  point.body_area});
-      }
-    prepared.force_magnitude =
-      force_magnitude(context.state.grid(), holding_points);
-    holding_points.erase(
-      std::remove_if(holding_points.begin(),
-                     holding_points.end(),
-                     [this](const HoldingPoint &place) {
-                       return !boundary.points()[place.number].holds;
-                     }),
-      holding_points.end());
-    const auto of_slopes = prepare_slopes(context, states);
-    sum_over_ranks(prepared, communicator);
-    prepared.violation = Utilities::MPI::max(prepared.violation, communicator);
-    boundary.prepare(tractions, violations, of_slopes);
-  }
-
-
-
-  template <int dim>
-  double
-  BoundaryTerm<dim>::moment(const StepContext<dim> &context,
-                            const Point<dim>       &x,
-                            const Tensor<1, dim>   &force) const
-  {
-    const RigidMotion<dim> &motion = boundary.rigid_motion();
-    return motion.moment(x,
-                         force,
-                         context.balances_at_end() ?
-                           motion.pose(context.t_end) :
-                           boundary.pose_at_start());
-  }
-
-
-
-  template <int dim>
-  void
   BoundaryTerm<dim>::keep() noexcept
   {
     boundary.keep();
@@ -570,38 +515,10 @@ namespace moraine
 
 
 
-  template <int dim>
-  void
-  BoundaryTerm<dim>::report(const StepContext<dim>           &context,
-                            std::vector<BoundaryReport<dim>> &reports) const
-  {
-    reports.push_back(prepared);
-    reports.back().penetration = deepest_point(context, {});
-  }
-
-
-
-  template <int dim>
-  ReleasedBoundaryTerm<dim>::ReleasedBoundaryTerm(
-    ImplicitBoundary<dim> &boundary)
-    : boundary(boundary)
-  {}
-
-
-
-  template <int dim>
-  bool
-  ReleasedBoundaryTerm<dim>::holds_mean_in(
-    const StepContext<dim>                      &context,
-    const typename GridSpace<dim>::CellIterator &cell)
-  {
-    return moraine::holds_mean_in(context, boundary, cell);
-  }
-
-
-
-  template class BoundaryTerm<2>;
-  template class BoundaryTerm<3>;
-  template class ReleasedBoundaryTerm<2>;
-  template class ReleasedBoundaryTerm<3>;
+#define INSTANTIATE(dim)                                    \
+  template decltype(holds_mean_in<dim>) holds_mean_in<dim>; \
+  template class BoundaryTerm<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace moraine

@@ -105,7 +105,7 @@ namespace moraine
                            sum);
           piece.area += points[q].JxW;
           piece.places.push_back(
-            {points[q].x, boundary.projection(points[q].normal), {}});
+            {points[q].x, boundary.constraint().projection(points[q].normal), {}});
           nodes.clear();
           for (const auto &[node, weight] : sum)
             {
@@ -368,9 +368,8 @@ namespace moraine
     };
     for (unsigned int b = 0; b < boundaries.size(); ++b)
       {
-        boundaries[b]->hold_in_cells(all_but(let_go[b]));
         // Nodes can follow means of two motions, but not slopes, too.
-        boundaries[b]->hold_slopes_in_cells(all_but(shared[b]));
+        boundaries[b]->hold_in_cells(all_but(let_go[b]), all_but(shared[b]));
       }
   }
 

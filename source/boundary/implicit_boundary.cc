@@ -13,21 +13,6 @@ namespace moraine
   using namespace dealii;
 
   template <int dim>
-  SymmetricTensor<2, dim>
-  Constraint<dim>::projection(const Tensor<1, dim> &normal) const
-  {
-    SymmetricTensor<2, dim> M;
-    if (kind == roller)
-      M = symmetrize(outer_product(normal, normal));
-    else
-      for (unsigned int d = 0; d < dim; ++d)
-        M[d][d] = (kind == fixed || component[d]) ? 1. : 0.;
-    return M;
-  }
-
-
-
-  template <int dim>
   ImplicitBoundary<dim>::ImplicitBoundary(
     const std::string                  &name,
     std::shared_ptr<const Surface<dim>> surface,
@@ -41,7 +26,7 @@ namespace moraine
     , at_end(surface)
     , motion(motion)
     , displacement(displacement)
-    , constraint(constraint)
+    , law(constraint)
     , how(enforcement)
     , limit(penetration_limit)
   {}
@@ -64,16 +49,9 @@ namespace moraine
     t_start = t;
     at_start.see_over(space.mesh().cell_size());
     at_end.see_over(space.mesh().cell_size());
-    const bool curved_roller = is_curved_roller();
-    const Kind before        = kind;
-    kind                     = {moves_points,
-                                moves_points && curved_roller,
-                                moves_points && measure == StrainMeasure::finite &&
-                                  constraint.kind == Constraint<dim>::fixed,
-                                how.holds_means(space.degree(), curved_roller, in_motion),
-                                false};
-    kind.holds_slopes        = kind.holds_means && through_cells &&
-                        how.slope_factor > 0 && !curved_roller;
+    const Kind before = kind;
+    kind              = kind_of_step(
+      space.degree(), moves_points, measure, in_motion, through_cells);
     const bool changes = kind.holds_means != before.holds_means ||
                          kind.holds_slopes != before.holds_slopes;
     const bool moves      = moves_points && motion.moves();
@@ -82,50 +60,111 @@ namespace moraine
              Utilities::MPI::logical_or(!body.is_still_so(covers),
                                         space.communicator());
     };
-    if (search.done && !cells_changed && !moves && !changes && !body_moved())
+    if (found && !cells_changed && !moves && !changes && !body_moved())
       {
         for (auto &point : boundary_points)
           point.depth = point.h;
         if (kept_at_points)
-          take_over(carried);
+          take_over(carried.places());
         return;
       }
     if (!placed_at || moves)
       place_at(t);
-    boundary_points.clear();
-    held_slopes = {};
     body.ask(covers);
-    find_pieces(space, search_tolerance);
-    body.stop_asking();
-    // Away from all bodies it holds what its cells have of them.
-    if (n_points(space.communicator()) == 0)
-      find_pieces(space, search_tolerance);
-    evaluate_shapes(space);
+    cut          = SurfaceCut<dim>(space,
+                          at_start,
+                          search_tolerance,
+                          body,
+                          how.w_free == 0. && motion.moves(),
+                          kind.holds_means);
+    using Slopes = typename SurfaceCut<dim>::Slopes;
     if (kind.holds_means)
-      take_means(space);
-    number_points();
-    if (kind.projects)
-      find_levels(space.communicator());
-    take_over_nearest(space.communicator());
+      cut.take_means(space,
+                     !kind.holds_slopes                  ? Slopes::none :
+                     law.kind == Constraint<dim>::roller ? Slopes::straight :
+                                                           Slopes::all);
+    take_points(space.communicator());
     kept_at_points = false;
-    search.done    = true;
-    ++search.number;
+    found          = true;
+    ++searches;
+  }
+
+
+
+  template <int dim>
+  typename ImplicitBoundary<dim>::Kind
+  ImplicitBoundary<dim>::kind_of_step(const unsigned int  degree,
+                                      const bool          moves_points,
+                                      const StrainMeasure measure,
+                                      const bool          in_motion,
+                                      const bool          through_cells) const
+  {
+    const bool curved_roller = is_curved_roller();
+    Kind       result;
+    result.moves_with_points = moves_points;
+    result.projects          = moves_points && curved_roller;
+    result.turns_multiplier  = moves_points &&
+                              measure == StrainMeasure::finite &&
+                              law.kind == Constraint<dim>::fixed;
+    result.holds_means  = how.holds_means(degree, curved_roller, in_motion);
+    result.holds_slopes = result.holds_means && through_cells &&
+                          how.slope_factor > 0 && !curved_roller;
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  ImplicitBoundary<dim>::holds_mean_in(
+    const GridSpace<dim>                        &space,
+    const typename GridSpace<dim>::CellIterator &cell,
+    const double                                 t)
+  {
+    if (!how.augments ||
+        !how.holds_means(space.degree(), is_curved_roller(), false))
+      return false;
+    if (!placed_at || (motion.moves() && *placed_at != t))
+      place_at(t);
+    return cuts_across<dim>(at_start, cell);
   }
 
 
 
   template <int dim>
   void
-  ImplicitBoundary<dim>::find_levels(const MPI_Comm &communicator)
+  ImplicitBoundary<dim>::take_points(const MPI_Comm &communicator)
   {
     largest_coordinate = 0;
-    for (auto &point : boundary_points)
+    boundary_points.assign(cut.points.size(), {});
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
       {
-        point.level = at_start.level(point.x);
-        largest_coordinate =
-          std::max(largest_coordinate, coordinate_magnitude(point.x));
+        BoundaryPoint<dim> &point           = boundary_points[q];
+        static_cast<CutPoint<dim> &>(point) = cut.points[q];
+        point.depth                         = point.h;
+        if (kind.projects)
+          {
+            point.level = at_start.level(point.x);
+            largest_coordinate =
+              std::max(largest_coordinate, coordinate_magnitude(point.x));
+          }
       }
-    largest_coordinate = Utilities::MPI::max(largest_coordinate, communicator);
+    if (kind.projects)
+      largest_coordinate =
+        Utilities::MPI::max(largest_coordinate, communicator);
+    boundary_slopes.assign(cut.slopes.size(), {});
+    for (unsigned int k = 0; k < boundary_slopes.size(); ++k)
+      {
+        BoundarySlope<dim>  &slope               = boundary_slopes[k];
+        const CutSlope<dim> &of                  = cut.slopes[k];
+        static_cast<BoundaryPoint<dim> &>(slope) = boundary_points[of.point];
+        slope.point                              = of.point;
+        slope.offset                             = of.offset;
+      }
+    const auto places =
+      carried.handed_over(places_of_points(), kind.holds_means, communicator);
+    if (!places.empty())
+      take_over(places);
   }
 
 
@@ -166,8 +205,8 @@ namespace moraine
     for (auto &point : boundary_points)
       point.multiplier =
         takes ? turn * point.multiplier_at_start : Tensor<1, dim>();
-    for (auto &slope : held_slopes.all)
-      slope.traction = turn * slope.traction_at_start;
+    for (auto &slope : boundary_slopes)
+      slope.multiplier = turn * slope.multiplier_at_start;
   }
 
 
@@ -207,7 +246,7 @@ namespace moraine
     at_end.set_pose(kind.moves_with_points ? end : at_start.pose());
     for (auto &point : boundary_points)
       point.prescribed = increment_at(point.x, t_start, start, t_end, end);
-    for (auto &slope : held_slopes.all)
+    for (auto &slope : boundary_slopes)
       {
         const Point<dim> &x = boundary_points[slope.point].x;
         slope.prescribed =
@@ -242,12 +281,12 @@ namespace moraine
         state.violation =
           (point.level - at_end.level(x_end) - relative * state.normal) *
           state.normal;
-        state.M = constraint.projection(state.normal);
+        state.M = law.projection(state.normal);
       }
     else
       {
         state.normal    = point.normal;
-        state.M         = constraint.projection(point.normal);
+        state.M         = law.projection(point.normal);
         state.violation = state.M * (du - point.prescribed);
       }
     state.push = state.normal;
@@ -257,29 +296,6 @@ namespace moraine
         state.push /= state.push.norm();
       }
     return state;
-  }
-
-
-
-  template <int dim>
-  SymmetricTensor<2, dim>
-  ImplicitBoundary<dim>::normal_gradient(const BoundaryPoint<dim> &point,
-                                         const Tensor<1, dim>     &du) const
-  {
-    if (!kind.projects || !point.holds)
-      return {};
-    const double   step = 1e-4 * point.h;
-    Tensor<2, dim> gradient;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
-        gradient[d]                = (at_end.normal(point.x + du + ahead) -
-                       at_end.normal(point.x + du - ahead)) /
-                      (2 * step);
-      }
-    constexpr double corner = 4;
-    return gradient.norm() * point.h < corner ? symmetrize(gradient) :
-                                                SymmetricTensor<2, dim>();
   }
 
 
@@ -326,23 +342,136 @@ namespace moraine
 
 
   template <int dim>
-  std::string
-  ImplicitBoundary<dim>::constraint_name() const
+  void
+  ImplicitBoundary<dim>::hold_in_cells(const AnswerForCell &points_hold,
+                                       const AnswerForCell &slopes_hold)
   {
-    if (constraint.kind != Constraint<dim>::components)
-      return constraint.kind == Constraint<dim>::fixed ? "fixed" : "roller";
-    std::string components;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (constraint.component[d])
-        components +=
-          (components.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
-    return components;
+    for (auto &point : boundary_points)
+      point.holds = points_hold(point.cell);
+    for (auto &slope : boundary_slopes)
+      slope.holds = points_hold(slope.cell) && slopes_hold(slope.cell);
   }
 
 
 
-  template struct Constraint<2>;
-  template struct Constraint<3>;
+  template <int dim>
+  Tensor<2, dim>
+  ImplicitBoundary<dim>::from_frame() const
+  {
+    return law.kind == Constraint<dim>::roller ?
+             at_start.pose().rotation() :
+             Tensor<2, dim>(unit_symmetric_tensor<dim>());
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::take_over(const std::vector<CarriedPlace<dim>> &places)
+  {
+    const Tensor<2, dim> R         = from_frame();
+    const Tensor<2, dim> into_pose = transpose(at_start.pose().rotation());
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        BoundaryPoint<dim> &point   = boundary_points[q];
+        point.multiplier_at_start   = R * places[q].multiplier;
+        point.accumulated_violation = R * places[q].violation;
+        // It may come from a segment with another normal, and nothing but the
+        // normal component is ever corrected.
+        if (law.kind == Constraint<dim>::roller && !kind.projects)
+          point.multiplier_at_start =
+            law.projection(point.normal) * point.multiplier_at_start;
+      }
+    for (BoundarySlope<dim> &slope : boundary_slopes)
+      slope.multiplier_at_start =
+        R * places[slope.point].slope * (into_pose * slope.offset);
+  }
+
+
+
+  template <int dim>
+  std::vector<CarriedPlace<dim>>
+  ImplicitBoundary<dim>::places_of_points() const
+  {
+    const Placement<dim>          &pose       = at_start.pose();
+    const Tensor<2, dim>           into_frame = transpose(pose.rotation());
+    std::vector<CarriedPlace<dim>> places;
+    for (const auto &point : boundary_points)
+      places.push_back({Tensor<1, dim>(pose.inverse(point.x)),
+                        {},
+                        {},
+                        {},
+                        point.JxW,
+                        into_frame * point.normal,
+                        point.h,
+                        {{point.cell, point.number}}});
+    return places;
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::prepare(const std::vector<Tensor<1, dim>> &tractions,
+                                 const std::vector<Tensor<1, dim>> &violations,
+                                 const std::vector<Tensor<1, dim>> &of_slopes)
+  {
+    const Tensor<2, dim> into_frame = transpose(from_frame());
+    const Tensor<2, dim> into_pose  = transpose(at_start.pose().rotation());
+    auto                 places     = places_of_points();
+    for (unsigned int q = 0; q < boundary_points.size(); ++q)
+      {
+        const auto    &point      = boundary_points[q];
+        Tensor<1, dim> multiplier = tractions[q];
+        // In the next step a roller pushes other material at the same place.
+        if (kind.projects)
+          multiplier =
+            std::copysign(multiplier.norm(), multiplier * point.normal) *
+            point.normal;
+        places[q].multiplier = into_frame * multiplier;
+        if (how.carries_multiplier)
+          places[q].violation =
+            into_frame * (point.accumulated_violation + violations[q]);
+      }
+    for (unsigned int k = 0; k < of_slopes.size(); ++k)
+      {
+        const BoundarySlope<dim> &slope = boundary_slopes[k];
+        places[slope.point].slope +=
+          outer_product(into_frame * of_slopes[k], into_pose * slope.offset) /
+          slope.offset.norm_square();
+      }
+    carried.prepare(std::move(places));
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::write(Archive &archive) const
+  {
+    const std::string group = "boundaries/" + boundary_name;
+    archive.write(group + "/is_placed", placed_at ? 1u : 0u);
+    archive.write(group + "/t_placed", placed_at.value_or(0.), "time");
+    carried.write(archive, group);
+  }
+
+
+
+  template <int dim>
+  void
+  ImplicitBoundary<dim>::read(const Archive &archive)
+  {
+    const std::string group = "boundaries/" + boundary_name;
+    placed_at.reset();
+    if (archive.integer(group + "/is_placed") != 0)
+      place_at(archive.number(group + "/t_placed"));
+    carried.read(archive, group);
+    // The points are derived from that by the next begin_step().
+    found = kept_at_points = false;
+  }
+
+
+
   template class ImplicitBoundary<2>;
   template class ImplicitBoundary<3>;
 } // namespace moraine

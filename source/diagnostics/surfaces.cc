@@ -61,7 +61,7 @@ namespace moraine
           if (other.name() == boundary.name() ||
               !contains(facts.now.stage->boundaries, other.name()))
             return false;
-          const NearestPoint<dim> nearest = other.nearest_at_start(x);
+          const NearestPoint<dim> nearest = other.surface_at_start().nearest(x);
           return nearest.in_extent && std::abs(nearest.level - depth) <
                                         same_level * facts.cell_size();
         });
@@ -96,7 +96,7 @@ namespace moraine
         for (unsigned int p = 0; p < points.n_local(); ++p)
           {
             const NearestPoint<dim> nearest =
-              boundary.nearest_at_start(points.position(p));
+              boundary.surface_at_start().nearest(points.position(p));
             const double half = 0.5 * std::pow(points.volume(p), 1. / dim);
             if (!nearest.in_extent || std::abs(nearest.level) > half + 0.5 * h)
               continue;
@@ -141,8 +141,9 @@ namespace moraine
                  of_cell > 0 && p < in_cell.last;
                  ++p)
               {
-                const Point<dim>       &x       = points.position(p);
-                const NearestPoint<dim> nearest = boundary.nearest_at_start(x);
+                const Point<dim>       &x = points.position(p);
+                const NearestPoint<dim> nearest =
+                  boundary.surface_at_start().nearest(x);
                 if (nearest.level <= 0 || nearest.in_extent ||
                     facts.in_a_body(x + (nearest.level + step) *
                                           nearest.normal) != embedded ||
@@ -267,8 +268,9 @@ namespace moraine
             const Point<dim> &x = points.position(p);
             if (!box->point_inside(x))
               continue;
-            const auto nearest = at_start ? boundary.nearest_at_start(x) :
-                                            boundary.nearest_at_end(x);
+            const auto nearest = at_start ?
+                                   boundary.surface_at_start().nearest(x) :
+                                   boundary.surface_at_end().nearest(x);
             if (!nearest.in_extent && std::abs(nearest.level) <= h)
               depth = std::max({depth, 0., -nearest.level});
           }

@@ -408,6 +408,26 @@ namespace moraine
 
 
 
+  template <int dim>
+  SymmetricTensor<2, dim>
+  MovedSurface<dim>::normal_gradient(const Point<dim> &x, const double h) const
+  {
+    // In turns over h: a corner, seen over the step, has far more.
+    constexpr double corner = 4;
+    const double     step   = 1e-4 * h;
+    Tensor<2, dim>   gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
+        gradient[d] =
+          (this->normal(x + ahead) - this->normal(x - ahead)) / (2 * step);
+      }
+    return gradient.norm() * h < corner ? symmetrize(gradient) :
+                                          SymmetricTensor<2, dim>();
+  }
+
+
+
   namespace
   {
     template <int dim>

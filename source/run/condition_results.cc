@@ -177,7 +177,7 @@ namespace moraine
         const ImplicitBoundary<dim> &boundary = model.boundaries[b];
         if (!contains(acting, boundary.name()))
           continue;
-        const Placement<dim> &before = boundary.pose_at_start();
+        const Placement<dim> &before = boundary.surface_at_start().pose();
         const Placement<dim>  now =
           stay ? before : boundary.rigid_motion().pose(target.time);
         for (const BoundaryPoint<dim> &point : boundary.points())

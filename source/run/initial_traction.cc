@@ -97,7 +97,7 @@ namespace moraine
               if (!is_at_body(covers_here, place.x, place.normal, place.h))
                 continue;
               const auto traction = [&](const Tensor<1, dim> &offset) {
-                return boundary.projection(place.normal) *
+                return boundary.constraint().projection(place.normal) *
                        (stress.at(place.x + offset - in_cell.cell->center()) *
                         place.normal);
               };
@@ -254,7 +254,7 @@ namespace moraine
           {
             const auto &slope = boundary.slopes()[k];
             if (has_old[boundary.points()[slope.point].cell])
-              tractions.of_slopes[k] = slope.traction_at_start;
+              tractions.of_slopes[k] = slope.multiplier_at_start;
           }
         boundary.prepare(tractions.at_points, violations, tractions.of_slopes);
         boundary.keep();

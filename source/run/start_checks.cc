@@ -114,7 +114,7 @@ namespace moraine
               for (unsigned int k = 0; k < 3; ++k)
                 {
                   const NearestPoint<dim> nearest =
-                    boundary.nearest_at_start(x);
+                    boundary.surface_at_start().nearest(x);
                   normal = nearest.normal;
                   x += nearest.level * normal;
                 }
@@ -153,7 +153,8 @@ namespace moraine
                         MeshAfterStep::follow_material);
       for (const auto &boundary : model.boundaries)
         for (const auto &in_cell : model.points->cells())
-          boundary.is_far(model.points->position(in_cell.first), 0.);
+          boundary.surface_at_end().level(
+            model.points->position(in_cell.first));
     }
 
 

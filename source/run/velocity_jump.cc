@@ -128,8 +128,8 @@ namespace moraine
           for (unsigned int q = 0; q < boundary.points().size(); ++q)
             {
               const BoundaryPoint<dim> &point = boundary.points()[q];
-              const auto                M = boundary.projection(point.normal);
-              const Tensor<1, dim>      wall = M * point.prescribed / step_size;
+              const auto M = boundary.constraint().projection(point.normal);
+              const Tensor<1, dim> wall = M * point.prescribed / step_size;
               if (!(wall.norm() > 0))
                 continue;
               const unsigned int *nodes = model.space->cell_nodes(point.cell);

@@ -19,6 +19,21 @@ namespace moraine
 
   namespace
   {
+    /** The middle of the box around the surface of a boundary; of one without
+     * ends, the point nearest to @p near. */
+    template <int dim>
+    Point<dim>
+    middle_of(const ImplicitBoundary<dim> &boundary, const Point<dim> &near)
+    {
+      const auto &surface = boundary.surface_at_start();
+      if (is_finite(surface.bounding_box()))
+        return surface.bounding_box().center();
+      const NearestPoint<dim> nearest = surface.nearest(near);
+      return near + nearest.level * nearest.normal; // positive in the body
+    }
+
+
+
     /** The middle of what a condition holds. */
     template <int dim>
     Point<dim>
@@ -72,7 +87,7 @@ namespace moraine
         {
           names.push_back(boundary.name());
           if (boundary.name() == name)
-            return {boundary.middle(middle_of_mesh),
+            return {middle_of(boundary, middle_of_mesh),
                     boundary.rigid_motion(),
                     {}};
         }

@@ -858,7 +858,7 @@ namespace
         box.deform();
         double carried = 0;
         for (const BoundarySlope<2> &slope : line.slopes())
-          carried = std::max(carried, slope.traction.norm());
+          carried = std::max(carried, slope.multiplier.norm());
         EXPECT_GT(Utilities::MPI::max(carried, MPI_COMM_WORLD), 1.);
         check_tangent(box);
       }

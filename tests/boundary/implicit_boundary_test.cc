@@ -321,7 +321,7 @@ namespace
         EXPECT_LT(
           (slope.prescribed - (turn_0_1 * slope.offset - slope.offset)).norm(),
           1e-13);
-        EXPECT_EQ(slope.traction.norm(), 0.);
+        EXPECT_EQ(slope.multiplier.norm(), 0.);
         tractions.push_back(gradient * slope.offset);
       }
     const std::vector<Tensor<1, dim>> none(plane.points().size());
@@ -342,8 +342,8 @@ namespace
           {
             const Tensor<1, dim> at_start =
               gradient * (transpose(turn_0_1) * slope.offset);
-            EXPECT_LT((slope.traction_at_start - at_start).norm(), 1e-13);
-            EXPECT_LT((slope.traction - turn_1_3 * at_start).norm(), 1e-13);
+            EXPECT_LT((slope.multiplier_at_start - at_start).norm(), 1e-13);
+            EXPECT_LT((slope.multiplier - turn_1_3 * at_start).norm(), 1e-13);
           }
       }
   }
@@ -482,7 +482,8 @@ namespace
             off_turned,
             boundary.constraint_state(points[q], turned, 1.).violation.norm());
           normal_gradients.push_back(
-            boundary.normal_gradient(points[q], Tensor<1, 2>()));
+            boundary.surface_at_end().normal_gradient(points[q].x,
+                                                      points[q].h));
         }
       length = Utilities::MPI::sum(length, MPI_COMM_WORLD);
     }

@@ -37,49 +37,48 @@ namespace moraine
                     const dealii::Tensor<2, dim> &grad_du,
                     const dealii::Tensor<2, dim> &mean_grad_du);
 
-  /** Adds the force of such a point and, if asked, its derivative. @p of_start
-   * times the force at the start of the step comes to it, where it pushes now.
-   * @p fluxes is scratch. */
+  /** The same of a point of @p piece. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  boundary_traction(const BoundaryPiece<dim> &piece,
+                    const unsigned int        q,
+                    const Enforcement        &enforcement,
+                    const LameConstants      &stiffness,
+                    const StrainMeasure       measure);
+
+  /** Adds the force of point @p q, whose functions @p piece has, and, if asked,
+   * its derivative. @p of_start times the force at the start of the step comes
+   * to it, where it pushes now. @p fluxes is scratch. */
   template <int dim>
   void
-  add_boundary_point(const BoundaryPoint<dim>            &point,
-                     const ConstraintState<dim>          &constraint,
+  add_boundary_point(const BoundaryPiece<dim>            &piece,
+                     const unsigned int                   q,
                      const double                         of_start,
                      const Enforcement                   &enforcement,
                      const LameConstants                 &stiffness,
                      const StrainMeasure                  measure,
-                     const double                        *N,
-                     const dealii::Tensor<1, dim>        *grad_N,
-                     const dealii::Tensor<1, dim>        *mean_grad_N,
-                     const dealii::Tensor<2, dim>        &grad_du,
-                     const dealii::Tensor<2, dim>        &mean_grad_du,
                      const bool                           tangent,
                      std::vector<dealii::Tensor<1, dim>> &fluxes,
                      LocalSystem<dim>                    &local);
 
-  /** Adds to the derivative of such a point that its multiplier turns with the
-   * normal of a curved wall, @f$-N_a N_b\, (t \cdot n) \nabla n@f$. Of the
-   * penalty that is left out: before a step has found its way it is large.
-   * @param traction_by_normal JxW (t n)
-   * @param normal_gradient see ImplicitBoundary::normal_gradient()
-   * @param N functions of the nodes there
-   * @param local to which it is added */
+  /** @f$c_3\, M Q M@f$ with @f$Q = n\cdot C\cdot n@f$, of which @p enforcement
+   * may leave out @f$\lambda@f$, and c_3 by @p depth. */
   template <int dim>
-  void
-  add_turn_of_normal(const double                           traction_by_normal,
-                     const dealii::SymmetricTensor<2, dim> &normal_gradient,
-                     const double                          *N,
-                     LocalSystem<dim>                      &local);
+  dealii::SymmetricTensor<2, dim>
+  penalty(const Enforcement                     &enforcement,
+          const double                           depth,
+          const dealii::Tensor<1, dim>          &n,
+          const dealii::SymmetricTensor<2, dim> &M,
+          const LameConstants                   &stiffness);
 
   /** Adds what the mean violation of a piece of a boundary adds to the
    * derivative; its force is in boundary_traction(). */
   template <int dim>
   void
-  add_mean_penalty(const ImplicitBoundary<dim> &boundary,
-                   const BoundaryPiece<dim>    &piece,
-                   const Enforcement           &enforcement,
-                   const LameConstants         &stiffness,
-                   LocalSystem<dim>            &local);
+  add_mean_penalty(const BoundaryPiece<dim> &piece,
+                   const Enforcement        &enforcement,
+                   const LameConstants      &stiffness,
+                   LocalSystem<dim>         &local);
 } // namespace moraine
 
 #endif

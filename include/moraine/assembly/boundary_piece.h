@@ -64,7 +64,20 @@ namespace moraine
 
     /** Take the functions at point @p q, begin() <= q < end(). */
     void
-    set_place(const ImplicitBoundary<dim> &boundary, const unsigned int q);
+    set_place(const unsigned int q);
+
+    const BoundaryPoint<dim> &
+    point(const unsigned int q) const
+    {
+      return boundary->points()[q];
+    }
+
+    /** Of the nodes of the cell at point @p q. */
+    const double *
+    functions(const unsigned int q) const
+    {
+      return boundary->N(q);
+    }
 
     const Increment &
     increment(const unsigned int q) const
@@ -91,6 +104,7 @@ namespace moraine
     Increment
     increment_here(const std::vector<dealii::Tensor<1, dim>> &nodal) const;
 
+    const ImplicitBoundary<dim>               *boundary    = nullptr;
     unsigned int                               first_point = 0;
     unsigned int                               cell_index  = 0;
     unsigned int                               n_of_cell   = 0; ///< nodes

@@ -13,6 +13,13 @@
 
 namespace moraine
 {
+  /** Of an implicit boundary, see Term::holds_mean_in(). */
+  template <int dim>
+  bool
+  holds_mean_in(const StepContext<dim>                      &context,
+                ImplicitBoundary<dim>                       &boundary,
+                const typename GridSpace<dim>::CellIterator &cell);
+
   /** What an implicit boundary adds to the weak form; see Enforcement. */
   template <int dim>
   class BoundaryTerm : public ConstraintTerm<dim>
@@ -50,7 +57,10 @@ namespace moraine
 
     bool
     holds_mean_in(const StepContext<dim>                      &context,
-                  const typename GridSpace<dim>::CellIterator &cell) override;
+                  const typename GridSpace<dim>::CellIterator &cell) override
+    {
+      return moraine::holds_mean_in(context, boundary, cell);
+    }
 
     bool
     begin_step(const StepContext<dim> &context) override;
@@ -171,25 +181,20 @@ namespace moraine
                const bool              tangent,
                GlobalSystem<dim>      &system) const;
 
-    /** Of a piece whose mean @p point is, by the shear modulus alone: with the
-     * other one, of material that keeps its volume, every place would be held.
-     */
-    dealii::SymmetricTensor<2, dim>
-    slope_stiffness(const StepContext<dim>   &context,
-                    const BoundarySlope<dim> &slope) const;
-
-    /** What slope @p k of the trial increment misses of the prescribed one, all
-     * components of it. */
-    dealii::Tensor<1, dim>
-    slope_violation(const StepContext<dim> &context,
-                    const unsigned int      k) const;
-
-    /** On the body, of slope @p k in the trial state; in the middle of the step
-     * with half of what it adds, so that it keeps energy as a spring does. */
-    dealii::Tensor<1, dim>
-    slope_traction(const StepContext<dim> &context,
-                   const unsigned int      k,
-                   const double            share_of_step) const;
+    /** A slope in the trial state. */
+    struct SlopeState
+    {
+      ConstraintState<dim>   constraint;
+      Enforcement            how;
+      dealii::Tensor<1, dim> du;       ///< what the trial increment has of it
+      dealii::Tensor<1, dim> traction; ///< on the body
+    };
+    /** Of slope @p k; with @p share of what the step adds, so that in the
+     * middle of it the slope keeps energy as a spring does. */
+    SlopeState
+    slope_state(const StepContext<dim> &context,
+                const unsigned int      k,
+                const double            share) const;
 
     /** Count moments and work of slopes among what is prepared.
      * @return the tractions */
@@ -259,7 +264,9 @@ namespace moraine
   class ReleasedBoundaryTerm : public Term<dim>
   {
   public:
-    explicit ReleasedBoundaryTerm(ImplicitBoundary<dim> &boundary);
+    explicit ReleasedBoundaryTerm(ImplicitBoundary<dim> &boundary)
+      : boundary(boundary)
+    {}
 
     std::vector<Effect>
     effects(const StepContext<dim> &) const override
@@ -269,7 +276,10 @@ namespace moraine
 
     bool
     holds_mean_in(const StepContext<dim>                      &context,
-                  const typename GridSpace<dim>::CellIterator &cell) override;
+                  const typename GridSpace<dim>::CellIterator &cell) override
+    {
+      return moraine::holds_mean_in(context, boundary, cell);
+    }
 
   private:
     ImplicitBoundary<dim> &boundary;

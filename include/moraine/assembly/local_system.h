@@ -42,6 +42,27 @@ namespace moraine
            const unsigned int  n_nodes,
            const bool          tangent);
 
+    /** Add the force @p f at a place where nodes have the functions @p N. */
+    void
+    add_force(const double *N, const dealii::Tensor<1, dim> &f)
+    {
+      for (unsigned int a = 0; a < nodal_increments.size(); ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          force[dim * a + i] += N[a] * f[i];
+    }
+
+    /** Add @f$N_a N_b K@f$. */
+    void
+    add_stiffness(const double *N, const dealii::Tensor<2, dim> &K)
+    {
+      const unsigned int n = nodal_increments.size();
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              matrix(dim * a + i, dim * b + j) += N[a] * N[b] * K[i][j];
+    }
+
     /** Add @p c times the row-major matrix @p of_nodes in every direction. */
     void
     add_in_all_directions(const double c, const std::vector<double> &of_nodes)

@@ -77,6 +77,26 @@ namespace moraine
       return carries_multiplier && !augments;
     }
 
+    /** Whether the stress of the trial state is part of the traction. */
+    bool
+    has_flux() const
+    {
+      return w_constrained != 0 || w_free != 0;
+    }
+
+    /** What holds slopes: a spring of the shear modulus alone, as with the
+     * other one, of material that keeps its volume, every place would be held.
+     * Of it
+     * @p share acts. */
+    Enforcement
+    of_slopes(const double share) const
+    {
+      Enforcement result      = *this;
+      result.stiffness_factor = share * slope_factor;
+      result.lambda_share     = 0;
+      return result;
+    }
+
     double      w_constrained;      ///< @f$w_c@f$
     double      w_free;             ///< @f$w_f@f$
     double      adjoint_sign;       ///< @f$s@f$

@@ -150,6 +150,18 @@ namespace moraine
     dealii::Point<dim>     centre;
     dealii::Tensor<1, dim> axis;
   };
+
+  /** What the least rotation that turns one unit vector to another makes of
+   * @p v. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  turned(const dealii::Tensor<1, dim> &v,
+         const dealii::Tensor<1, dim> &from,
+         const dealii::Tensor<1, dim> &to)
+  {
+    const dealii::Tensor<1, dim> sum = from + to;
+    return v - (sum * v) / (1 + from * to) * sum + 2 * (from * v) * to;
+  }
 } // namespace moraine
 
 #endif

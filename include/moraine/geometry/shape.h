@@ -276,6 +276,14 @@ namespace moraine
     SurfacePointer<dim>
     within(const Extent<dim> &extent) const override;
 
+    /**
+     * How the normal changes with the place, @f$\nabla n@f$: 1 over the radii
+     * of curvature along the surface; by central differences over a small part
+     * of the length @p h. Zero at a corner.
+     */
+    dealii::SymmetricTensor<2, dim>
+    normal_gradient(const dealii::Point<dim> &x, const double h) const;
+
   private:
     SurfacePointer<dim> reference;
     Placement<dim>      present;
