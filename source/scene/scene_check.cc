@@ -3,6 +3,7 @@
 
 // The part of Scene that finds what cannot be right, as far as the text tells.
 
+#include <moraine/scene/check_contact.h>
 #include <moraine/scene/scene.h>
 #include <moraine/scene/scene_bodies.h>
 
@@ -279,33 +280,6 @@ namespace moraine
                "'quasi-static', and only waves are absorbed");
       parameters.law(section);
     }
-
-
-
-    void
-    check_contact(const std::string                   &section,
-                  const std::string                   &constraint,
-                  const std::string                   &enforcement,
-                  const ContactParameters             &parameters,
-                  const std::vector<InputFile::Entry> &given)
-    {
-      const bool touches = constraint == "contact";
-      for (const auto &entry : given)
-        if (entry.section == section &&
-            (touches ? contains({"Penetration limit",
-                                 "Held in a cell",
-                                 "Nitsche factor",
-                                 "Penalty factor"},
-                                entry.key) :
-                       ContactParameters::has(entry.key)))
-          reject(entry, "nothing; key 'Constraint' is '" + constraint + "'");
-      if (touches && enforcement != "augmented Lagrangian")
-        reject(section,
-               "Enforcement",
-               enforcement,
-               "augmented Lagrangian; key 'Constraint' is 'contact'");
-      parameters.law(section);
-    }
   } // namespace
 
 
@@ -399,20 +373,7 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
-        check_contact(section,
-                      boundary.constraint,
-                      boundary.enforcement.enforcement,
-                      boundary.contact,
-                      given);
-        if (boundary.constraint == "contact")
-          for (const auto &[body, parameters] : bodies)
-            if (comes_later(body))
-              reject(section,
-                     "Constraint",
-                     boundary.constraint,
-                     "another one; body '" + body +
-                       "' comes in a later stage, and rims are those of the "
-                       "first");
+        check_contact(*this, name, boundary, given);
       }
     for (const auto &[name, condition] : grid_conditions)
       {

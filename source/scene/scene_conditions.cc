@@ -8,6 +8,7 @@
 #include <moraine/core/expression.h>
 #include <moraine/core/words.h>
 #include <moraine/scene/scene_bodies.h>
+#include <moraine/scene/surface_motion.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -19,23 +20,6 @@ namespace moraine
 
   namespace
   {
-    /** A vector function from text; zero if the text is empty. */
-    template <int dim>
-    VectorFunction<dim>
-    vector_function(const std::string &text, const std::string &place)
-    {
-      if (text.empty())
-        return
-          [](const Point<dim> &, const double) { return Tensor<1, dim>(); };
-      const auto expression =
-        std::make_shared<Expression<dim>>(text, place, dim);
-      return [expression](const Point<dim> &x, const double t) {
-        return expression->vector_value(x, t);
-      };
-    }
-
-
-
     /** Flags for the components named "x, y"; all if nothing is named. */
     template <int dim>
     std::array<bool, dim>
@@ -178,63 +162,6 @@ namespace moraine
 
 
 
-    /** When the boundary @p name begins to act. */
-    template <int dim>
-    double
-    first_time_of(const std::string &name, const Scene<dim> &scene)
-    {
-      for (const auto &[stage_name, stage] : scene.stages)
-        if (contains(stage.boundaries, name))
-          return stage.time.start_time;
-      return scene.start_time();
-    }
-
-
-
-    /** Whether what the boundary prescribes is not the same everywhere. */
-    template <int dim>
-    bool
-    varies(const BoundaryParameters<dim> &parameters)
-    {
-      return has_name(parameters.displacement, {"x", "y", "z"});
-    }
-
-
-
-    /** Of the surface of the boundary @p name, which a displacement that is the
-     * same everywhere moves. */
-    template <int dim>
-    RigidMotion<dim>
-    motion_of_surface(const std::string             &name,
-                      const BoundaryParameters<dim> &parameters,
-                      const Scene<dim>              &scene)
-    {
-      const std::string section = "Boundaries/" + name;
-      const auto        given   = vector_function<dim>(parameters.displacement,
-                                              place(section, "Displacement"));
-      if (varies(parameters) && parameters.constraint == "contact")
-        reject(section,
-               "Displacement",
-               parameters.displacement,
-               "expressions in t, as the surface moves as a rigid body");
-      if (varies(parameters) &&
-          scene.method.after_step() != MeshAfterStep::keep)
-        reject(section,
-               "Displacement",
-               parameters.displacement,
-               "expressions in t, as the surface moves as a rigid body; in x, "
-               "y, z with 'Mesh after step = keep'");
-      std::function<Tensor<1, dim>(const double)> of_surface;
-      if (!varies(parameters) && !parameters.displacement.empty())
-        of_surface = [given,
-                      first = first_time_of(name, scene)](const double t) {
-          return given(Point<dim>(), t) - given(Point<dim>(), first);
-        };
-      return parameters.motion.make_motion(section, of_surface);
-    }
-
-
-
     template <int dim>
     ImplicitBoundary<dim>
     make_boundary(const std::string             &name,
@@ -268,39 +195,6 @@ namespace moraine
       if (parameters.constraint != "absorbing" &&
           parameters.constraint != "contact")
         boundaries.push_back(make_boundary(name, parameters, shapes, scene));
-    return boundaries;
-  }
-
-
-
-  template <int dim>
-  std::vector<ContactBoundary<dim>>
-  make_contact_boundaries(const Scene<dim>        &scene,
-                          const ShapePointer<dim> &bodies)
-  {
-    const NamedShapes<dim>            shapes = body_shapes(scene);
-    std::vector<ContactBoundary<dim>> boundaries;
-    for (const auto &[name, parameters] : scene.boundaries)
-      {
-        if (parameters.constraint != "contact")
-          continue;
-        const std::string section = "Boundaries/" + name;
-        if (!bodies)
-          reject(section,
-                 "Constraint",
-                 parameters.constraint,
-                 "another one; the points of a body are given, so that it has "
-                 "no rim");
-        boundaries.emplace_back(
-          name,
-          make_surface<dim>(parameters.surface, shapes, section),
-          motion_of_surface(name, parameters, scene),
-          [rim = bodies->rim()](const BackgroundMesh<dim> &mesh) {
-            return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
-          },
-          parameters.contact.law(section),
-          parameters.enforcement.enforcement_of().stiffness_factor);
-      }
     return boundaries;
   }
 
@@ -605,8 +499,6 @@ namespace moraine
 
 #define INSTANTIATE(dim)                                                       \
   template decltype(make_boundaries<dim>) make_boundaries<dim>;                \
-  template decltype(make_contact_boundaries<dim>)                              \
-    make_contact_boundaries<dim>;                                              \
   template decltype(make_absorbing_boundaries<dim>)                            \
                                                make_absorbing_boundaries<dim>; \
   template decltype(make_grid_conditions<dim>) make_grid_conditions<dim>;      \

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Moraine authors
+
+#include <moraine/scene/scene_conditions.h>
+
+#include <moraine/core/exceptions.h>
+#include <moraine/scene/scene_bodies.h>
+#include <moraine/scene/surface_motion.h>
+
+namespace moraine
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<ContactBoundary<dim>>
+  make_contact_boundaries(const Scene<dim>        &scene,
+                          const ShapePointer<dim> &bodies)
+  {
+    const NamedShapes<dim>            shapes = body_shapes(scene);
+    std::vector<ContactBoundary<dim>> boundaries;
+    for (const auto &[name, parameters] : scene.boundaries)
+      {
+        if (parameters.constraint != "contact")
+          continue;
+        const std::string section = "Boundaries/" + name;
+        if (!bodies)
+          reject(section,
+                 "Constraint",
+                 parameters.constraint,
+                 "another one; the points of a body are given, so that it has "
+                 "no rim");
+        boundaries.emplace_back(
+          name,
+          make_surface<dim>(parameters.surface, shapes, section),
+          motion_of_surface(name, parameters, scene),
+          [rim = bodies->rim()](const BackgroundMesh<dim> &mesh) {
+            return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
+          },
+          parameters.contact.law(section),
+          parameters.enforcement.enforcement_of().stiffness_factor);
+      }
+    return boundaries;
+  }
+
+
+
+  template std::vector<ContactBoundary<2>>
+  make_contact_boundaries(const Scene<2> &, const ShapePointer<2> &);
+  template std::vector<ContactBoundary<3>>
+  make_contact_boundaries(const Scene<3> &, const ShapePointer<3> &);
+} // namespace moraine
