@@ -44,8 +44,11 @@ namespace moraine
 
 
   template <int dim>
-  ContactTerm<dim>::ContactTerm(ContactBoundary<dim> &boundary, const bool acts)
+  ContactTerm<dim>::ContactTerm(ContactBoundary<dim>    &boundary,
+                                const std::vector<bool> &bodies_present,
+                                const bool               acts)
     : boundary(boundary)
+    , bodies_present(bodies_present)
     , acts(acts)
   {}
 
@@ -73,7 +76,8 @@ namespace moraine
     const GridSpace<dim> &space = context.state.grid();
     const bool            through_mesh =
       context.state.mesh_after_step() == MeshAfterStep::reset;
-    boundary.find_cells(space, context.search_tolerance, context.t_start, acts);
+    boundary.find_cells(
+      space, context.search_tolerance, context.t_start, acts, bodies_present);
     if (!acts)
       {
         local_units.clear();

@@ -60,36 +60,57 @@ namespace moraine
 
   template <int dim>
   void
-  ContactBoundary<dim>::find_cells(const GridSpace<dim> &space,
-                                   const double          search_tolerance,
-                                   const double          t,
-                                   const bool            acts)
+  ContactBoundary<dim>::find_cells(const GridSpace<dim>    &space,
+                                   const double             search_tolerance,
+                                   const double             t,
+                                   const bool               acts,
+                                   const std::vector<bool> &present)
   {
-    at_start.see_over(space.mesh().cell_size());
-    at_end.see_over(space.mesh().cell_size());
+    const double h = space.mesh().cell_size();
+    at_start.see_over(h);
+    at_end.see_over(h);
     at_start.set_pose(motion.pose(t));
-    if (!placed)
-      rim = CarriedPlaces<dim>(find_places(space.mesh()));
-    const auto without = rim.find_cells(space, search_tolerance);
-    if (!placed)
+    has_rim.resize(present.size(), false);
+    std::vector<unsigned int> gone;
+    for (unsigned int k = 0; k < carried.size(); ++k)
+      if (!present[carried[k].body])
+        gone.push_back(k);
+    rim.remove(gone);
+    for (auto k = gone.rbegin(); k != gone.rend(); ++k)
+      carried.erase(carried.begin() + *k);
+    rim.find_cells(space, search_tolerance);
+    const unsigned int n_before = carried.size();
+    for (unsigned int b = 0; b < present.size(); ++b)
+      if (present[b] && !has_rim[b])
+        add_rim(space, search_tolerance, b);
+    has_rim = present;
+    for (unsigned int k = acted ? n_before : 0; acts && k < carried.size(); ++k)
       {
-        rim.remove(without);
-        rim.catch_up(space);
-        carried.assign(rim.places().size(), {});
+        const NearestPoint<dim> nearest = at_start.nearest(position(k));
+        const bool              touches =
+          nearest.in_extent && nearest.level <= touching * h &&
+          nearest.normal * rim.places()[k].normal > cosine_of_contact;
+        carried[k].status = touches ? 1 : 0;
       }
-    if (acts && !acted)
-      for (unsigned int k = 0; k < carried.size(); ++k)
-        {
-          const NearestPoint<dim> nearest = at_start.nearest(position(k));
-          const bool              touches =
-            nearest.in_extent &&
-            nearest.level <= touching * space.mesh().cell_size() &&
-            nearest.normal * rim.places()[k].normal > cosine_of_contact;
-          carried[k].status = touches ? 1 : 0;
-        }
-    acted  = acts;
-    placed = true;
+    acted = acts;
     all_units.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::add_rim(const GridSpace<dim> &space,
+                                const double          search_tolerance,
+                                const unsigned int    body)
+  {
+    CarriedPlaces<dim> of_body(find_places(space.mesh(), body));
+    of_body.remove(of_body.find_cells(space, search_tolerance));
+    of_body.catch_up(space);
+    rim.add(of_body);
+    ContactPlace<dim> at_first;
+    at_first.body = body;
+    carried.resize(rim.places().size(), at_first);
   }
 
 
@@ -442,7 +463,9 @@ namespace moraine
                   1,
                   "stress length");
     archive.write(group() + "/status", components_of(carried, &Of::status));
-    archive.write(group() + "/is_placed", placed ? 1u : 0u);
+    archive.write(group() + "/body", components_of(carried, &Of::body));
+    archive.write(group() + "/has_rim",
+                  std::vector<unsigned int>(has_rim.begin(), has_rim.end()));
     archive.write(group() + "/acted", acted ? 1u : 0u);
   }
 
@@ -454,8 +477,9 @@ namespace moraine
   {
     using Of = ContactPlace<dim>;
     rim.read(archive, group());
-    placed = archive.integer(group() + "/is_placed") != 0;
-    acted  = archive.integer(group() + "/acted") != 0;
+    const auto &rims = archive.integers(group() + "/has_rim", 1);
+    has_rim.assign(rims.begin(), rims.end());
+    acted = archive.integer(group() + "/acted") != 0;
     carried.resize(rim.places().size());
     const auto read = [&](const std::string &name,
                           const auto         member,
@@ -469,6 +493,7 @@ namespace moraine
     read("slip", &Of::slip, 1);
     read("work", &Of::work, 1);
     read("status", &Of::status, 1);
+    read("body", &Of::body, 1);
     undo();
   }
 

@@ -259,6 +259,17 @@ namespace moraine
         boundary.prepare(tractions.at_points, violations, tractions.of_slopes);
         boundary.keep();
       }
+    for (ContactBoundary<dim> &boundary : model.contact_boundaries)
+      if (contains(stage.boundaries, boundary.name()) &&
+          contains(before.boundaries, boundary.name()))
+        {
+          std::vector<Tensor<1, dim>> tractions =
+            tractions_on(boundary, points);
+          for (unsigned int k = 0; k < tractions.size(); ++k)
+            if (!is_new[boundary.at_place(k).body])
+              tractions[k] = boundary.at_place(k).traction;
+          boundary.set_tractions(tractions);
+        }
     model.system->begin_step(stage.time.start_time);
   }
 

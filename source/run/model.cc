@@ -317,8 +317,7 @@ namespace moraine
                        covers_of_bodies(bodies, *mesh, *points));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
-    contact_boundaries =
-      make_contact_boundaries(scene, united(shapes_of(bodies)));
+    contact_boundaries = make_contact_boundaries(scene, shapes_of(bodies));
     if (scene.has_water())
       loads.water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
         {},
@@ -421,9 +420,12 @@ namespace moraine
       else if (absorbs_around(stage.time.start_time, scene, boundary))
         terms.push_back(
           std::make_unique<AbsorbingTerm<dim>>(boundary, /* acts = */ false));
+    std::vector<bool> is_there;
+    for (const std::string &body : body_names)
+      is_there.push_back(contains(stage.bodies, body));
     for (auto &boundary : contact_boundaries)
       terms.push_back(std::make_unique<ContactTerm<dim>>(
-        boundary, contains(stage.boundaries, boundary.name())));
+        boundary, is_there, contains(stage.boundaries, boundary.name())));
     terms.push_back(make_conflict_term(stage, boundaries, grid_conditions));
     if (loads.water)
       terms.push_back(

@@ -12,8 +12,7 @@ namespace moraine
 
   template <int dim>
   void
-  check_contact(const Scene<dim>                    &scene,
-                const std::string                   &name,
+  check_contact(const std::string                   &name,
                 const BoundaryParameters<dim>       &boundary,
                 const std::vector<InputFile::Entry> &given)
   {
@@ -35,27 +34,16 @@ namespace moraine
              boundary.enforcement.enforcement,
              "augmented Lagrangian; key 'Constraint' is 'contact'");
     boundary.contact.law(section);
-    if (!touches)
-      return;
-    for (const auto &[body, parameters] : scene.bodies)
-      if (scene.comes_later(body))
-        reject(section,
-               "Constraint",
-               boundary.constraint,
-               "another one; body '" + body +
-                 "' comes in a later stage, and rims are those of the first");
   }
 
 
 
   template void
-  check_contact(const Scene<2> &,
-                const std::string &,
+  check_contact(const std::string &,
                 const BoundaryParameters<2> &,
                 const std::vector<InputFile::Entry> &);
   template void
-  check_contact(const Scene<3> &,
-                const std::string &,
+  check_contact(const std::string &,
                 const BoundaryParameters<3> &,
                 const std::vector<InputFile::Entry> &);
 } // namespace moraine

@@ -13,8 +13,8 @@ namespace moraine
 
   template <int dim>
   std::vector<ContactBoundary<dim>>
-  make_contact_boundaries(const Scene<dim>        &scene,
-                          const ShapePointer<dim> &bodies)
+  make_contact_boundaries(const Scene<dim>                     &scene,
+                          const std::vector<ShapePointer<dim>> &bodies)
   {
     const NamedShapes<dim>            shapes = body_shapes(scene);
     std::vector<ContactBoundary<dim>> boundaries;
@@ -23,18 +23,22 @@ namespace moraine
         if (parameters.constraint != "contact")
           continue;
         const std::string section = "Boundaries/" + name;
-        if (!bodies)
-          reject(section,
-                 "Constraint",
-                 parameters.constraint,
-                 "another one; the points of a body are given, so that it has "
-                 "no rim");
+        for (const auto &body : bodies)
+          if (!body)
+            reject(section,
+                   "Constraint",
+                   parameters.constraint,
+                   "another one; the points of a body are given, so that it "
+                   "has no rim");
         boundaries.emplace_back(
           name,
           make_surface<dim>(parameters.surface, shapes, section),
           motion_of_surface(name, parameters, scene),
-          [rim = bodies->rim()](const BackgroundMesh<dim> &mesh) {
-            return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
+          [bodies](const BackgroundMesh<dim> &mesh, const unsigned int body) {
+            return places_on<dim>(*bodies[body]->rim(),
+                                  mesh,
+                                  nullptr,
+                                  Spacing::through_mesh);
           },
           parameters.contact.law(section),
           parameters.enforcement.enforcement_of().stiffness_factor);
@@ -45,7 +49,9 @@ namespace moraine
 
 
   template std::vector<ContactBoundary<2>>
-  make_contact_boundaries(const Scene<2> &, const ShapePointer<2> &);
+  make_contact_boundaries(const Scene<2> &,
+                          const std::vector<ShapePointer<2>> &);
   template std::vector<ContactBoundary<3>>
-  make_contact_boundaries(const Scene<3> &, const ShapePointer<3> &);
+  make_contact_boundaries(const Scene<3> &,
+                          const std::vector<ShapePointer<3>> &);
 } // namespace moraine

@@ -37,8 +37,3 @@ refused("surface that is bent on the way", {"Displacement": "0; 0.1*x*t"})
 refused("surface the other way round", {"Points": "3 0; -1 0"})
 refused("overlap", {"Points": "-1 0.3; 3 0.3"})
 refused("nothing near it", {"Points": "-1 -2; 3 -2"})
-refused("a body that comes later", {
-    "Bodies/fill/Lower corner": "0, 2", "Bodies/fill/Upper corner": "2, 2.5",
-    "Stages/dug/Bodies": "block", "Stages/dug/Time/Steps": 1,
-    "Stages/filled/Bodies": "block, fill", "Stages/filled/Time/Steps": 1,
-    "Stages/filled/Time/End time": 2})

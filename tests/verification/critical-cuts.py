@@ -188,7 +188,7 @@ for name, settings in (
 
 # With means over cells, which are the default then.
 for method in ("GIMP", "CPDI1", "CPDI2"):
-    for nu, steps in ((0.4999, 60), (0.4999, 150)):
+    for nu, steps in ((0.4999, 60), (0.4999, 150))[:2 if method == "GIMP" else 1]:
         result = run(BAR, {"Method/Method": method, **QUIET,
                            **shifted((0, -1), (21, 2), 0.37, 0.7, 0.5),
                            "Materials/rubber/Poisson ratio": nu,

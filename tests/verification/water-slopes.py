@@ -42,7 +42,7 @@ DRAWDOWN = "prm/geotechnics/drawdown.prm"
 METHODS = {"GIMP": {}, "FE Q2": {"Method/Method": "finite element", "Method/Degree": 2,
                                  "Mesh/Cell size": 2}}
 for drawdown, published in ((0, 1.85), (0.7, 1.30)):
-    for method, settings in METHODS.items():
+    for method, settings in list(METHODS.items())[:2 if drawdown else 1]:
         found = factor(DRAWDOWN, {**settings, "Constants/drawdown": drawdown},
                        0.96 * published, 1.04 * published, 0.02)
         number(f"F, L/H = {drawdown:g}, {published}: {method}", found, 4)

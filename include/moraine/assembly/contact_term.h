@@ -46,8 +46,9 @@ namespace moraine
   public:
     /** If it does not act yet, the material carries its places all the same.
      */
-    explicit ContactTerm(ContactBoundary<dim> &boundary,
-                         const bool            acts = true);
+    ContactTerm(ContactBoundary<dim>    &boundary,
+                const std::vector<bool> &bodies_present,
+                const bool               acts = true);
 
     TermTraits
     traits() const override
@@ -180,10 +181,11 @@ namespace moraine
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
 
-    ContactBoundary<dim>  &boundary;
-    const bool             acts;
-    PlaceFunctions<dim>    functions; ///< of the places
-    std::vector<LocalUnit> local_units;
+    ContactBoundary<dim>   &boundary;
+    const std::vector<bool> bodies_present;
+    const bool              acts;
+    PlaceFunctions<dim>     functions; ///< of the places
+    std::vector<LocalUnit>  local_units;
     /** Of local units when the tangent was added last. */
     mutable std::vector<ContactStatus>     statuses_of_tangent;
     std::vector<std::vector<unsigned int>> coupled_before;

@@ -26,6 +26,7 @@ namespace moraine
     double                 slip   = 0; ///< path along the surface [length]
     double                 work   = 0; ///< of friction [force length/area]
     double                 status = 1; ///< of ContactStatus; at first stick
+    double                 body   = 0; ///< whose rim it is of
   };
 
   /**
@@ -73,9 +74,9 @@ namespace moraine
   {
   public:
     using Place = typename CarriedPlaces<dim>::Place;
-    /** The places of the rim of the bodies in the mesh as it was built. */
-    using Finder =
-      std::function<std::vector<Place>(const BackgroundMesh<dim> &)>;
+    /** The places of the rim of a body in the mesh as it was built. */
+    using Finder = std::function<std::vector<Place>(const BackgroundMesh<dim> &,
+                                                    const unsigned int body)>;
 
     /** @p stiffness_factor: @f$c_3 h@f$ of the penalty of a pass. */
     ContactBoundary(const std::string         &name,
@@ -86,13 +87,15 @@ namespace moraine
                     const double               stiffness_factor);
 
     /** Place the surface at the start @p t of a step and find the cells of the
-     * places, which are found themselves the first time. As it begins to act,
+     * places. Bodies that come bring theirs, @p present by number; those that
+     * go take theirs along. As the surface begins to act, or a body comes,
      * bodies touch it where they are at it. Collective. */
     void
-    find_cells(const GridSpace<dim> &space,
-               const double          search_tolerance,
-               const double          t,
-               const bool            acts);
+    find_cells(const GridSpace<dim>    &space,
+               const double             search_tolerance,
+               const double             t,
+               const bool               acts,
+               const std::vector<bool> &present);
 
     /** Find the units of the step. Collective. */
     void
@@ -274,6 +277,12 @@ namespace moraine
       return "contact/" + boundary_name;
     }
 
+    /** Add the places of the rim of a body. Collective. */
+    void
+    add_rim(const GridSpace<dim> &space,
+            const double          search_tolerance,
+            const unsigned int    body);
+
     /** Let each cell's places near the surface be a unit. */
     void
     gather_units(const GridSpace<dim> &space);
@@ -294,8 +303,8 @@ namespace moraine
     CarriedPlaces<dim>             rim{{}};
     std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
     std::vector<ContactUnit<dim>>  all_units;
-    bool                           placed = false; ///< once
-    bool                           acted  = false; ///< in the last step
+    std::vector<bool>              has_rim;       ///< bodies with places
+    bool                           acted = false; ///< in the last step
   };
 } // namespace moraine
 

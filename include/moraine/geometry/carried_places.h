@@ -86,6 +86,12 @@ namespace moraine
         now.erase(now.begin() + *number);
     }
 
+    void
+    add(const CarriedPlaces &others)
+    {
+      now.insert(now.end(), others.now.begin(), others.now.end());
+    }
+
     /** Trial increments of all places. Collective. */
     std::vector<Increment>
     increments(
