@@ -1,0 +1,34 @@
+# ranks: 1  # debug: no
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Moraine authors
+"""Shipped scenes of contact beside what their heads say: a silo, a pile that is pulled, a
+pipe that is pressed into clay and lifted, a disc that bounces."""
+
+from math import exp, pi, radians, tan
+
+rows = run("prm/geotechnics/silo.prm", QUIET).history()
+K, MU, GAMMA, H = 0.3 / 0.7, 0.4, 8, 8
+FLOOR = GAMMA / (2 * MU * K) * (1 - exp(-2 * MU * K * H)) / 2
+number(f"silo: floor, Janssen {FLOOR:.4g} kN/m", rows[-1]["reaction_y of floor"], 4)
+bound("silo: error", rows[-1]["reaction_y of floor"] / FLOOR - 1, 0.02)
+bound("silo: floor and walls less weight, over it",
+      (rows[-1]["reaction_y of floor"] + rows[-1]["reaction_y of wall"]) / (H * GAMMA / 2)
+      - 1, 1e-8)
+
+rows = run("prm/geotechnics/pile-pulled.prm", QUIET).history()
+SHAFT = tan(radians(25)) * 0.5 * 20 * 4 ** 2 / 2
+number(f"pile: one side of the shaft, {SHAFT:.4g} kN/m", rows[-1]["reaction_y of pile"], 4)
+bound("pile: error", rows[-1]["reaction_y of pile"] / SHAFT - 1, 0.04)
+
+rows = run("prm/geotechnics/pipe.prm", QUIET).history()
+PIPE = 4.97 * 10 * 0.55 ** 0.23 / 2
+deepest = min(rows, key=lambda row: row["u_y of pipe"])
+number(f"pipe: half of it, {PIPE:.4g} kN/m", -deepest["reaction_y of pipe"], 4)
+bound("pipe: error", -deepest["reaction_y of pipe"] / PIPE - 1, 0.04)
+bound("pipe: force when it is lifted", rows[-1]["reaction_y of pipe"], 1e-8)
+
+rows = run("prm/dynamics/bouncing-disc.prm", QUIET).history()
+at_least("disc: steps in which it touches the floor",
+         sum(row["contact area of floor"] > 0 for row in rows), 10)
+MOMENTUM = 2 * 1000 * pi * 0.2 ** 2
+number("disc: speed after over that before", rows[-1]["momentum_y"] / MOMENTUM, 3)
