@@ -5,6 +5,7 @@
 
     moraine plot OUTPUT --field stress --component xy
     moraine plot OUTPUT --history "u_y at top" reaction --against t
+    moraine plot OUTPUT --of contact
     moraine plot A.vtu B.vtu --columns 2 --field displacement -o both.png
     moraine plot material-test-clay.csv --measured laboratory.csv
 
@@ -36,8 +37,10 @@ def arguments():
                         "or the CSV file of a material test")
     parser.add_argument("--field",
                         help="colour points by this field of the VTU files")
-    parser.add_argument("--of", choices=["points", "domains", "mesh"],
-                        default="points", help="what is coloured")
+    parser.add_argument("--of",
+                        choices=["points", "domains", "mesh", "contact"],
+                        default="points", help="what is coloured; contact: "
+                        "tractions on the rims of bodies (2D)")
     parser.add_argument("--step", type=int, default=-1,
                         help="number of the VTU file; the last if left out")
     parser.add_argument("--history", nargs="*", metavar="COLUMN",
@@ -185,9 +188,18 @@ def main():
             render.fail("VTU files need -o FILE.png, and have no --history")
     elif len(args.files) > 1:
         render.fail("one folder at a time; or several VTU files")
+    if args.of == "contact" and (not run or args.field or args.component):
+        render.fail("--of contact draws tractions of the folder of a run, "
+                    "without --field and --component")
     folder = run / "plots" if run else None
     if folder and not args.output:
         folder.mkdir(exist_ok=True)
+    if args.of == "contact":
+        import plot_contact
+        path = args.output or folder / file_name(args, "")
+        plot_contact.draw(str(vtu_of(run, args.of, args.step)), run, path)
+        print(path)
+        return
     asks_for_field = args.field or args.component or args.output
     if args.history is not None or not asks_for_field:
         path = args.output or folder / (

@@ -54,3 +54,10 @@ text("a table", plot(solid.folder, "--field", "mean_stress", "-o",
                      folder / "table.csv"))
 rows = (folder / "table.csv").read_text().splitlines()
 text("table.csv", (rows[0], len(rows) - 1 == solid.summary["points"]))
+
+wall = run("prm/geotechnics/retaining-wall.prm", {"Time/Steps": 2})
+text("tractions on a rim", plot(wall.folder, "--of", "contact"))
+text("of-contact.png", png(wall.folder / "plots" / "of-contact.png"))
+text("before the first step", plot(wall.folder, "--of", "contact", "--step", 0))
+text("no contact", plot(finished.folder, "--of", "contact"))
+text("a field of it", plot(wall.folder, "--of", "contact", "--field", "gap"))

@@ -39,3 +39,30 @@ plot 'coarse/history.csv' using (80 * column(t)):(-2 * column(force)) w l lt 1 t
      'fine/history.csv' using (80 * column(t)):(-2 * column(force)) w l lt 4 title 'h = 2/15 m', \
      18 * 4 / 2 * 14.7543 lt 8 title 'formula, N_γ = 14.754'
 GP
+
+# Step 13: a wall that tilts away from sand, and the forces on it.
+"$build/doc/step-13" >step-13.txt
+awk '/^[ 0-9.]+$/ { gsub(/^ +/, ""); gsub(/ +/, ","); print }' step-13.txt >forces.csv
+awk -F, 'NF == 4' forces.csv >sand.csv
+awk -F, 'NF == 6' forces.csv >clay.csv
+plot step-13-force 900,440 <<'GP'
+set multiplot layout 1,2
+set xlabel 'top of the wall moves by [mm]'
+set ylabel 'force on the wall [kN/m]'
+set xrange [0:42]
+set title 'Sand'
+set yrange [60:100]
+plot 'sand.csv' u 1:2 w lp lt 1 t 'smooth', 'sand.csv' u 1:3 w lp lt 4 t 'rough, normal part', \
+     83.3 lt 9 t 'Rankine', 72.8 lt 9 lc rgb '#D55E00' t 'Coulomb'
+set title 'Clay, smooth wall'
+set yrange [140:230]
+plot 'clay.csv' u 1:2 w lp lt 7 t 'wall pulls', 'clay.csv' u 1:3 w lp lt 1 t 'wall lets go', \
+     'clay.csv' u 1:5 w lp lt 4 t 'clay cracks, too', 150 lt 9 t 'exact: 150', \
+     160 lt 9 lc rgb '#D55E00' t 'exact: 160'
+unset multiplot
+GP
+run tilts geotechnics/retaining-wall "Grid conditions/base/Components = x, y" \
+  "Boundaries/wall/Translation = " "Boundaries/wall/Rotation angle = 0.4584*t" \
+  "Boundaries/wall/Rotation centre = 0, 0" "Boundaries/wall/Friction angle = 15" \
+  "Method/Strain = small" "Method/Mesh after step = keep"
+moraine_plot tilts --of contact -o "$figures/step-13.png"
