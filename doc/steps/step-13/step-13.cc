@@ -130,7 +130,8 @@ make_wall(const ShapePointer<dim> &ground, const ContactLaw &law)
     "wall",
     wall,
     tilts,
-    [rim = ground->rim()](const BackgroundMesh<dim> &mesh) {
+    [rim = ground->rim()](const BackgroundMesh<dim> &mesh,
+                          const unsigned int /* body */) {
       return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
     },
     law,
@@ -260,7 +261,8 @@ give_way(const Soil &soil, const ContactLaw &law)
   Loads<dim>                         weight   = make_weight();
   std::vector<ImplicitBoundary<dim>> no_boundaries;
   Terms<dim> terms = make_terms(no_boundaries, supports, weight);
-  terms.push_back(std::make_unique<ContactTerm<dim>>(wall));
+  const std::vector<bool> bodies_present{true};
+  terms.push_back(std::make_unique<ContactTerm<dim>>(wall, bodies_present));
   const std::vector<std::string> names{"ground"};
   MechanicsSystem<dim>           system(state, std::move(terms), names);
 
