@@ -27,16 +27,26 @@ namespace moraine
     /** Of c_n h: a tension that is round-off. */
     constexpr double no_tension = 1e-12;
 
+    /** Whole corrections to the same statuses, between two passes. */
+    constexpr int most_returns = 2;
 
 
-    /** Of unknowns, the nodes of this rank that have them. */
+
+    /** Of the unknowns of units, the nodes of this rank that have them. */
     template <int dim>
     std::map<types::global_dof_index, unsigned int>
-    nodes_of_dofs(const GridSpace<dim> &space)
+    nodes_of_units(const GridSpace<dim>                         &space,
+                   const std::vector<std::vector<ContactEntry>> &of_ranks)
     {
+      std::vector<types::global_dof_index> dofs;
+      for (const auto &of_rank : of_ranks)
+        for (const ContactEntry &entry : of_rank)
+          dofs.push_back(entry.dof);
+      std::sort(dofs.begin(), dofs.end());
       std::map<types::global_dof_index, unsigned int> nodes;
       for (unsigned int node = 0; node < space.n_nodes(); ++node)
-        nodes.emplace(space.node_dof(node), node);
+        if (std::binary_search(dofs.begin(), dofs.end(), space.node_dof(node)))
+          nodes.emplace(space.node_dof(node), node);
       return nodes;
     }
   } // namespace
@@ -74,8 +84,6 @@ namespace moraine
   ContactTerm<dim>::begin_step(const StepContext<dim> &context)
   {
     const GridSpace<dim> &space = context.state.grid();
-    const bool            through_mesh =
-      context.state.mesh_after_step() == MeshAfterStep::reset;
     boundary.find_cells(
       space, context.search_tolerance, context.t_start, acts, bodies_present);
     if (!acts)
@@ -83,10 +91,6 @@ namespace moraine
         local_units.clear();
         return false;
       }
-    const Basis<dim> &basis  = context.state.point_basis();
-    const auto       &places = boundary.places_of_rim().places();
-    functions                = through_mesh ? basis.functions_at(places) :
-                                              basis.functions_of_cells(places);
     boundary.find_units(space);
     find_local_units(context);
     find_stiffness(context);
@@ -135,27 +139,35 @@ namespace moraine
 
   template <int dim>
   std::vector<ContactEntry>
-  ContactTerm<dim>::entries_of_this_rank(const GridSpace<dim> &space) const
+  ContactTerm<dim>::entries_of_this_rank(const StepContext<dim> &context) const
   {
-    const auto               &places = boundary.places_of_rim().places();
-    const auto               &units  = boundary.units();
-    std::vector<unsigned int> unit_of(places.size(),
-                                      numbers::invalid_unsigned_int);
+    const GridSpace<dim> &space  = context.state.grid();
+    const Basis<dim>     &basis  = context.state.point_basis();
+    const auto           &places = boundary.places_of_rim().places();
+    const auto           &units  = boundary.units();
+    // A rim has many more places than are near the surface.
+    std::vector<typename CarriedPlaces<dim>::Place> near;
+    std::vector<unsigned int>                       unit_of;
     for (unsigned int u = 0; u < units.size(); ++u)
       for (const unsigned int k : units[u].places)
-        unit_of[k] = u;
+        {
+          near.push_back(places[k]);
+          unit_of.push_back(u);
+        }
+    const PlaceFunctions<dim> functions =
+      context.state.mesh_after_step() == MeshAfterStep::reset ?
+        basis.functions_at(near) :
+        basis.functions_of_cells(near);
     const unsigned int n = space.nodes_per_cell();
     std::map<std::pair<unsigned int, types::global_dof_index>, double> sums;
     for (unsigned int i = 0; i < functions.places.size(); ++i)
       {
-        const unsigned int k = functions.places[i];
-        if (unit_of[k] == numbers::invalid_unsigned_int)
-          continue;
+        const unsigned int  k     = functions.places[i];
         const unsigned int *nodes = space.cell_nodes(functions.cells[i]);
         for (unsigned int a = 0; a < n; ++a)
           if (functions.N[n * i + a] != 0.)
             sums[{unit_of[k], space.node_dof(nodes[a])}] +=
-              places[k].weight * functions.N[n * i + a];
+              near[k].weight * functions.N[n * i + a];
       }
     std::vector<ContactEntry> entries;
     for (const auto &[where, value] : sums)
@@ -173,11 +185,11 @@ namespace moraine
     const MPI_Comm        communicator = space.communicator();
     const auto           &units        = boundary.units();
     // The rank of its first cell has a unit, or another that knows all nodes.
-    const auto         nodes   = nodes_of_dofs(space);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const auto         of_ranks =
-      Utilities::MPI::all_gather(communicator, entries_of_this_rank(space));
+      Utilities::MPI::all_gather(communicator, entries_of_this_rank(context));
+    const auto                nodes = nodes_of_units(space, of_ranks);
     std::vector<unsigned int> claims(units.size(), 1 + rank);
     for (unsigned int u = 0; u < units.size(); ++u)
       if (owns(units[u]))
@@ -197,7 +209,7 @@ namespace moraine
                                      r == rank)
           N[entry.unit][nodes.at(entry.dof)] += entry.N;
     local_units.clear();
-    statuses_of_tangent.clear();
+    tangents.clear();
     for (unsigned int u = 0; u < units.size(); ++u)
       {
         if (N[u].empty())
@@ -259,6 +271,8 @@ namespace moraine
   ContactTerm<dim>::begin_trial(const StepContext<dim> &context)
   {
     boundary.set_target(context.t_end, /* anew = */ true);
+    nothing_moved = true;
+    tangents.clear();
   }
 
 
@@ -295,26 +309,45 @@ namespace moraine
       return trial;
     // What it carries, not what a pass more would.
     if (context.motion && context.t_end == context.t_start)
-      {
-        trial.response.traction = trial.multiplier;
-        return trial;
-      }
-    // Nothing has moved yet: linearised about the start of the step, so that a
-    // surface that moves takes along what touches it; the first correction
-    // brings a body that nothing holds to the surface.
-    ContactResponse<dim> &response = trial.response;
-    if (unit.touches_first)
-      response = {traction, unit_symmetric_tensor<dim>(), ContactStatus::stick};
-    else if (!unit.was_open)
-      {
-        response = boundary.law().response(trial.multiplier,
-                                           trial.gap.normal,
-                                           unit.was_open,
-                                           no_tension * local.c_n * unit.h);
-        response.traction +=
-          response.derivative * (traction - trial.multiplier);
-      }
+      trial.response.traction = trial.multiplier;
+    else if (nothing_moved)
+      linearise(traction, local, trial);
     return trial;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::linearise(const Tensor<1, dim> &traction,
+                              const LocalUnit      &local,
+                              Trial                &trial) const
+  {
+    const ContactUnit<dim> &unit     = boundary.units()[local.number];
+    ContactResponse<dim>   &response = trial.response;
+    if (unit.touches_first)
+      {
+        response = {traction,
+                    unit_symmetric_tensor<dim>(),
+                    ContactStatus::stick};
+        return;
+      }
+    if (unit.was_open)
+      return;
+    const Tensor<1, dim> &n     = trial.gap.normal;
+    response                    = boundary.law().response(trial.multiplier,
+                                       n,
+                                       unit.was_open,
+                                       no_tension * local.c_n * unit.h);
+    const Tensor<1, dim> change = traction - trial.multiplier;
+    const Tensor<1, dim> sheared =
+      trial.multiplier - (trial.multiplier * n) * n;
+    if (boundary.law().rubs() && response.status == ContactStatus::slip &&
+        sheared * change < 0.)
+      response = {trial.multiplier,
+                  unit_symmetric_tensor<dim>(),
+                  ContactStatus::stick};
+    response.traction += response.derivative * change;
   }
 
 
@@ -329,7 +362,7 @@ namespace moraine
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
     const double         weight = 1. + share_of_start(context);
     if (tangent)
-      statuses_of_tangent.clear();
+      tangents.emplace_back();
     for (const LocalUnit &unit : local_units)
       {
         const Trial           now     = trial(context, unit);
@@ -340,7 +373,7 @@ namespace moraine
         Tensor<2, dim> stiffness;
         if (tangent)
           {
-            statuses_of_tangent.push_back(now.response.status);
+            tangents.back().push_back(of_tangent(now));
             const Tensor<2, dim> nn = outer_product(n, n);
             stiffness =
               now.response.derivative * (unit.c_n * nn + unit.c_t * (one - nn));
@@ -361,6 +394,9 @@ namespace moraine
             }
         system.add(local, tangent);
       }
+    if (tangent && nothing_moved)
+      tangents.clear();
+    nothing_moved = nothing_moved && !tangent;
   }
 
 
@@ -398,11 +434,22 @@ namespace moraine
   bool
   ContactTerm<dim>::acts_otherwise(const StepContext<dim> &context) const
   {
-    for (unsigned int u = 0; u < statuses_of_tangent.size(); ++u)
-      if (trial(context, local_units[u]).response.status !=
-          statuses_of_tangent[u])
-        return true;
-    return false;
+    if (local_units.empty())
+      return false;
+    // A linearised force is no measure of that after the correction.
+    if (tangents.empty())
+      return true;
+    std::vector<OfTangent> now;
+    for (const LocalUnit &unit : local_units)
+      now.push_back(of_tangent(trial(context, unit)));
+    const auto is_as_now = [&](const auto &before) {
+      return std::equal(
+        now.begin(), now.end(), before.begin(), before.end(), acts_alike);
+    };
+    // Forces that come and go lead nowhere, if the rest does not change.
+    return !is_as_now(tangents.back()) &&
+           std::count_if(tangents.begin(), tangents.end(), is_as_now) <
+             most_returns;
   }
 
 
@@ -460,6 +507,7 @@ namespace moraine
       for (unsigned int d = 0; d < dim; ++d)
         multipliers[u][d] = sums[(dim + 1) * u + d] / sums[(dim + 1) * u + dim];
     boundary.set_multipliers(multipliers);
+    tangents.clear();
   }
 
 

@@ -4,11 +4,13 @@
 #include <moraine/boundary/contact_boundary.h>
 
 #include <moraine/core/archive_components.h>
+#include <moraine/core/exceptions.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace moraine
 {
@@ -33,6 +35,11 @@ namespace moraine
 
     /** Of the size of a cell: a gap at the start that is none. */
     constexpr double touching = 1e-6;
+
+    /** Of the size of a cell: so far inside the body are the cells of places. A
+     * rim along faces of cells would change between two cells by round-off, and
+     * with the units tractions in it. */
+    constexpr double inside = 1e-5;
 
     /** Of the size of a cell, that a unit has at least if it has neighbours. */
     constexpr double least_unit = 0.5;
@@ -78,7 +85,7 @@ namespace moraine
     rim.remove(gone);
     for (auto k = gone.rbegin(); k != gone.rend(); ++k)
       carried.erase(carried.begin() + *k);
-    rim.find_cells(space, search_tolerance);
+    rim.find_cells(space, search_tolerance, inside * h);
     const unsigned int n_before = carried.size();
     for (unsigned int b = 0; b < present.size(); ++b)
       if (present[b] && !has_rim[b])
@@ -104,8 +111,9 @@ namespace moraine
                                 const double          search_tolerance,
                                 const unsigned int    body)
   {
+    const double       h = space.mesh().cell_size();
     CarriedPlaces<dim> of_body(find_places(space.mesh(), body));
-    of_body.remove(of_body.find_cells(space, search_tolerance));
+    of_body.remove(of_body.find_cells(space, search_tolerance, inside * h));
     of_body.catch_up(space);
     rim.add(of_body);
     ContactPlace<dim> at_first;
@@ -180,7 +188,14 @@ namespace moraine
     for (const unsigned int i : order)
       {
         if (cells[i] == 0)
-          continue;
+          {
+            std::ostringstream message;
+            message << "contact boundary '" << boundary_name << "': the place ("
+                    << position(near[i])
+                    << ") of a rim near it is no longer on any material, or "
+                       "beyond the mesh";
+            throw ComputationError(message.str());
+          }
         if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
           first = all_units.size();
         auto unit =

@@ -31,7 +31,7 @@ namespace moraine
       std::max(0., (was_open ? 0. : adhesion) - friction * tau_n);
     const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
     const Tensor<2, dim> nn  = outer_product(normal, normal);
-    if (friction == 0. && adhesion == 0.)
+    if (!rubs())
       {
         result = {tau_n * normal, nn, ContactStatus::slip};
         return result;

@@ -195,21 +195,23 @@ namespace moraine
   template <int dim>
   std::vector<unsigned int>
   CarriedPlaces<dim>::find_cells(const GridSpace<dim> &space,
-                                 const double          search_tolerance)
+                                 const double          search_tolerance,
+                                 const double          inward)
   {
     std::vector<unsigned int> without;
     for (unsigned int k = 0; k < now.size(); ++k)
       {
         Place &place            = now[k];
         place.active_cell_index = GridSpace<dim>::no_cell;
-        const auto cell = cell_around(space, place.in_mesh, search_tolerance);
+        const Point<dim> x      = place.in_mesh - inward * place.normal;
+        const auto       cell   = cell_around(space, x, search_tolerance);
         if (cell.state() != IteratorState::valid)
           {
             without.push_back(k);
             continue;
           }
         const auto owner =
-          nearest_active_cell(space, cell, place.in_mesh, search_tolerance);
+          nearest_active_cell(space, cell, x, search_tolerance);
         if (owner.state() != IteratorState::valid)
           without.push_back(k);
         else if (owner->is_locally_owned())

@@ -100,12 +100,15 @@ namespace moraine
     /** Columns of a surface that bodies touch. */
     template <int dim>
     void
-    add_contact(const BoundaryReport<dim> &report, std::vector<NamedValue> &row)
+    add_contact(const BoundaryReport<dim> &report,
+                const bool                 turns,
+                std::vector<NamedValue>   &row)
     {
       const ContactReport contact = report.contact.value_or(ContactReport());
       const std::string   of      = " of " + report.name;
       const std::string   area    = dim == 2 ? "length" : "length^2";
-      row.push_back({"moment" + of, "force length", report.moment});
+      if (turns)
+        row.push_back({"moment" + of, "force length", report.moment});
       row.push_back({"contact area" + of, area, contact.area});
       row.push_back({"slipping area" + of, area, contact.slipping_area});
       row.push_back({"penetration" + of, "length", report.penetration});
@@ -196,7 +199,9 @@ namespace moraine
                        reports[b].penetration});
       }
     for (const auto &boundary : model.contact_boundaries)
-      add_contact(report_of(boundary.name(), acting), row);
+      add_contact(report_of(boundary.name(), acting),
+                  boundary.rigid_motion().turns(),
+                  row);
     for (const auto &value : model.probes->values(*model.points))
       row.push_back(value);
     if (model.motion)

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <limits>
 
 namespace moraine
 {
@@ -423,6 +424,140 @@ end
         EXPECT_EQ(run.listener.n_steps, 4u);
         EXPECT_EQ(differences(run.archive(), undisturbed.archive()), "");
       }
+  }
+
+
+
+  /** A term without effect for which every tenth trial of a step fails: before
+   * its first iteration or after its last one. */
+  class FailingTerm : public ConstraintTerm<2>
+  {
+  public:
+    explicit FailingTerm(const bool early)
+      : early(early)
+    {}
+
+    std::vector<Effect>
+    effects(const StepContext<2> &) const override
+    {
+      return {};
+    }
+
+    bool
+    begin_step(const StepContext<2> &) override
+    {
+      return false;
+    }
+
+    void
+    begin_trial(const StepContext<2> &) override
+    {
+      ++n_trials;
+    }
+
+    void
+    add(const StepContext<2> &context,
+        const bool            tangent,
+        GlobalSystem<2>      &system) const override
+    {
+      if (!early || !fails())
+        return;
+      LocalSystem<2>     local;
+      const unsigned int node = 0;
+      local.reinit(context.state, &node, 1, tangent);
+      local.force[0] = std::numeric_limits<double>::quiet_NaN();
+      system.add(local, tangent);
+    }
+
+    double
+    violation(const StepContext<2> &) const override
+    {
+      return 0;
+    }
+
+    void
+    augment(const StepContext<2> &) override
+    {}
+
+    std::string
+    failure(const StepContext<2> &,
+            const std::vector<Tensor<1, 2>> &) const override
+    {
+      return !early && fails() ? "planted" : "";
+    }
+
+    void
+    prepare(const StepContext<2> &, const LA::Vector &) override
+    {}
+
+    void
+    report(const StepContext<2> &,
+           std::vector<BoundaryReport<2>> &) const override
+    {}
+
+  private:
+    bool
+    fails() const
+    {
+      return n_trials % 10 == 3;
+    }
+
+    const bool   early;
+    unsigned int n_trials = 0;
+  };
+
+
+
+  /** A block on a surface that goes to and fro, so that it sticks and slides.
+   */
+  const std::string contact_scene_text = materials_text + R"(
+subsection Mesh
+  set Lower corner = -0.3, -0.3
+  set Upper corner = 2.7, 2.7
+  set Cell size    = 0.5
+end
+subsection Bodies
+  subsection block
+    set Shape        = box
+    set Lower corner = 0, 0
+    set Upper corner = 2, 2
+  end
+end
+subsection Boundaries
+  subsection floor
+    set Points      = -1, 0; 4, 0
+    set Constraint  = contact
+    set Friction    = 0.3
+    set Translation = 0.02*sin(2*pi*t); 0
+  end
+  subsection top
+    set Points      = 2, 2; 0, 2
+    set Translation = 0; -0.01*min(1, 8*t)
+  end
+end
+subsection Time
+  set Steps = 16
+end
+)";
+
+
+
+  /** What a trial that failed after its passes leaves is what one leaves that
+   * had none. */
+  TEST(StepDriver, rejected_steps_leave_nothing_in_contact)
+  {
+    const auto input = InputFile::from_text("scene.prm", contact_scene_text);
+    Archive    of_run[2];
+    for (const bool early : {false, true})
+      {
+        RunOfScene run(input);
+        run.model.system->add(std::make_unique<FailingTerm>(early));
+        EXPECT_TRUE(run.driver.run());
+        EXPECT_GT(run.driver.time().n_rejected(), 1u);
+        of_run[early] = run.archive();
+      }
+    EXPECT_TRUE(of_run[0].contains("contact/floor/traction"));
+    EXPECT_EQ(differences(of_run[0], of_run[1]), "");
   }
 
 

@@ -169,7 +169,7 @@ namespace moraine
     is_in_its_cell(const GridSpace<dim> &space, const LocalUnit &unit) const;
 
     std::vector<ContactEntry>
-    entries_of_this_rank(const GridSpace<dim> &space) const;
+    entries_of_this_rank(const StepContext<dim> &context) const;
 
     /** Find the functions of units. Collective. */
     void
@@ -181,13 +181,53 @@ namespace moraine
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
 
+    /**
+     * The response where nothing has moved yet, linearised about the start of
+     * the step, so that a surface that moves takes along what touches it, and
+     * the first correction brings a body that nothing holds to it. What slid
+     * sticks if the surface turns back.
+     *
+     * @param traction the trial traction
+     * @param local the unit
+     * @param trial its trial; gets the response
+     */
+    void
+    linearise(const dealii::Tensor<1, dim> &traction,
+              const LocalUnit              &local,
+              Trial                        &trial) const;
+
+    /** The state of a unit of which Newton's matrix was made. */
+    struct OfTangent
+    {
+      ContactStatus          status;
+      dealii::Tensor<1, dim> shear;
+    };
+
+    OfTangent
+    of_tangent(const Trial &trial) const
+    {
+      const dealii::Tensor<1, dim> &t = trial.response.traction;
+      const dealii::Tensor<1, dim> &n = trial.gap.normal;
+      return {trial.response.status,
+              boundary.law().rubs() ? t - (t * n) * n :
+                                      dealii::Tensor<1, dim>()};
+    }
+
+    static bool
+    acts_alike(const OfTangent &a, const OfTangent &b)
+    {
+      return a.status == b.status &&
+             (a.status != ContactStatus::slip || a.shear * b.shear >= 0.);
+    }
+
     ContactBoundary<dim>   &boundary;
     const std::vector<bool> bodies_present;
     const bool              acts;
-    PlaceFunctions<dim>     functions; ///< of the places
     std::vector<LocalUnit>  local_units;
-    /** Of local units when the tangent was added last. */
-    mutable std::vector<ContactStatus>     statuses_of_tangent;
+    /** Of local units, since the last pass; not the linearised one. */
+    mutable std::vector<std::vector<OfTangent>> tangents;
+    /** Whether no tangent was added since the trial began. */
+    mutable bool                           nothing_moved = true;
     std::vector<std::vector<unsigned int>> coupled_before;
     BoundaryReport<dim>                    prepared;
   };

@@ -44,6 +44,13 @@ namespace moraine
     double tensile_strength = 0;    ///< @f$p_t@f$ [stress]
     bool   separates        = true; ///< else tension has no limit
 
+    /** Whether there is a shear traction. */
+    bool
+    rubs() const
+    {
+      return friction > 0 || adhesion > 0;
+    }
+
     /**
      * @param trial the trial traction
      * @param normal out of the body, of unit length

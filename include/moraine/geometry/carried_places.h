@@ -71,7 +71,9 @@ namespace moraine
      * ranks.
      */
     std::vector<unsigned int>
-    find_cells(const GridSpace<dim> &space, const double search_tolerance);
+    find_cells(const GridSpace<dim> &space,
+               const double          search_tolerance,
+               const double          inward = 0.);
 
     /** Let places with cells, which are where they were in the mesh as it was
      * built, be where its nodes carried them so far. Collective. */
