@@ -3,11 +3,14 @@
 
 #include <moraine/assembly/contact_term.h>
 
+#include <moraine/mesh/active_search.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace moraine
@@ -35,12 +38,12 @@ namespace moraine
     /** Of the unknowns of units, the nodes of this rank that have them. */
     template <int dim>
     std::map<types::global_dof_index, unsigned int>
-    nodes_of_units(const GridSpace<dim>                         &space,
-                   const std::vector<std::vector<ContactEntry>> &of_ranks)
+    nodes_of_units(const GridSpace<dim>                              &space,
+                   const std::vector<std::vector<ContactEntry<dim>>> &of_ranks)
     {
       std::vector<types::global_dof_index> dofs;
       for (const auto &of_rank : of_ranks)
-        for (const ContactEntry &entry : of_rank)
+        for (const ContactEntry<dim> &entry : of_rank)
           dofs.push_back(entry.dof);
       std::sort(dofs.begin(), dofs.end());
       std::map<types::global_dof_index, unsigned int> nodes;
@@ -138,7 +141,7 @@ namespace moraine
 
 
   template <int dim>
-  std::vector<ContactEntry>
+  std::vector<ContactEntry<dim>>
   ContactTerm<dim>::entries_of_this_rank(const StepContext<dim> &context) const
   {
     const GridSpace<dim> &space  = context.state.grid();
@@ -158,20 +161,37 @@ namespace moraine
       context.state.mesh_after_step() == MeshAfterStep::reset ?
         basis.functions_at(near) :
         basis.functions_of_cells(near);
-    const unsigned int n = space.nodes_per_cell();
-    std::map<std::pair<unsigned int, types::global_dof_index>, double> sums;
+    const unsigned int          n        = space.nodes_per_cell();
+    const bool                  has_flux = boundary.enforcement().has_flux();
+    std::vector<double>         values(n);
+    std::vector<Tensor<1, dim>> gradients(n);
+    std::map<std::pair<unsigned int, types::global_dof_index>,
+             ContactEntry<dim>>
+      sums;
     for (unsigned int i = 0; i < functions.places.size(); ++i)
       {
         const unsigned int  k     = functions.places[i];
         const unsigned int *nodes = space.cell_nodes(functions.cells[i]);
+        if (has_flux)
+          evaluate_shapes(space,
+                          functions.cells[i],
+                          near[k].in_mesh,
+                          values.data(),
+                          gradients.data());
         for (unsigned int a = 0; a < n; ++a)
-          if (functions.N[n * i + a] != 0.)
-            sums[{unit_of[k], space.node_dof(nodes[a])}] +=
-              near[k].weight * functions.N[n * i + a];
+          if (has_flux || functions.N[n * i + a] != 0.)
+            {
+              const auto         dof = space.node_dof(nodes[a]);
+              ContactEntry<dim> &sum = sums[{unit_of[k], dof}];
+              sum.unit               = unit_of[k];
+              sum.dof                = dof;
+              sum.N += near[k].weight * functions.N[n * i + a];
+              sum.grad_N += near[k].weight * gradients[a];
+            }
       }
-    std::vector<ContactEntry> entries;
-    for (const auto &[where, value] : sums)
-      entries.push_back({where.first, where.second, value});
+    std::vector<ContactEntry<dim>> entries;
+    for (const auto &[where, sum] : sums)
+      entries.push_back(sum);
     return entries;
   }
 
@@ -195,32 +215,38 @@ namespace moraine
       if (owns(units[u]))
         claims[u] += n_ranks;
     for (const auto &of_rank : of_ranks)
-      for (const ContactEntry &entry : of_rank)
+      for (const ContactEntry<dim> &entry : of_rank)
         if (nodes.count(entry.dof) == 0)
           claims[entry.unit] = 0;
     const std::vector<unsigned int> mine(claims);
     Utilities::MPI::max(claims, communicator, claims);
 
-    std::vector<std::map<unsigned int, double>> N(units.size());
+    std::vector<std::map<unsigned int, ContactEntry<dim>>> of(units.size());
     for (unsigned int r = 0; r < n_ranks; ++r)
-      for (const ContactEntry &entry : of_ranks[r])
+      for (const ContactEntry<dim> &entry : of_ranks[r])
         // Where none knows all, each has its part.
         if (claims[entry.unit] > 0 ? claims[entry.unit] == mine[entry.unit] :
                                      r == rank)
-          N[entry.unit][nodes.at(entry.dof)] += entry.N;
+          {
+            ContactEntry<dim> &sum = of[entry.unit][nodes.at(entry.dof)];
+            sum.N += entry.N;
+            sum.grad_N += entry.grad_N;
+          }
     local_units.clear();
     tangents.clear();
     for (unsigned int u = 0; u < units.size(); ++u)
       {
-        if (N[u].empty())
+        if (of[u].empty())
           continue;
-        LocalUnit unit{u, 0., {}, {}, 0., 0.};
-        for (const auto &[node, value] : N[u])
-          unit.area += value;
-        for (const auto &[node, value] : N[u])
+        LocalUnit unit{u, 0., {}, {}, 0., 0., {}, {}};
+        for (const auto &[node, sum] : of[u])
+          unit.area += sum.N;
+        for (const auto &[node, sum] : of[u])
           {
             unit.nodes.push_back(node);
-            unit.N.push_back(value / unit.area);
+            unit.N.push_back(sum.N / unit.area);
+            if (boundary.enforcement().has_flux())
+              unit.grad_N.push_back(sum.grad_N / unit.area);
           }
         local_units.push_back(unit);
       }
@@ -240,16 +266,24 @@ namespace moraine
           const LameConstants &C =
             context.cell_materials.elastic_stiffness(units[u].cell);
           // Cells with one change of volume cannot follow it at all places.
-          moduli[2 * u] =
-            2 * C.mu + (context.state.averages_volume() ? 0. : C.lambda);
+          moduli[2 * u]     = context.state.averages_volume() ? 0. : C.lambda;
           moduli[2 * u + 1] = C.mu;
         }
     Utilities::MPI::max(moduli, context.state.grid().communicator(), moduli);
     for (LocalUnit &unit : local_units)
       {
-        const double c3 = boundary.stiffness_factor() / units[unit.number].h;
-        unit.c_n        = c3 * moduli[2 * unit.number];
-        unit.c_t        = c3 * moduli[2 * unit.number + 1];
+        const double lambda = moduli[2 * unit.number],
+                     mu     = moduli[2 * unit.number + 1];
+        const double c3 =
+          boundary.enforcement().stiffness_factor / units[unit.number].h;
+        unit.c_n                = c3 * (lambda + 2 * mu);
+        unit.c_t                = c3 * mu;
+        const Tensor<1, dim> &n = units[unit.number].normal;
+        for (const Tensor<1, dim> &g : unit.grad_N)
+          unit.fluxes.push_back(
+            lambda * outer_product(n, g) +
+            mu * ((g * n) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+                  outer_product(g, n)));
       }
   }
 
@@ -295,12 +329,14 @@ namespace moraine
     Trial                   trial;
     for (unsigned int a = 0; a < local.nodes.size(); ++a)
       trial.du += local.N[a] * context.increments()[local.nodes[a]];
+    for (unsigned int a = 0; a < local.fluxes.size(); ++a)
+      trial.flux += local.fluxes[a] * context.increments()[local.nodes[a]];
     trial.gap = boundary.gap(unit, trial.du);
     trial.multiplier =
       boundary.turned(unit.multiplier, unit.normal, trial.gap.normal);
     const Tensor<1, dim> traction =
-      trial.multiplier + local.c_n * trial.gap.gap * trial.gap.normal -
-      local.c_t * trial.gap.slip;
+      trial.multiplier + trial.flux +
+      local.c_n * trial.gap.gap * trial.gap.normal - local.c_t * trial.gap.slip;
     trial.response = boundary.law().response(traction,
                                              trial.gap.normal,
                                              unit.was_open,
@@ -365,11 +401,13 @@ namespace moraine
       tangents.emplace_back();
     for (const LocalUnit &unit : local_units)
       {
-        const Trial           now     = trial(context, unit);
-        const Tensor<1, dim> &n       = now.gap.normal;
-        const Tensor<1, dim> &t       = now.response.traction;
-        const unsigned int    n_nodes = unit.nodes.size();
-        local.reinit(context.state, unit.nodes.data(), n_nodes, tangent);
+        const Trial           now = trial(context, unit);
+        const Tensor<1, dim> &n   = now.gap.normal;
+        const Tensor<1, dim> &t   = now.response.traction;
+        local.reinit(context.state,
+                     unit.nodes.data(),
+                     unit.nodes.size(),
+                     tangent);
         Tensor<2, dim> stiffness;
         if (tangent)
           {
@@ -381,17 +419,11 @@ namespace moraine
               stiffness -= (t * n) * Tensor<2, dim>(boundary.normal_gradient(
                                        boundary.units()[unit.number], now.du));
           }
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              local.force[dim * a + i] = weight * unit.area * unit.N[a] * t[i];
-              if (tangent)
-                for (unsigned int b = 0; b < n_nodes; ++b)
-                  for (unsigned int j = 0; j < dim; ++j)
-                    local.matrix(dim * a + i, dim * b + j) =
-                      weight * unit.area * unit.N[a] * unit.N[b] *
-                      stiffness[i][j];
-            }
+        local.add_force(unit.N.data(), weight * unit.area * t);
+        if (tangent)
+          local.add_stiffness(unit.N.data(), weight * unit.area * stiffness);
+        if (!unit.fluxes.empty())
+          add_flux(unit, now, tangent, local);
         system.add(local, tangent);
       }
     if (tangent && nothing_moved)
@@ -402,10 +434,48 @@ namespace moraine
 
 
   template <int dim>
+  void
+  ContactTerm<dim>::add_flux(const LocalUnit  &unit,
+                             const Trial      &trial,
+                             const bool        tangent,
+                             LocalSystem<dim> &local) const
+  {
+    const double          s       = boundary.enforcement().adjoint_sign;
+    const unsigned int    n_nodes = unit.nodes.size();
+    const Tensor<1, dim> &n       = trial.gap.normal;
+    const Tensor<2, dim>  one     = unit_symmetric_tensor<dim>();
+    const Tensor<2, dim>  nn      = outer_product(n, n);
+    const Tensor<2, dim>  C       = unit.c_n * nn + unit.c_t * (one - nn);
+    const Tensor<2, dim>  C_1 = 1. / unit.c_n * nn + 1. / unit.c_t * (one - nn);
+    const Tensor<2, dim> &DP  = trial.response.derivative;
+    const Tensor<1, dim>  missing =
+      C_1 * (trial.multiplier + trial.flux - trial.response.traction);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        const Tensor<2, dim> f_a   = transpose(unit.fluxes[a]);
+        const Tensor<1, dim> force = s * unit.area * (f_a * missing);
+        for (unsigned int i = 0; i < dim; ++i)
+          local.force[dim * a + i] += force[i];
+        for (unsigned int b = 0; tangent && b < n_nodes; ++b)
+          {
+            const Tensor<2, dim> &f_b = unit.fluxes[b];
+            const Tensor<2, dim>  K =
+              -unit.area * (unit.N[a] * DP * f_b +
+                            s * f_a * C_1 * (f_b + DP * (unit.N[b] * C - f_b)));
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                local.matrix(dim * a + i, dim * b + j) += K[i][j];
+          }
+      }
+  }
+
+
+
+  template <int dim>
   bool
   ContactTerm<dim>::symmetric(const StepContext<dim> &) const
   {
-    return boundary.law().friction == 0.;
+    return boundary.law().friction == 0. && !boundary.enforcement().has_flux();
   }
 
 
@@ -414,6 +484,8 @@ namespace moraine
   double
   ContactTerm<dim>::violation(const StepContext<dim> &context) const
   {
+    if (!boundary.enforcement().augments)
+      return 0.;
     double largest = 0;
     for (const LocalUnit &unit : local_units)
       {
@@ -459,6 +531,8 @@ namespace moraine
   ContactTerm<dim>::is_settled(const StepContext<dim> &context,
                                const double            tolerance) const
   {
+    if (!boundary.enforcement().augments)
+      return true;
     double change = 0, largest = 0;
     for (const LocalUnit &unit : local_units)
       {
@@ -479,7 +553,9 @@ namespace moraine
   ContactTerm<dim>::largest_violation_left(
     const StepContext<dim> &context) const
   {
-    return largest_gap_left * context.state.grid().mesh().cell_size();
+    return boundary.enforcement().augments ?
+             largest_gap_left * context.state.grid().mesh().cell_size() :
+             std::numeric_limits<double>::max();
   }
 
 
@@ -488,6 +564,8 @@ namespace moraine
   void
   ContactTerm<dim>::augment(const StepContext<dim> &context)
   {
+    if (!boundary.enforcement().augments)
+      return;
     const unsigned int  n_units = boundary.units().size();
     std::vector<double> sums((dim + 1) * n_units, 0.);
     for (const LocalUnit &unit : local_units)

@@ -53,14 +53,14 @@ namespace moraine
                                         const RigidMotion<dim>    &motion,
                                         const Finder              &find_places,
                                         const ContactLaw          &law,
-                                        const double stiffness_factor)
+                                        const Enforcement         &enforcement)
     : boundary_name(name)
     , at_start(surface)
     , at_end(surface)
     , motion(motion)
     , find_places(find_places)
     , contact_law(law)
-    , factor(stiffness_factor)
+    , how(enforcement)
   {}
 
 

@@ -12,38 +12,54 @@ namespace moraine
 
   template <int dim>
   void
-  check_contact(const std::string                   &name,
+  check_contact(const Scene<dim>                    &scene,
+                const std::string                   &name,
                 const BoundaryParameters<dim>       &boundary,
                 const std::vector<InputFile::Entry> &given)
   {
-    const std::string section = "Boundaries/" + name;
-    const bool        touches = boundary.constraint == "contact";
+    const std::string  section  = "Boundaries/" + name;
+    const bool         touches  = boundary.constraint == "contact";
+    const std::string &how      = boundary.enforcement.enforcement;
+    const bool         has_flux = how == "skew Nitsche";
     for (const auto &entry : given)
       if (entry.section == section &&
-          (touches ? contains({"Penetration limit",
-                               "Held in a cell",
-                               "Nitsche factor",
-                               "Penalty factor"},
-                              entry.key) :
-                     ContactParameters::has(entry.key)))
+          (touches ?
+             contains({"Penetration limit", "Held in a cell", "Penalty factor"},
+                      entry.key) ||
+               (entry.key == "Nitsche factor" && !has_flux) :
+             ContactParameters::has(entry.key)))
         reject(entry,
                "nothing; key 'Constraint' is '" + boundary.constraint + "'");
-    if (touches && boundary.enforcement.enforcement != "augmented Lagrangian")
+    if (touches && !has_flux && how != "augmented Lagrangian")
       reject(section,
              "Enforcement",
-             boundary.enforcement.enforcement,
-             "augmented Lagrangian; key 'Constraint' is 'contact'");
+             how,
+             "augmented Lagrangian, skew Nitsche; key 'Constraint' is "
+             "'contact'");
+    // The flux is that of displacements of a step, which have their own change
+    // of volume at each place.
+    if (touches && has_flux &&
+        (scene.method.strain_measure() != StrainMeasure::small ||
+         scene.method.averages_volume() || scene.is_dynamic()))
+      reject(
+        section,
+        "Enforcement",
+        how,
+        "augmented Lagrangian; skew Nitsche in contact needs small strain, "
+        "statics and 'Volumetric strain = pointwise'");
     boundary.contact.law(section);
   }
 
 
 
   template void
-  check_contact(const std::string &,
+  check_contact(const Scene<2> &,
+                const std::string &,
                 const BoundaryParameters<2> &,
                 const std::vector<InputFile::Entry> &);
   template void
-  check_contact(const std::string &,
+  check_contact(const Scene<3> &,
+                const std::string &,
                 const BoundaryParameters<3> &,
                 const std::vector<InputFile::Entry> &);
 } // namespace moraine

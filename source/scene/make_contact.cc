@@ -41,7 +41,7 @@ namespace moraine
                                   Spacing::through_mesh);
           },
           parameters.contact.law(section),
-          parameters.enforcement.enforcement_of().stiffness_factor);
+          parameters.enforcement.enforcement_of());
       }
     return boundaries;
   }

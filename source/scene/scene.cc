@@ -356,7 +356,8 @@ namespace moraine
         prm.enter_subsection(name);
         if (!input.has("Boundaries/" + name, "Enforcement"))
           prm.set("Enforcement", std::string("augmented Lagrangian"));
-        if (!input.has("Boundaries/" + name, "Band width"))
+        if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
+            !input.has("Boundaries/" + name, "Band width"))
           prm.set("Band width", 0.1);
         prm.leave_subsection();
       }

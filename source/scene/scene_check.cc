@@ -373,7 +373,7 @@ namespace moraine
                         is_dynamic(),
                         absorbs_later(name),
                         given);
-        check_contact(name, boundary, given);
+        check_contact(*this, name, boundary, given);
       }
     for (const auto &[name, condition] : grid_conditions)
       {

@@ -126,6 +126,9 @@ make_wall(const ShapePointer<dim> &ground, const ContactLaw &law)
     {},
     [angle](const double t) { return angle * t; },
     /* centre = */ Point<dim>());
+  EnforcementParameters passes;
+  passes.enforcement = "augmented Lagrangian";
+  passes.band_width  = 0.1;
   return ContactBoundary<dim>(
     "wall",
     wall,
@@ -135,7 +138,7 @@ make_wall(const ShapePointer<dim> &ground, const ContactLaw &law)
       return places_on<dim>(*rim, mesh, nullptr, Spacing::through_mesh);
     },
     law,
-    4. / (3 * 0.1));
+    passes.enforcement_of());
 }
 
 
@@ -260,7 +263,7 @@ give_way(const Soil &soil, const ContactLaw &law)
   const auto                         supports = make_supports(mesh);
   Loads<dim>                         weight   = make_weight();
   std::vector<ImplicitBoundary<dim>> no_boundaries;
-  Terms<dim> terms = make_terms(no_boundaries, supports, weight);
+  Terms<dim>              terms = make_terms(no_boundaries, supports, weight);
   const std::vector<bool> bodies_present{true};
   terms.push_back(std::make_unique<ContactTerm<dim>>(wall, bodies_present));
   const std::vector<std::string> names{"ground"};

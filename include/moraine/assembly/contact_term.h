@@ -11,19 +11,21 @@
 
 namespace moraine
 {
-  /** The integral of a node's function over a unit of contact, or the part of
-   * it on one rank. */
+  /** Function and gradient of a node, integrated over a unit of contact, or the
+   * part of it on one rank. */
+  template <int dim>
   struct ContactEntry
   {
     unsigned int                    unit;
     dealii::types::global_dof_index dof; ///< first of a node
-    double                          N;   ///< times the area
+    double                          N      = 0;
+    dealii::Tensor<1, dim>          grad_N = {}; ///< if there is a flux
 
     template <class BoostArchive>
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &unit &dof &N;
+      archive &unit &dof &N &grad_N;
     }
   };
 
@@ -39,6 +41,13 @@ namespace moraine
    * with P of ContactLaw and t the traction of the last pass (augmented
    * Lagrangian). Its tangent @f$|\Gamma_u|\, \bar N_a\, DP\, C \bar N_b@f$ is
    * unsymmetric in slip.
+   *
+   * Nitsche's method (s = -1, skew) has no passes: t is the traction of the
+   * last step, the trial traction has the mean flux of the step's
+   * displacements,
+   * @f$f = \sum_b f_b u_b@f$, and to the forces comes
+   * @f$|\Gamma_u|\, s\, f_a^T C^{-1} (t + f - \tau)@f$ (Chouly, Hild and Renard
+   * 2015; there at places, here of means).
    */
   template <int dim>
   class ContactTerm : public ConstraintTerm<dim>
@@ -149,6 +158,9 @@ namespace moraine
       std::vector<unsigned int> nodes;
       std::vector<double>       N; ///< means
       double                    c_n, c_t;
+      /** Flux of the unit displacements of nodes: @f$f_b@f$; or none. */
+      std::vector<dealii::Tensor<2, dim>> fluxes;
+      std::vector<dealii::Tensor<1, dim>> grad_N; ///< means; or none
     };
 
     /** A unit in the trial state. */
@@ -157,6 +169,7 @@ namespace moraine
       dealii::Tensor<1, dim> du;
       ContactGap<dim>        gap;
       dealii::Tensor<1, dim> multiplier; ///< t, turned with the normal
+      dealii::Tensor<1, dim> flux;       ///< f
       ContactResponse<dim>   response;
     };
 
@@ -168,7 +181,7 @@ namespace moraine
     bool
     is_in_its_cell(const GridSpace<dim> &space, const LocalUnit &unit) const;
 
-    std::vector<ContactEntry>
+    std::vector<ContactEntry<dim>>
     entries_of_this_rank(const StepContext<dim> &context) const;
 
     /** Find the functions of units. Collective. */
@@ -180,6 +193,13 @@ namespace moraine
 
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
+
+    /** Add what Nitsche's method has besides the traction of a unit. */
+    void
+    add_flux(const LocalUnit  &unit,
+             const Trial      &trial,
+             const bool        tangent,
+             LocalSystem<dim> &local) const;
 
     /**
      * The response where nothing has moved yet, linearised about the start of

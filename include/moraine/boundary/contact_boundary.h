@@ -5,6 +5,7 @@
 #define moraine_boundary_contact_boundary_h
 
 #include <moraine/boundary/contact_law.h>
+#include <moraine/boundary/enforcement.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/geometry/carried_places.h>
 #include <moraine/geometry/shape.h>
@@ -78,13 +79,12 @@ namespace moraine
     using Finder = std::function<std::vector<Place>(const BackgroundMesh<dim> &,
                                                     const unsigned int body)>;
 
-    /** @p stiffness_factor: @f$c_3 h@f$ of the penalty of a pass. */
     ContactBoundary(const std::string         &name,
                     const SurfacePointer<dim> &surface,
                     const RigidMotion<dim>    &motion,
                     const Finder              &find_places,
                     const ContactLaw          &law,
-                    const double               stiffness_factor);
+                    const Enforcement         &enforcement);
 
     /** Place the surface at the start @p t of a step and find the cells of the
      * places. Bodies that come bring theirs, @p present by number; those that
@@ -258,10 +258,10 @@ namespace moraine
     void
     set_multipliers(const std::vector<dealii::Tensor<1, dim>> &multipliers);
 
-    double
-    stiffness_factor() const
+    const Enforcement &
+    enforcement() const
     {
-      return factor;
+      return how;
     }
 
     bool
@@ -299,7 +299,7 @@ namespace moraine
     const RigidMotion<dim>         motion;
     const Finder                   find_places;
     const ContactLaw               contact_law;
-    const double                   factor;
+    const Enforcement              how;
     CarriedPlaces<dim>             rim{{}};
     std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
     std::vector<ContactUnit<dim>>  all_units;

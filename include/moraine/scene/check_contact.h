@@ -19,7 +19,8 @@ namespace moraine
    */
   template <int dim>
   void
-  check_contact(const std::string                   &name,
+  check_contact(const Scene<dim>                    &scene,
+                const std::string                   &name,
                 const BoundaryParameters<dim>       &boundary,
                 const std::vector<InputFile::Entry> &given);
 } // namespace moraine
