@@ -50,6 +50,7 @@ namespace moraine
     dealii::Tensor<1, dim> traction_at_start;
     dealii::Tensor<1, dim> multiplier; ///< t of the present pass
     bool                   was_open = false;
+    bool apart = false; ///< Its places are in front of the surface, and were.
     /** Nothing touches the surface yet, and this is nearest to it. */
     bool touches_first = false;
   };
@@ -287,12 +288,21 @@ namespace moraine
     void
     gather_units(const GridSpace<dim> &space);
 
-    /** Let units below half a cell join the nearest one. */
+    /** Let units below half a cell join the nearest one, apart with apart. */
     void
     merge_small_units();
 
     void
     set_means();
+
+    /** Halve places that have become long. */
+    void
+    halve_long_places(const double h);
+
+    /** Let units that were in contact be so at the gaps they have, almost:
+     * places that come into a cell and leave it change its mean gap. */
+    void
+    keep_gaps();
 
     const std::string              boundary_name;
     MovedSurface<dim>              at_start, at_end;
@@ -305,6 +315,7 @@ namespace moraine
     std::vector<ContactUnit<dim>>  all_units;
     std::vector<bool>              has_rim;       ///< bodies with places
     bool                           acted = false; ///< in the last step
+    bool                           began = false; ///< to act in this step
   };
 } // namespace moraine
 

@@ -94,6 +94,23 @@ namespace moraine
       now.insert(now.end(), others.now.begin(), others.now.end());
     }
 
+    /** Of a line, let each half of the place @p k be one: k and k + 1. */
+    void
+    halve(const unsigned int k)
+    {
+      Place                       &place = now[k];
+      const dealii::Tensor<1, dim> along =
+        dealii::cross_product_2d(place.normal);
+      const dealii::Tensor<1, dim> quarter = 0.25 * place.weight * along;
+      place.weight *= 0.5;
+      Place other = place;
+      place.x -= quarter;
+      place.in_mesh -= quarter;
+      other.x += quarter;
+      other.in_mesh += quarter;
+      now.insert(now.begin() + k + 1, other);
+    }
+
     /** Trial increments of all places. Collective. */
     std::vector<Increment>
     increments(
