@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace moraine
@@ -113,6 +114,39 @@ namespace moraine
     began = acts && !acted;
     acted = acts;
     all_units.clear();
+    std::vector<unsigned int> order(near.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(),
+                     order.end(),
+                     [&](const auto a, const auto b) {
+                       return cells[a] < cells[b];
+                     });
+    unsigned int first = 0;
+    for (const unsigned int i : order)
+      {
+        if (cells[i] == 0)
+          continue;
+        if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
+          first = all_units.size();
+        auto unit =
+          std::find_if(all_units.begin() + first,
+                       all_units.end(),
+                       [&](const auto &of) {
+                         return of.apart == apart[i] &&
+                                of.normal * normals[i] > cosine_of_one_unit;
+                       });
+        if (unit == all_units.end())
+          {
+            all_units.emplace_back();
+            unit         = all_units.end() - 1;
+            unit->cell   = cells[i] - 1;
+            unit->h      = h;
+            unit->normal = normals[i];
+            unit->apart  = apart[i];
+          }
+        unit->places.push_back(near[i]);
+      }
+    set_means();
   }
 
 
