@@ -6,8 +6,8 @@
 # doc/figures/ from their results:
 #   doc/figures/make_figures.sh [BUILD FOLDER [GROUP...]]
 # BUILD FOLDER is build/release if left out; a GROUP is one of the scripts in
-# groups/ without its ending (all but 'studies', 'points', 'locking' and 'cut-study' if left
-# out). Needs what ./moraine test installs. Pictures of studies that show wall times
+# groups/ without its ending (all but 'studies', 'points', 'locking', 'contact' and
+# 'cut-study' if left out). Needs what ./moraine test installs. Pictures of studies that show wall times
 # come from moraine study itself.
 
 set -euo pipefail

@@ -114,6 +114,123 @@ namespace moraine
     began = acts && !acted;
     acted = acts;
     all_units.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::add_rim(const GridSpace<dim> &space,
+                                const double          search_tolerance,
+                                const unsigned int    body)
+  {
+    const double       h = space.mesh().cell_size();
+    CarriedPlaces<dim> of_body(find_places(space.mesh(), body));
+    of_body.remove(of_body.find_cells(space, search_tolerance, inside * h));
+    of_body.catch_up(space);
+    rim.add(of_body);
+    ContactPlace<dim> at_first;
+    at_first.body = body;
+    carried.resize(rim.places().size(), at_first);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::halve_long_places(const double h)
+  {
+    if constexpr (dim == 2)
+      for (unsigned int k = 0; k < carried.size(); ++k)
+        {
+          const Place &place = rim.places()[k];
+          if (place.weight > longest_place * h && place.in_mesh == place.x)
+            {
+              rim.halve(k);
+              carried.insert(carried.begin() + k, carried[k]);
+            }
+        }
+    else
+      (void)h;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::keep_gaps()
+  {
+    for (ContactUnit<dim> &unit : all_units)
+      {
+        // An overlap at the start is a fit.
+        if (began || unit.was_open ||
+            unit.traction_at_start == Tensor<1, dim>())
+          continue;
+        const double gap = unit.level + at_start.level(unit.x);
+        const double kept =
+          std::min(std::abs(gap) - taken_out * unit.h, most_kept * unit.h);
+        if (kept > 0.)
+          unit.level -= std::copysign(kept, gap);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::find_units(const GridSpace<dim> &space)
+  {
+    gather_units(space);
+    merge_small_units();
+    set_means();
+    double least    = touches_soon * space.mesh().cell_size();
+    auto   of_least = all_units.end();
+    for (auto unit = all_units.begin(); unit != all_units.end(); ++unit)
+      {
+        unit->touches_first = false;
+        const double gap    = unit->level + at_start.level(unit->x);
+        if (gap < least)
+          {
+            least    = gap;
+            of_least = unit;
+          }
+      }
+    if (least > 0 && of_least != all_units.end())
+      of_least->touches_first = true;
+    keep_gaps();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::gather_units(const GridSpace<dim> &space)
+  {
+    const double                h = space.mesh().cell_size();
+    std::vector<unsigned int>   near;
+    std::vector<Tensor<1, dim>> normals;
+    std::vector<bool>           apart;
+    for (unsigned int k = 0; k < rim.places().size(); ++k)
+      {
+        const NearestPoint<dim> nearest = at_start.nearest(position(k));
+        if (nearest.in_extent &&
+            std::abs(nearest.level) <= reach_of_contact * h &&
+            nearest.normal * rim.places()[k].normal > cosine_of_contact)
+          {
+            near.push_back(k);
+            normals.push_back(nearest.normal);
+            apart.push_back(carried[k].status == 0 && nearest.level > 0);
+          }
+      }
+    // The rank that has the functions of a place knows its cell.
+    std::vector<unsigned int> cells;
+    for (const unsigned int k : near)
+      {
+        const unsigned int cell = rim.places()[k].active_cell_index;
+        cells.push_back(cell == GridSpace<dim>::no_cell ? 0 : cell + 1);
+      }
+    Utilities::MPI::max(cells, space.communicator(), cells);
+    all_units.clear();
     std::vector<unsigned int> order(near.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(),
@@ -125,7 +242,14 @@ namespace moraine
     for (const unsigned int i : order)
       {
         if (cells[i] == 0)
-          continue;
+          {
+            std::ostringstream message;
+            message << "contact boundary '" << boundary_name << "': the place ("
+                    << position(near[i])
+                    << ") of a rim near it is no longer on any material, or "
+                       "beyond the mesh";
+            throw ComputationError(message.str());
+          }
         if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
           first = all_units.size();
         auto unit =
@@ -152,411 +276,306 @@ namespace moraine
 
 
   template <int dim>
-  void began = acts && !acted;
-  acted      = acts;
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::find_units(const GridSpace<dim> &space)
-{
-  gather_units(space);
-  merge_small_units();
-  set_means();
-  double least    = touches_soon * space.mesh().cell_size();
-  auto   of_least = all_units.end();
-  for (auto unit = all_units.begin(); unit != all_units.end(); ++unit)
-    {
-      unit->touches_first = false;
-      const double gap    = unit->level + at_start.level(unit->x);
-      if (gap < least)
-        {
-          least    = gap;
-          of_least = unit;
-        }
-    }
-  if (least > 0 && of_least != all_units.end())
-    of_least->touches_first = true;
-  keep_gaps();
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::gather_units(const GridSpace<dim> &space)
-{
-  const double                h = space.mesh().cell_size();
-  std::vector<unsigned int>   near;
-  std::vector<Tensor<1, dim>> normals;
-  std::vector<bool>           apart;
-  for (unsigned int k = 0; k < rim.places().size(); ++k)
-    {
-      const NearestPoint<dim> nearest = at_start.nearest(position(k));
-      if (nearest.in_extent &&
-          std::abs(nearest.level) <= reach_of_contact * h &&
-          nearest.normal * rim.places()[k].normal > cosine_of_contact)
-        {
-          near.push_back(k);
-          normals.push_back(nearest.normal);
-          apart.push_back(carried[k].status == 0 && nearest.level > 0);
-        }
-    }
-  // The rank that has the functions of a place knows its cell.
-  std::vector<unsigned int> cells;
-  for (const unsigned int k : near)
-    {
-      const unsigned int cell = rim.places()[k].active_cell_index;
-      cells.push_back(cell == GridSpace<dim>::no_cell ? 0 : cell + 1);
-    }
-  Utilities::MPI::max(cells, space.communicator(), cells);
-  all_units.clear();
-  std::vector<std::vector<unsigned int>> of_cells; // first unit, next, ...
-  std::vector<unsigned int>              order(near.size());
-  for (unsigned int i = 0; i < order.size(); ++i)
-    order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-    return cells[a] < cells[b];
-  });
-  unsigned int first = 0;
-  for (const unsigned int i : order)
-    {
-      if (cells[i] == 0)
-        {
-          std::ostringstream message;
-          message << "contact boundary '" << boundary_name << "': the place ("
-                  << position(near[i])
-                  << ") of a rim near it is no longer on any material, or "
-                     "beyond the mesh";
-          throw ComputationError(message.str());
-        }
-      if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
-        first = all_units.size();
-      auto unit =
-        std::find_if(all_units.begin() + first,
-                     all_units.end(),
-                     [&](const auto &of) {
-                       return of.apart == apart[i] &&
-                              of.normal * normals[i] > cosine_of_one_unit;
-                     });
-      if (unit == all_units.end())
-        {
-          all_units.emplace_back();
-          unit         = all_units.end() - 1;
-          unit->cell   = cells[i] - 1;
-          unit->h      = h;
-          unit->normal = normals[i];
-          unit->apart  = apart[i];
-        }
-      unit->places.push_back(near[i]);
-    }
-  set_means();
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::set_means()
-{
-  for (ContactUnit<dim> &unit : all_units)
-    {
-      std::sort(unit.places.begin(), unit.places.end());
-      unit.area = unit.level = 0;
-      unit.x                 = Point<dim>();
-      unit.normal = unit.traction_at_start = Tensor<1, dim>();
-      double open                          = 0;
-      for (const unsigned int k : unit.places)
-        unit.area += rim.places()[k].weight;
-      for (const unsigned int k : unit.places)
-        {
-          const double            share   = rim.places()[k].weight / unit.area;
-          const NearestPoint<dim> nearest = at_start.nearest(position(k));
-          unit.x += share * Tensor<1, dim>(position(k));
-          unit.level += share * nearest.level;
-          unit.normal += share * nearest.normal;
-          unit.traction_at_start += share * carried[k].traction;
-          open += carried[k].status == 0 ? share : 0.;
-        }
-      unit.normal /= unit.normal.norm();
-      unit.level -= at_start.level(unit.x);
-      unit.was_open   = open > 0.5;
-      unit.multiplier = unit.traction_at_start;
-    }
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::merge_small_units()
-{
-  const auto is_small = [](const auto &unit) {
-    return unit.area < least_unit * std::pow(unit.h, dim - 1);
-  };
-  std::vector<unsigned int> into(all_units.size());
-  for (unsigned int u = 0; u < all_units.size(); ++u)
-    {
-      into[u] = u;
-      if (!is_small(all_units[u]))
-        continue;
-      double nearest   = std::numeric_limits<double>::max();
-      bool   same_kind = false;
-      for (unsigned int v = 0; v < all_units.size(); ++v)
-        {
-          const double distance = all_units[u].x.distance(all_units[v].x);
-          const bool   same     = all_units[u].apart == all_units[v].apart;
-          if (u == v || distance >= 1.5 * all_units[u].h ||
-              all_units[u].normal * all_units[v].normal <= cosine_of_one_unit ||
-              (is_small(all_units[v]) && v > u) ||
-              (all_units[u].apart && !same))
-            continue;
-          if (same > same_kind || (same == same_kind && distance < nearest))
-            {
-              nearest   = distance;
-              same_kind = same;
-              into[u]   = v;
-            }
-        }
-    }
-  // A small one joins a large one, or a small one before it.
-  for (unsigned int u = 0; u < all_units.size(); ++u)
-    {
-      unsigned int root = u;
-      while (into[root] != root)
-        root = into[root];
-      if (root != u)
-        {
-          auto &places = all_units[u].places;
-          all_units[root].places.insert(all_units[root].places.end(),
-                                        places.begin(),
-                                        places.end());
-          places.clear();
-        }
-    }
-  all_units.erase(std::remove_if(all_units.begin(),
-                                 all_units.end(),
-                                 [](const auto &unit) {
-                                   return unit.places.empty();
-                                 }),
-                  all_units.end());
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::set_target(const double t_end, const bool anew)
-{
-  at_end.set_pose(motion.pose(t_end));
-  if (anew)
+  void
+  ContactBoundary<dim>::set_means()
+  {
     for (ContactUnit<dim> &unit : all_units)
-      unit.multiplier = unit.traction_at_start;
-}
-
-
-
-template <int dim>
-ContactGap<dim>
-ContactBoundary<dim>::gap(const ContactUnit<dim> &unit,
-                          const Tensor<1, dim>   &du) const
-{
-  const Point<dim>        x_end   = unit.x + du;
-  const NearestPoint<dim> nearest = at_end.nearest(x_end);
-  const Tensor<1, dim>    of_surface =
-    at_end.pose().map(at_start.pose().inverse(unit.x)) - unit.x;
-  ContactGap<dim> state;
-  state.gap    = nearest.level + unit.level;
-  state.normal = nearest.normal;
-  state.slip   = du - of_surface;
-  state.slip -= (state.slip * state.normal) * state.normal;
-  return state;
-}
-
-
-
-template <int dim>
-Tensor<1, dim>
-ContactBoundary<dim>::turned(const Tensor<1, dim> &t,
-                             const Tensor<1, dim> &normal,
-                             const Tensor<1, dim> &end)
-{
-  // R = 1 + W + W^2/(1 + cos), W = end (x) normal - normal (x) end
-  const auto W = [&](const Tensor<1, dim> &v) {
-    return (normal * v) * end - (end * v) * normal;
-  };
-  const Tensor<1, dim> first = W(t);
-  return t + first + 1. / (1. + normal * end) * W(first);
-}
-
-
-
-template <int dim>
-SymmetricTensor<2, dim>
-ContactBoundary<dim>::normal_gradient(const ContactUnit<dim> &unit,
-                                      const Tensor<1, dim>   &du) const
-{
-  const double   step = 1e-4 * unit.h;
-  Tensor<2, dim> gradient;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
-      gradient[d]                = (at_end.normal(unit.x + du + ahead) -
-                     at_end.normal(unit.x + du - ahead)) /
-                    (2 * step);
-    }
-  constexpr double corner = 4;
-  return gradient.norm() * unit.h < corner ? symmetrize(gradient) :
-                                             SymmetricTensor<2, dim>();
-}
-
-
-
-template <int dim>
-double
-ContactBoundary<dim>::depth(const unsigned int    k,
-                            const Tensor<1, dim> &du) const
-{
-  const NearestPoint<dim> nearest = at_end.nearest(position(k) + du);
-  return nearest.in_extent &&
-             nearest.normal * rim.places()[k].normal > cosine_of_contact ?
-           std::max(0., -nearest.level) :
-           0.;
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::set_multipliers(
-  const std::vector<Tensor<1, dim>> &multipliers)
-{
-  AssertDimension(multipliers.size(), all_units.size());
-  for (unsigned int u = 0; u < all_units.size(); ++u)
-    all_units[u].multiplier = multipliers[u];
-}
-
-
-
-template <int dim>
-void
-ContactBoundary<dim>::prepare(
-  const std::vector<OfUnit>                                 &of_units,
-  const std::vector<typename CarriedPlaces<dim>::Increment> &moves,
-  const bool                                                 moves_places,
-  const bool                                                 through_mesh,
-  const bool                                                 turns)
-{
-  AssertDimension(of_units.size(), all_units.size());
-  prepared = carried;
-  // Away from the surface a place carries no traction.
-  for (ContactPlace<dim> &place : prepared)
-    {
-      place.traction = Tensor<1, dim>();
-      place.status   = 0;
-    }
-  for (unsigned int u = 0; u < all_units.size(); ++u)
-    for (const unsigned int k : all_units[u].places)
       {
-        prepared[k].traction = of_units[u].traction;
-        prepared[k].status   = unsigned(of_units[u].status);
-        prepared[k].slip += of_units[u].slip;
-        prepared[k].work += of_units[u].work;
+        std::sort(unit.places.begin(), unit.places.end());
+        unit.area = unit.level = 0;
+        unit.x                 = Point<dim>();
+        unit.normal = unit.traction_at_start = Tensor<1, dim>();
+        double open                          = 0;
+        for (const unsigned int k : unit.places)
+          unit.area += rim.places()[k].weight;
+        for (const unsigned int k : unit.places)
+          {
+            const double            share = rim.places()[k].weight / unit.area;
+            const NearestPoint<dim> nearest = at_start.nearest(position(k));
+            unit.x += share * Tensor<1, dim>(position(k));
+            unit.level += share * nearest.level;
+            unit.normal += share * nearest.normal;
+            unit.traction_at_start += share * carried[k].traction;
+            open += carried[k].status == 0 ? share : 0.;
+          }
+        unit.normal /= unit.normal.norm();
+        unit.level -= at_start.level(unit.x);
+        unit.was_open   = open > 0.5;
+        unit.multiplier = unit.traction_at_start;
       }
-  if (moves_places)
-    rim.prepare_move(moves, through_mesh, turns);
-  else
-    for (unsigned int k = 0; k < moves.size(); ++k)
-      prepared[k].displacement += moves[k].u;
-}
+  }
 
 
 
-template <int dim>
-double
-ContactBoundary<dim>::largest_slip() const
-{
-  double largest = 0;
-  for (const ContactPlace<dim> &place : prepared)
-    largest = std::max(largest, place.slip);
-  return largest;
-}
+  template <int dim>
+  void
+  ContactBoundary<dim>::merge_small_units()
+  {
+    const auto is_small = [](const auto &unit) {
+      return unit.area < least_unit * std::pow(unit.h, dim - 1);
+    };
+    std::vector<unsigned int> into(all_units.size());
+    for (unsigned int u = 0; u < all_units.size(); ++u)
+      {
+        into[u] = u;
+        if (!is_small(all_units[u]))
+          continue;
+        double nearest   = std::numeric_limits<double>::max();
+        bool   same_kind = false;
+        for (unsigned int v = 0; v < all_units.size(); ++v)
+          {
+            const double distance = all_units[u].x.distance(all_units[v].x);
+            const bool   same     = all_units[u].apart == all_units[v].apart;
+            if (u == v || distance >= 1.5 * all_units[u].h ||
+                all_units[u].normal * all_units[v].normal <=
+                  cosine_of_one_unit ||
+                (is_small(all_units[v]) && v > u) ||
+                (all_units[u].apart && !same))
+              continue;
+            if (same > same_kind || (same == same_kind && distance < nearest))
+              {
+                nearest   = distance;
+                same_kind = same;
+                into[u]   = v;
+              }
+          }
+      }
+    // A small one joins a large one, or a small one before it.
+    for (unsigned int u = 0; u < all_units.size(); ++u)
+      {
+        unsigned int root = u;
+        while (into[root] != root)
+          root = into[root];
+        if (root != u)
+          {
+            auto &places = all_units[u].places;
+            all_units[root].places.insert(all_units[root].places.end(),
+                                          places.begin(),
+                                          places.end());
+            places.clear();
+          }
+      }
+    all_units.erase(std::remove_if(all_units.begin(),
+                                   all_units.end(),
+                                   [](const auto &unit) {
+                                     return unit.places.empty();
+                                   }),
+                    all_units.end());
+  }
 
 
 
-template <int dim>
-double
-ContactBoundary<dim>::work_of_friction() const
-{
-  double work = 0;
-  for (unsigned int k = 0; k < prepared.size(); ++k)
-    work += rim.places()[k].weight * prepared[k].work;
-  return work;
-}
+  template <int dim>
+  void
+  ContactBoundary<dim>::set_target(const double t_end, const bool anew)
+  {
+    at_end.set_pose(motion.pose(t_end));
+    if (anew)
+      for (ContactUnit<dim> &unit : all_units)
+        unit.multiplier = unit.traction_at_start;
+  }
 
 
 
-template <int dim>
-void
-ContactBoundary<dim>::write(Archive &archive) const
-{
-  using Of = ContactPlace<dim>;
-  rim.write(archive, group());
-  archive.write(group() + "/traction",
-                components_of(carried, &Of::traction),
-                dim,
-                "stress");
-  archive.write(group() + "/displacement",
-                components_of(carried, &Of::displacement),
-                dim,
-                "length");
-  archive.write(group() + "/slip",
-                components_of(carried, &Of::slip),
-                1,
-                "length");
-  archive.write(group() + "/work",
-                components_of(carried, &Of::work),
-                1,
-                "stress length");
-  archive.write(group() + "/status", components_of(carried, &Of::status));
-  archive.write(group() + "/body", components_of(carried, &Of::body));
-  archive.write(group() + "/has_rim",
-                std::vector<unsigned int>(has_rim.begin(), has_rim.end()));
-  archive.write(group() + "/acted", acted ? 1u : 0u);
-}
+  template <int dim>
+  ContactGap<dim>
+  ContactBoundary<dim>::gap(const ContactUnit<dim> &unit,
+                            const Tensor<1, dim>   &du) const
+  {
+    const Point<dim>        x_end   = unit.x + du;
+    const NearestPoint<dim> nearest = at_end.nearest(x_end);
+    const Tensor<1, dim>    of_surface =
+      at_end.pose().map(at_start.pose().inverse(unit.x)) - unit.x;
+    ContactGap<dim> state;
+    state.gap    = nearest.level + unit.level;
+    state.normal = nearest.normal;
+    state.slip   = du - of_surface;
+    state.slip -= (state.slip * state.normal) * state.normal;
+    return state;
+  }
 
 
 
-template <int dim>
-void
-ContactBoundary<dim>::read(const Archive &archive)
-{
-  using Of = ContactPlace<dim>;
-  rim.read(archive, group());
-  const auto &rims = archive.integers(group() + "/has_rim", 1);
-  has_rim.assign(rims.begin(), rims.end());
-  acted = archive.integer(group() + "/acted") != 0;
-  carried.resize(rim.places().size());
-  const auto read = [&](const std::string &name,
-                        const auto         member,
-                        const unsigned int n_components) {
-    set_components(archive.numbers(group() + "/" + name, n_components),
-                   carried,
-                   member);
-  };
-  read("traction", &Of::traction, dim);
-  read("displacement", &Of::displacement, dim);
-  read("slip", &Of::slip, 1);
-  read("work", &Of::work, 1);
-  read("status", &Of::status, 1);
-  read("body", &Of::body, 1);
-  undo();
-}
+  template <int dim>
+  Tensor<1, dim>
+  ContactBoundary<dim>::turned(const Tensor<1, dim> &t,
+                               const Tensor<1, dim> &normal,
+                               const Tensor<1, dim> &end)
+  {
+    // R = 1 + W + W^2/(1 + cos), W = end (x) normal - normal (x) end
+    const auto W = [&](const Tensor<1, dim> &v) {
+      return (normal * v) * end - (end * v) * normal;
+    };
+    const Tensor<1, dim> first = W(t);
+    return t + first + 1. / (1. + normal * end) * W(first);
+  }
 
 
 
-template class ContactBoundary<2>;
-template class ContactBoundary<3>;
+  template <int dim>
+  SymmetricTensor<2, dim>
+  ContactBoundary<dim>::normal_gradient(const ContactUnit<dim> &unit,
+                                        const Tensor<1, dim>   &du) const
+  {
+    const double   step = 1e-4 * unit.h;
+    Tensor<2, dim> gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
+        gradient[d]                = (at_end.normal(unit.x + du + ahead) -
+                       at_end.normal(unit.x + du - ahead)) /
+                      (2 * step);
+      }
+    constexpr double corner = 4;
+    return gradient.norm() * unit.h < corner ? symmetrize(gradient) :
+                                               SymmetricTensor<2, dim>();
+  }
+
+
+
+  template <int dim>
+  double
+  ContactBoundary<dim>::depth(const unsigned int    k,
+                              const Tensor<1, dim> &du) const
+  {
+    const NearestPoint<dim> nearest = at_end.nearest(position(k) + du);
+    return nearest.in_extent &&
+               nearest.normal * rim.places()[k].normal > cosine_of_contact ?
+             std::max(0., -nearest.level) :
+             0.;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::set_multipliers(
+    const std::vector<Tensor<1, dim>> &multipliers)
+  {
+    AssertDimension(multipliers.size(), all_units.size());
+    for (unsigned int u = 0; u < all_units.size(); ++u)
+      all_units[u].multiplier = multipliers[u];
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::prepare(
+    const std::vector<OfUnit>                                 &of_units,
+    const std::vector<typename CarriedPlaces<dim>::Increment> &moves,
+    const bool                                                 moves_places,
+    const bool                                                 through_mesh,
+    const bool                                                 turns)
+  {
+    AssertDimension(of_units.size(), all_units.size());
+    prepared = carried;
+    // Away from the surface a place carries no traction.
+    for (ContactPlace<dim> &place : prepared)
+      {
+        place.traction = Tensor<1, dim>();
+        place.status   = 0;
+      }
+    for (unsigned int u = 0; u < all_units.size(); ++u)
+      for (const unsigned int k : all_units[u].places)
+        {
+          prepared[k].traction = of_units[u].traction;
+          prepared[k].status   = unsigned(of_units[u].status);
+          prepared[k].slip += of_units[u].slip;
+          prepared[k].work += of_units[u].work;
+        }
+    if (moves_places)
+      rim.prepare_move(moves, through_mesh, turns);
+    else
+      for (unsigned int k = 0; k < moves.size(); ++k)
+        prepared[k].displacement += moves[k].u;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactBoundary<dim>::largest_slip() const
+  {
+    double largest = 0;
+    for (const ContactPlace<dim> &place : prepared)
+      largest = std::max(largest, place.slip);
+    return largest;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactBoundary<dim>::work_of_friction() const
+  {
+    double work = 0;
+    for (unsigned int k = 0; k < prepared.size(); ++k)
+      work += rim.places()[k].weight * prepared[k].work;
+    return work;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::write(Archive &archive) const
+  {
+    using Of = ContactPlace<dim>;
+    rim.write(archive, group());
+    archive.write(group() + "/traction",
+                  components_of(carried, &Of::traction),
+                  dim,
+                  "stress");
+    archive.write(group() + "/displacement",
+                  components_of(carried, &Of::displacement),
+                  dim,
+                  "length");
+    archive.write(group() + "/slip",
+                  components_of(carried, &Of::slip),
+                  1,
+                  "length");
+    archive.write(group() + "/work",
+                  components_of(carried, &Of::work),
+                  1,
+                  "stress length");
+    archive.write(group() + "/status", components_of(carried, &Of::status));
+    archive.write(group() + "/body", components_of(carried, &Of::body));
+    archive.write(group() + "/has_rim",
+                  std::vector<unsigned int>(has_rim.begin(), has_rim.end()));
+    archive.write(group() + "/acted", acted ? 1u : 0u);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactBoundary<dim>::read(const Archive &archive)
+  {
+    using Of = ContactPlace<dim>;
+    rim.read(archive, group());
+    const auto &rims = archive.integers(group() + "/has_rim", 1);
+    has_rim.assign(rims.begin(), rims.end());
+    acted = archive.integer(group() + "/acted") != 0;
+    carried.resize(rim.places().size());
+    const auto read = [&](const std::string &name,
+                          const auto         member,
+                          const unsigned int n_components) {
+      set_components(archive.numbers(group() + "/" + name, n_components),
+                     carried,
+                     member);
+    };
+    read("traction", &Of::traction, dim);
+    read("displacement", &Of::displacement, dim);
+    read("slip", &Of::slip, 1);
+    read("work", &Of::work, 1);
+    read("status", &Of::status, 1);
+    read("body", &Of::body, 1);
+    undo();
+  }
+
+
+
+  template class ContactBoundary<2>;
+  template class ContactBoundary<3>;
 } // namespace moraine

@@ -16,6 +16,8 @@ import json
 import math
 import os
 import pathlib
+import re
+import resource
 import statistics
 import subprocess
 import sys
@@ -374,6 +376,37 @@ class Bench:
             self.record("peers", f"{title}, times faster",
                         seconds * n_steps / taken, "-", allowed, at_least=True)
 
+    # A footing that touches the ground against one that holds it.
+    def case_contact(self):
+        text = (pathlib.Path(self.source) / "prm/cortis-2017/footing.prm").read_text()
+        contact = "set Constraint = contact\nset Band width = 0.03\n"
+        for name, held, touches in (("smooth", "roller", contact),
+                                    ("rough", "fixed", contact + "set Friction = 0.5")):
+            taken = {"held": [], "touches": []}
+            for _ in range(self.repeats):
+                for how, keys in (("held", f"set Constraint = {held}"),
+                                  ("touches", touches)):
+                    with tempfile.TemporaryDirectory() as folder:
+                        scene = pathlib.Path(folder, "footing.prm")
+                        # The face of the footing alone: it presses by a cell or two.
+                        scene.write_text(re.sub(
+                            r"  subsection footing\n.*?\nend\n",
+                            "subsection footing\nset Points = 0.5 3; 0 3\n"
+                            f"set Translation = 0; -0.2*t\n{keys}\nend\nend\n",
+                            text, flags=re.DOTALL))
+                        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+                        self.run_scene(scene, {
+                            "Mesh/Cell size": 0.2 if self.smoke else 0.1,
+                            "Mesh/Lower corner": "-0.3, -0.25",
+                            "Mesh/Upper corner": "3.3, 3.75",
+                            "Time/Steps": 1 if self.smoke else 10})
+                        taken[how].append(
+                            resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before)
+            seconds = {how: statistics.median(times) for how, times in taken.items()}
+            self.record("contact", f"{name} footing that touches", seconds["touches"], "s")
+            self.record("contact", f"{name} footing, touches over held",
+                        seconds["touches"] / seconds["held"], "-", 1.3)
+
     # Cells of points on a mesh that is no box against a box.
     def case_search(self):
         for dimension, n in ((2, 16), (3, 4)) if self.smoke else ((2, 200), (3, 30)):
@@ -393,7 +426,7 @@ class Bench:
 
 
 CASES = ["fe", "points", "3d", "growth", "ranks", "empty", "search", "methods",
-         "means", "plastic3d", "dynamics", "dynamics3d", "peers"]
+         "means", "contact", "plastic3d", "dynamics", "dynamics3d", "peers"]
 
 
 def main():

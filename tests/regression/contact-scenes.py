@@ -32,3 +32,10 @@ at_least("disc: steps in which it touches the floor",
          sum(row["contact area of floor"] > 0 for row in rows), 10)
 MOMENTUM = 2 * 1000 * pi * 0.2 ** 2
 number("disc: speed after over that before", rows[-1]["momentum_y"] / MOMENTUM, 3)
+
+# One size of cells: methods and bands give the same.
+result = run("prm/studies/contact.prm",
+             {"Mesh/Cell size": 0.25, "Study/Group by": "Series", **QUIET}, command="study")
+for row in result.study_rows():
+    number(f"ring, {row['Series']}: error of the torque", float(row["error"]), 1)
+    bound("all the same", float(row["error"]), 0.012)
