@@ -22,7 +22,9 @@ namespace moraine
       "yields or with 'Integrator = energy-momentum': augmented Lagrangian "
       "with a band of 0.01, because Nitsche's flux is elastic, linear in the "
       "increment of a step and that of its end; else in dynamics symmetric "
-      "Nitsche, because the skew flux feeds vibrations.",
+      "Nitsche, because the skew flux feeds vibrations. Of contact: skew "
+      "Nitsche in statics at small strain where materials are elastic and "
+      "strains have no means over cells, else augmented Lagrangian.",
       Patterns::Selection("skew Nitsche|symmetric Nitsche|augmented Lagrangian|"
                           "weighted|penalty"));
     prm.add_parameter("Band width",

@@ -193,7 +193,7 @@ namespace moraine
     if (for_materials)
       return;
     locate_files(input);
-    choose_for_contact(input);
+    choose_spectral_radius(input);
     complete_stages(given,
                     time,
                     {names_of(boundaries),
@@ -227,6 +227,13 @@ namespace moraine
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     choose_gauss_points(given, any_yields);
+    const bool has_flux = !is_dynamic() && !any_yields && !water_differs &&
+                          !method.averages_volume() &&
+                          linear_solver.solver != "amg-cg" &&
+                          method.strain_measure() == StrainMeasure::small;
+    choose_enforcement_of_contact(has_flux ? "skew Nitsche" :
+                                             "augmented Lagrangian",
+                                  input);
     if (newton.limit_points == "auto")
       choose_limit_points();
     check(input, given);
@@ -344,24 +351,11 @@ namespace moraine
 
   template <int dim>
   void
-  Scene<dim>::choose_for_contact(const InputFile &input)
+  Scene<dim>::choose_spectral_radius(const InputFile &input)
   {
-    bool any = false;
-    prm.enter_subsection("Boundaries");
-    for (const auto &[name, boundary] : boundaries)
-      {
-        if (boundary.constraint != "contact")
-          continue;
-        any = true;
-        prm.enter_subsection(name);
-        if (!input.has("Boundaries/" + name, "Enforcement"))
-          prm.set("Enforcement", std::string("augmented Lagrangian"));
-        if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
-            !input.has("Boundaries/" + name, "Band width"))
-          prm.set("Band width", 0.1);
-        prm.leave_subsection();
-      }
-    prm.leave_subsection();
+    const bool any = any_of(boundaries, [](const auto &named) {
+      return named.second.constraint == "contact";
+    });
     // Impacts would live on in the highest frequencies.
     const auto set_radius = [&](const std::string          &section,
                                 const IntegratorParameters &chosen) {
@@ -408,6 +402,29 @@ namespace moraine
           prm.set("Band width", 0.01);
         prm.leave_subsection();
       }
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::choose_enforcement_of_contact(const std::string &if_left_out,
+                                            const InputFile   &input)
+  {
+    prm.enter_subsection("Boundaries");
+    for (const auto &[name, boundary] : boundaries)
+      if (boundary.constraint == "contact")
+        {
+          const std::string section = "Boundaries/" + name;
+          prm.enter_subsection(name);
+          if (!input.has(section, "Enforcement"))
+            prm.set("Enforcement", if_left_out);
+          if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
+              !input.has(section, "Band width"))
+            prm.set("Band width", 0.1);
+          prm.leave_subsection();
+        }
     prm.leave_subsection();
   }
 

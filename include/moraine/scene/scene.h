@@ -236,10 +236,14 @@ namespace moraine
     void
     choose_enforcement(const std::string &if_left_out, const InputFile &input);
 
-    /** Set defaults that differ if the scene has contact: enforcement, band
-     * width and spectral radius. */
+    /** The same of contact. */
     void
-    choose_for_contact(const InputFile &input);
+    choose_enforcement_of_contact(const std::string &if_left_out,
+                                  const InputFile   &input);
+
+    /** Set the default of the spectral radius if the scene has contact. */
+    void
+    choose_spectral_radius(const InputFile &input);
 
     /** GIMP, which needs equal cells, or else CPDI1. */
     void
