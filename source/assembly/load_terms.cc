@@ -3,6 +3,12 @@
 
 #include <moraine/assembly/load_terms.h>
 
+#include <moraine/mesh/active_search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
 namespace moraine
 {
   using namespace dealii;
@@ -29,6 +35,49 @@ namespace moraine
           local.force[dim * a + i] += N[a] * f[i];
     }
 
+    /**
+     * How places move that take their areas along: with the mesh, whose
+     * displacement is continuous, so that a closed surface stays closed, even
+     * if @p force has the interpolants of domains. Where a place lies in none
+     * of the cells of its domain, it goes with the domain. Collective.
+     */
+    template <int dim>
+    PlaceFunctions<dim>
+    functions_of_motion(
+      const GridSpace<dim>                                  &space,
+      const std::vector<typename CarriedPlaces<dim>::Place> &places,
+      const PlaceFunctions<dim>                             &force)
+    {
+      const unsigned int        n = space.nodes_per_cell();
+      std::vector<unsigned int> cell_of;
+      for (const auto &place : places)
+        cell_of.push_back(place.active_cell_index);
+      // That of the rank that owns it.
+      Utilities::MPI::min(cell_of, space.communicator(), cell_of);
+      PlaceFunctions<dim> motion;
+      for (unsigned int begin = 0, end = 0; begin < force.places.size();
+           begin = end)
+        {
+          const unsigned int k           = force.places[begin];
+          bool               is_in_cells = false;
+          for (end = begin; end < force.places.size() && force.places[end] == k;
+               ++end)
+            is_in_cells = is_in_cells || force.cells[end] == cell_of[k];
+          if (is_in_cells && end > begin + 1)
+            {
+              const auto [N, grad_N] = motion.add(k, cell_of[k], n);
+              evaluate_shapes(space, cell_of[k], places[k].x, N, grad_N);
+              continue;
+            }
+          for (unsigned int i = begin; i < end; ++i)
+            {
+              const auto [N, grad_N] = motion.add(k, force.cells[i], n);
+              std::copy_n(&force.N[n * i], n, N);
+              std::copy_n(&force.grad_N[n * i], n, grad_N);
+            }
+        }
+      return motion;
+    }
   } // namespace
 
 
@@ -144,19 +193,34 @@ namespace moraine
 
 
   template <int dim>
+  PlaceFunctions<dim>
+  CarriedLoadTerm<dim>::functions_of_forces(
+    const StepContext<dim> &context) const
+  {
+    const Basis<dim> &basis = context.state.point_basis();
+    return context.state.mesh_after_step() == MeshAfterStep::reset ?
+             basis.functions_at(load.places()) :
+             basis.functions_of_cells(load.places());
+  }
+
+
+
+  template <int dim>
   bool
   CarriedLoadTerm<dim>::begin_step(const StepContext<dim> &context)
   {
-    // On a mesh that does not reset, places stay in their cells.
-    if (context.couplings_changed ||
+    // On a mesh that does not reset, places stay in their cells; gradients
+    // there go with the nodes.
+    if (context.couplings_changed || load.follows() ||
         context.state.mesh_after_step() == MeshAfterStep::reset)
       {
         load.find_cells(context.state.grid(), context.search_tolerance);
-        const Basis<dim> &basis = context.state.point_basis();
-        load.set_functions(context.state.mesh_after_step() ==
-                               MeshAfterStep::reset ?
-                             basis.functions_at(load.places()) :
-                             basis.functions_of_cells(load.places()));
+        const auto forces = functions_of_forces(context);
+        load.set_functions(load.follows() ?
+                             functions_of_motion<dim>(context.state.grid(),
+                                                      load.places(),
+                                                      forces) :
+                             forces);
       }
     return false;
   }
@@ -182,7 +246,7 @@ namespace moraine
                      space.cell_nodes(functions.cells[i]),
                      n,
                      false);
-        share(place.weight * load.value(place.x, context.t_end),
+        share(place.weight * load.value(place, context.t_end),
               &functions.N[n * i],
               local);
         system.add(local, false);

@@ -9,6 +9,7 @@
 #include <moraine/assembly/inertia.h>
 #include <moraine/assembly/internal_force.h>
 #include <moraine/assembly/load_terms.h>
+#include <moraine/assembly/pressure_term.h>
 #include <moraine/assembly/shared_cells_term.h>
 
 namespace moraine
@@ -69,7 +70,12 @@ namespace moraine
         terms.push_back(std::make_unique<BodyForceTerm<dim>>(force));
     for (auto &load : loads.carried)
       if (acts("Loads", load.name()))
-        terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));
+        {
+          if (load.follows())
+            terms.push_back(std::make_unique<PressureTerm<dim>>(load));
+          else
+            terms.push_back(std::make_unique<CarriedLoadTerm<dim>>(load));
+        }
     for (auto &force : loads.on_points)
       if (acts("Loads", force.name()))
         terms.push_back(std::make_unique<ForceOnPointsTerm<dim>>(force));

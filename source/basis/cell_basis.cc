@@ -92,13 +92,8 @@ namespace moraine
     const unsigned int cell = place.active_cell_index;
     if (cell == GridSpace<dim>::no_cell)
       return;
-    // Those of Q2 at most.
-    std::array<Tensor<1, dim>, Utilities::pow(3, dim)> grad_N;
-    evaluate_shapes(space,
-                    cell,
-                    place.x,
-                    functions.add(k, cell, space.nodes_per_cell()),
-                    grad_N.data());
+    const auto [N, grad_N] = functions.add(k, cell, space.nodes_per_cell());
+    evaluate_shapes(space, cell, place.x, N, grad_N);
   }
 
 

@@ -130,15 +130,27 @@ namespace moraine
       if (ids[k] == numbers::invalid_unsigned_int)
         this->add_functions_of_cell(places[k], k, functions);
       else if (here[k].distance == distances[k] && here[k].id == ids[k])
-        for (unsigned int c = 0; c < n_corners; ++c)
-          {
-            const unsigned int i = here[k].point * n_corners + c;
-            const double       M =
-              GeometryInfo<dim>::d_linear_shape_function(here[k].xi, c);
-            double *N = functions.add(k, corner_cells[i], n_corners);
-            for (unsigned int a = 0; a < n_corners; ++a)
-              N[a] = M * corner_values[i * n_corners + a];
-          }
+        {
+          const Point<dim>       &xi   = here[k].xi;
+          const CellVertices<dim> X    = this->domain_corners(here[k].point);
+          const Tensor<2, dim> inverse = invert(CellMap<dim>(X).jacobian(xi));
+          for (unsigned int c = 0; c < n_corners; ++c)
+            {
+              const unsigned int i = here[k].point * n_corners + c;
+              const double       M =
+                GeometryInfo<dim>::d_linear_shape_function(xi, c);
+              const Tensor<1, dim> grad_M =
+                GeometryInfo<dim>::d_linear_shape_function_gradient(xi, c) *
+                inverse;
+              const auto [N, grad_N] =
+                functions.add(k, corner_cells[i], n_corners);
+              for (unsigned int a = 0; a < n_corners; ++a)
+                {
+                  N[a]      = M * corner_values[i * n_corners + a];
+                  grad_N[a] = corner_values[i * n_corners + a] * grad_M;
+                }
+            }
+        }
     return functions;
   }
 

@@ -161,6 +161,21 @@ namespace moraine
 
 
 
+    /** Let area and normal of a place follow by Nanson's formula. */
+    template <int dim>
+    void
+    turn_by(const Tensor<2, dim>               &gradient,
+            typename CarriedPlaces<dim>::Place &place)
+    {
+      const Tensor<2, dim> F = Physics::Elasticity::Kinematics::F(gradient);
+      const Tensor<1, dim> area =
+        determinant(F) * (transpose(invert(F)) * place.normal);
+      place.weight *= area.norm();
+      place.normal = unit_or_any(area);
+    }
+
+
+
     template <int dim>
     Tensor<1, dim>
     normal_of_face(const unsigned int face, const CellVertices<dim> &cell)
@@ -224,24 +239,41 @@ namespace moraine
 
   template <int dim>
   void
-  CarriedPlaces<dim>::catch_up(const GridSpace<dim> &space)
+  CarriedPlaces<dim>::catch_up(const GridSpace<dim> &space, const bool turn)
   {
     // A rank may have no nodes.
     if (!Utilities::MPI::logical_or(space.nodes_moved(), space.communicator()))
       return;
-    std::vector<double> moves(dim * now.size(), 0.);
+    constexpr unsigned int n = dim + dim * dim;
+    std::vector<double>    moves(n * now.size(), 0.);
     for (unsigned int k = 0; k < now.size(); ++k)
       if (now[k].active_cell_index != GridSpace<dim>::no_cell)
         {
-          const Tensor<1, dim> move =
-            move_of_nodes_at(space, now[k].active_cell_index, now[k].in_mesh);
-          for (unsigned int d = 0; d < dim; ++d)
-            moves[dim * k + d] = move[d];
+          Tensor<2, dim>       gradient;
+          const Tensor<1, dim> move = move_of_nodes_at(space,
+                                                       now[k].active_cell_index,
+                                                       now[k].in_mesh,
+                                                       &gradient);
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              moves[n * k + i] = move[i];
+              for (unsigned int j = 0; j < dim; ++j)
+                moves[n * k + dim + dim * i + j] = gradient[i][j];
+            }
         }
     Utilities::MPI::sum(moves, space.communicator(), moves);
     for (unsigned int k = 0; k < now.size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        now[k].x[d] += moves[dim * k + d];
+      {
+        Tensor<2, dim> gradient;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            now[k].x[i] += moves[n * k + i];
+            for (unsigned int j = 0; j < dim; ++j)
+              gradient[i][j] = moves[n * k + dim + dim * i + j];
+          }
+        if (turn)
+          turn_by(gradient, now[k]);
+      }
   }
 
 
@@ -303,14 +335,7 @@ namespace moraine
         if (through_mesh)
           place.in_mesh = place.x;
         if (turn)
-          {
-            const Tensor<2, dim> F =
-              Physics::Elasticity::Kinematics::F(increments[k].gradient);
-            const Tensor<1, dim> area =
-              determinant(F) * (transpose(invert(F)) * place.normal);
-            place.weight *= area.norm();
-            place.normal = unit_or_any(area);
-          }
+          turn_by(increments[k].gradient, place);
       }
   }
 

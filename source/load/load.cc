@@ -32,13 +32,30 @@ namespace moraine
 
 
   template <int dim>
+  CarriedLoad<dim>::CarriedLoad(const std::string   &name,
+                                const std::string   &kind,
+                                const Pressure<dim> &pressure,
+                                std::vector<Place>   places,
+                                const double         share_outside)
+    : load_name(name)
+    , load_kind(kind)
+    , pressure(pressure)
+    , drawn(std::move(places))
+    , carried(drawn)
+    , outside(share_outside)
+  {}
+
+
+
+  template <int dim>
   void
   CarriedLoad<dim>::find_cells(const GridSpace<dim> &space,
                                const double          search_tolerance)
   {
     // Cells of a side have material or none.
-    const bool begins_at_side = load_kind == "side traction" && !placed;
-    auto       without =
+    const bool begins_at_side =
+      (load_kind == "side traction" || load_kind == "side pressure") && !placed;
+    auto without =
       carried.find_cells(space, begins_at_side ? 0. : search_tolerance);
     if (begins_at_side)
       {
@@ -65,7 +82,7 @@ namespace moraine
         throw ComputationError(message.str());
       }
     if (!placed)
-      carried.catch_up(space);
+      carried.catch_up(space, follows());
     placed = true;
   }
 
@@ -88,23 +105,36 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &nodal_increments,
     const bool                         through_mesh)
   {
-    const unsigned int  n = space.nodes_per_cell();
-    std::vector<double> moves(dim * places().size(), 0.);
+    const unsigned int  n        = space.nodes_per_cell();
+    const unsigned int  n_values = follows() ? dim + dim * dim : dim;
+    std::vector<double> moves(n_values * places().size(), 0.);
     for (unsigned int i = 0; i < place_functions.places.size(); ++i)
       {
         const unsigned int *nodes = space.cell_nodes(place_functions.cells[i]);
+        double             *of_k = &moves[n_values * place_functions.places[i]];
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int d = 0; d < dim; ++d)
-            moves[dim * place_functions.places[i] + d] +=
-              place_functions.N[n * i + a] * nodal_increments[nodes[a]][d];
+            {
+              const double u = nodal_increments[nodes[a]][d];
+              of_k[d] += place_functions.N[n * i + a] * u;
+              if (follows())
+                for (unsigned int j = 0; j < dim; ++j)
+                  of_k[dim + dim * d + j] +=
+                    place_functions.grad_N[n * i + a][j] * u;
+            }
       }
     Utilities::MPI::sum(moves, space.communicator(), moves);
     std::vector<typename CarriedPlaces<dim>::Increment> increments(
       places().size());
     for (unsigned int k = 0; k < increments.size(); ++k)
       for (unsigned int d = 0; d < dim; ++d)
-        increments[k].u[d] = moves[dim * k + d];
-    carried.prepare_move(increments, through_mesh, false);
+        {
+          const double *of_k = &moves[n_values * k];
+          increments[k].u[d] = of_k[d];
+          for (unsigned int j = 0; follows() && j < dim; ++j)
+            increments[k].gradient[d][j] = of_k[dim + dim * d + j];
+        }
+    carried.prepare_move(increments, through_mesh, follows());
   }
 
 

@@ -198,18 +198,28 @@ namespace moraine
     Tensor<1, dim>
     move_at(const GridSpace<dim> &space,
             const unsigned int    cell,
-            const Point<dim>     &x)
+            const Point<dim>     &x,
+            Tensor<2, dim>       *gradient)
     {
       constexpr unsigned int n     = CellShapes<dim, degree>::n_nodes;
       const unsigned int    *nodes = space.cell_nodes(cell);
       Point<dim>             X[n];
       for (unsigned int a = 0; a < n; ++a)
         X[a] = space.node_position(nodes[a]) - space.node_move(nodes[a]);
-      double N[n];
-      CellShapes<dim, degree>::values(place_in_cell<dim, degree>(x, X), N);
+      const Point<dim> xi = place_in_cell<dim, degree>(x, X);
+      double           N[n];
+      CellShapes<dim, degree>::values(xi, N);
       Tensor<1, dim> move;
       for (unsigned int a = 0; a < n; ++a)
         move += N[a] * space.node_move(nodes[a]);
+      if (gradient)
+        {
+          Tensor<1, dim> grad_N[n];
+          CellShapes<dim, degree>::evaluate(xi, X, N, grad_N);
+          *gradient = Tensor<2, dim>();
+          for (unsigned int a = 0; a < n; ++a)
+            *gradient += outer_product(space.node_move(nodes[a]), grad_N[a]);
+        }
       return move;
     }
   } // namespace
@@ -344,10 +354,12 @@ namespace moraine
   Tensor<1, dim>
   move_of_nodes_at(const GridSpace<dim> &space,
                    const unsigned int    active_cell_index,
-                   const Point<dim>     &X)
+                   const Point<dim>     &X,
+                   Tensor<2, dim>       *gradient)
   {
-    return space.degree() == 1 ? move_at<dim, 1>(space, active_cell_index, X) :
-                                 move_at<dim, 2>(space, active_cell_index, X);
+    return space.degree() == 1 ?
+             move_at<dim, 1>(space, active_cell_index, X, gradient) :
+             move_at<dim, 2>(space, active_cell_index, X, gradient);
   }
 
 

@@ -199,18 +199,22 @@ namespace moraine
       "gravity (acceleration, times density: its mass stays), surface "
       "traction (force on a surface carried by the material, a dead load per "
       "area of the undeformed body), side traction (the same on the material "
-      "that is at a side of the mesh), point force (force "
+      "that is at a side of the mesh), pressure (on such a side or surface: "
+      "pushes against it; with finite strain area and normal are those of the "
+      "end of the step), point force (force "
       "at a place that the mesh carries along), force on points (force on the "
       "material points nearest to a place at the start).",
       patterns::selection({"body force",
                            "gravity",
                            "side traction",
                            "surface traction",
+                           "pressure",
                            "point force",
                            "force on points"}));
     prm.add_parameter("Value",
                       value,
-                      "dim expressions in x, y, z, t separated by ';'.");
+                      "dim expressions in x, y, z, t separated by ';'; of "
+                      "pressure one.");
     prm.add_parameter(
       "Curve",
       curve,
@@ -227,7 +231,9 @@ namespace moraine
                       "(current) or where it was at "
                       "the start of the run (original).",
                       patterns::selection({"current", "original"}));
-    prm.add_parameter("Side", side, "Of side traction: a side of the mesh.");
+    prm.add_parameter("Side",
+                      side,
+                      "Of side traction and pressure: a side of the mesh.");
     prm.add_parameter("Location",
                       location,
                       "Of point force and force on points: where it acts at "

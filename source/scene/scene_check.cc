@@ -29,10 +29,43 @@ namespace moraine
       return contains({"Type", "Value", "Curve"}, key) ||
              (contains({"body force", "gravity"}, type) &&
               contains({"Bodies", "Coordinates"}, key)) ||
-             (type == "side traction" && key == "Side") ||
+             (contains({"side traction", "pressure"}, type) && key == "Side") ||
              (type == "point force" && key == "Location") ||
              (type == "force on points" && key == "Location") ||
-             (type == "surface traction" && is_of_surface);
+             (contains({"surface traction", "pressure"}, type) &&
+              is_of_surface);
+    }
+
+
+
+    /** Keys of a load of type pressure that do not go together. */
+    template <int dim>
+    void
+    check_pressure(const std::string                   &section,
+                   const LoadParameters<dim>           &load,
+                   const Scene<dim>                    &scene,
+                   const std::vector<InputFile::Entry> &given)
+    {
+      bool has_surface = false;
+      for (const auto &entry : given)
+        if (entry.section == section &&
+            !contains({"Type", "Value", "Curve", "Side"}, entry.key))
+          {
+            has_surface = true;
+            if (!load.side.empty())
+              reject(entry, "nothing; key 'Side' says where it acts");
+          }
+      if (load.side.empty() && !has_surface)
+        throw InputError("section '" + section +
+                         "': found no place of the pressure, allowed: 'Side', "
+                         "or a surface as 'Body' and 'Part', or 'Points'");
+      if (scene.method.strain_measure() == StrainMeasure::finite &&
+          scene.linear_solver.solver == "amg-cg")
+        reject("Solver",
+               "Solver",
+               scene.linear_solver.solver,
+               "auto, direct or gmres: the tangent of '" + section +
+                 "' is not symmetric");
     }
 
 
@@ -336,6 +369,8 @@ namespace moraine
           if (entry.section == "Loads/" + name &&
               !load_uses(load.type, entry.key))
             reject(entry, "nothing; a " + load.type + " has no such key");
+        if (load.type == "pressure")
+          check_pressure("Loads/" + name, load, *this, given);
       }
     check_conditions(given);
     check_water(given);

@@ -81,6 +81,31 @@ namespace moraine
 
 
 
+    /** That of a load of type pressure, times its curve. */
+    template <int dim>
+    ScalarFunction<dim>
+    pressure_value(const LoadParameters<dim> &parameters,
+                   const std::string         &section)
+    {
+      if (parameters.value.empty())
+        throw InputError(place(section, "Value") +
+                         ": found nothing, allowed: an expression");
+      const auto expression =
+        std::make_shared<Expression<dim>>(parameters.value,
+                                          place(section, "Value"));
+      if (parameters.curve.empty())
+        return [expression](const Point<dim> &x, const double t) {
+          return expression->value(x, t);
+        };
+      const auto curve =
+        std::make_shared<TimeCurve>(parameters.curve, place(section, "Curve"));
+      return [expression, curve](const Point<dim> &x, const double t) {
+        return curve->value(t) * expression->value(x, t);
+      };
+    }
+
+
+
     /** The value of a load, times its curve. */
     template <int dim>
     VectorFunction<dim>
@@ -345,6 +370,86 @@ namespace moraine
 
 
 
+  namespace
+  {
+    /** Turns normals out of @p body where it is seen on their side alone. */
+    template <int dim>
+    void
+    turn_outward(const ShapePointer<dim>                         &body,
+                 const double                                     h,
+                 std::vector<typename CarriedPlaces<dim>::Place> &places)
+    {
+      constexpr double step = 0.01; // of a cell
+      if (!body)
+        return;
+      for (auto &place : places)
+        if (covers_place(*body, place.x + step * h * place.normal, 0.) &&
+            !covers_place(*body, place.x - step * h * place.normal, 0.))
+          place.normal *= -1;
+    }
+
+
+
+    /** A load on a side of the mesh or on a surface. */
+    template <int dim>
+    CarriedLoad<dim>
+    make_load_on_surface(const std::string         &name,
+                         const LoadParameters<dim> &parameters,
+                         const Scene<dim>          &scene,
+                         const BackgroundMesh<dim> &mesh,
+                         const NamedShapes<dim>    &shapes,
+                         const ShapePointer<dim>   &body,
+                         const Covers<dim>         &covers)
+    {
+      const std::string section = "Loads/" + name;
+      const bool        through_mesh =
+        scene.method.after_step() == MeshAfterStep::reset;
+      // Finer than functions need, as an expression may jump inside of a face.
+      const QIterated<dim - 1> face_quadrature(
+        QGauss<1>(scene.method.degree + 1),
+        (dim == 2 ? 4 : 2) * (through_mesh ? 2 : 1));
+      std::vector<typename CarriedLoad<dim>::Place> places;
+      const bool                                    on_side =
+        parameters.type == "side traction" ||
+        (parameters.type == "pressure" && !parameters.side.empty());
+      double outside = 0;
+      if (on_side)
+        places = places_on_side(mesh,
+                                mesh.boundary_id(parameters.side,
+                                                 place(section, "Side")),
+                                covers,
+                                face_quadrature);
+      else
+        {
+          const SurfacePointer<dim> surface =
+            make_surface<dim>(parameters.surface, shapes, section);
+          places  = places_on(*surface,
+                             mesh,
+                             body,
+                             through_mesh ? Spacing::through_mesh :
+                                             Spacing::for_cells);
+          outside = share_outside(*surface, mesh, body);
+        }
+      if (parameters.type != "pressure")
+        return CarriedLoad<dim>(name,
+                                parameters.type,
+                                load_value<dim>(parameters, section),
+                                places,
+                                outside);
+      if (!on_side)
+        turn_outward(body, mesh.cell_size(), places);
+      return CarriedLoad<dim>(
+        name,
+        on_side ? "side pressure" : "pressure",
+        Pressure<dim>{pressure_value<dim>(parameters, section),
+                      scene.method.strain_measure() == StrainMeasure::finite},
+        places,
+        outside);
+    }
+  } // namespace
+
+
+
   template <int dim>
   Loads<dim>
   make_loads(const Scene<dim>               &scene,
@@ -355,16 +460,18 @@ namespace moraine
   {
     using Place                   = typename CarriedLoad<dim>::Place;
     const NamedShapes<dim> shapes = body_shapes(scene);
-    const bool through_mesh = scene.method.after_step() == MeshAfterStep::reset;
-    // Finer than functions need, as an expression may jump inside of a face.
-    const QIterated<dim - 1> face_quadrature(QGauss<1>(scene.method.degree + 1),
-                                             (dim == 2 ? 4 : 2) *
-                                               (through_mesh ? 2 : 1));
-    Loads<dim>               loads;
+    Loads<dim>             loads;
     for (const auto &[name, parameters] : scene.loads)
       {
         const std::string section = "Loads/" + name;
-        const auto        value   = load_value<dim>(parameters, section);
+        if (contains({"side traction", "surface traction", "pressure"},
+                     parameters.type))
+          {
+            loads.carried.push_back(make_load_on_surface(
+              name, parameters, scene, mesh, shapes, body, covers));
+            continue;
+          }
+        const auto value = load_value<dim>(parameters, section);
         if (parameters.type == "body force" || parameters.type == "gravity")
           loads.body_forces.push_back(
             {name,
@@ -372,31 +479,6 @@ namespace moraine
              parameters.type == "gravity",
              body_flags(parameters.bodies, body_names, section),
              parameters.coordinates == "original"});
-        else if (parameters.type == "side traction")
-          loads.carried.emplace_back(
-            name,
-            parameters.type,
-            value,
-            places_on_side(mesh,
-                           mesh.boundary_id(parameters.side,
-                                            place(section, "Side")),
-                           covers,
-                           face_quadrature));
-        else if (parameters.type == "surface traction")
-          {
-            const SurfacePointer<dim> surface =
-              make_surface<dim>(parameters.surface, shapes, section);
-            loads.carried.emplace_back(name,
-                                       parameters.type,
-                                       value,
-                                       places_on(*surface,
-                                                 mesh,
-                                                 body,
-                                                 through_mesh ?
-                                                   Spacing::through_mesh :
-                                                   Spacing::for_cells),
-                                       share_outside(*surface, mesh, body));
-          }
         else
           {
             const Point<dim> at =

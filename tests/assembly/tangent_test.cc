@@ -5,6 +5,7 @@
 #include <moraine/assembly/boundary_term.h>
 #include <moraine/assembly/hourglass_stiffness.h>
 #include <moraine/assembly/mechanics_system.h>
+#include <moraine/assembly/pressure_term.h>
 #include <moraine/assembly/rayleigh_damping.h>
 #include <moraine/assembly/water_term.h>
 #include <moraine/basis/cpdi1_basis.h>
@@ -514,6 +515,99 @@ namespace
           }
         EXPECT_GT(largest, 10.);
         EXPECT_LT(inside, 1e-11 * largest);
+      }
+  }
+
+
+
+  /** A pressure on the whole rim of the box, which changes along it. */
+  template <int dim>
+  struct PressureAround
+  {
+    PressureAround(Box<dim> &box, const bool fe, const double slope)
+    {
+      Point<dim> lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = fe ? 0. : 0.1;
+          upper[d] = fe ? 3. : 2.4;
+        }
+      load.emplace("gas",
+                   "pressure",
+                   Pressure<dim>{[slope](const Point<dim> &x, const double t) {
+                                   return t * (300 + slope * x[0]);
+                                 },
+                                 true},
+                   places_on(*make_box<dim>(lower, upper)->rim("", true, {}),
+                             box.mesh));
+      box.system->add(std::make_unique<PressureTerm<dim>>(*load));
+      box.begin_step(1);
+    }
+
+    std::optional<CarriedLoad<dim>> load;
+  };
+
+
+
+  template <int dim>
+  void
+  check_pressure(const Method method)
+  {
+    const bool fe = method == Method::linear_elements || is_quadratic(method);
+    {
+      Box<dim>            box(method, false);
+      PressureAround<dim> gas(box, fe, 200);
+      EXPECT_FALSE(box.system->symmetric());
+      check_tangent(box);
+      const LA::Vector x = box.displacements(0.03, 0.4);
+      const double     p = gas.load->pressure_at(gas.load->places()[0], 2.);
+      EXPECT_GT(p, 500.);
+      box.deform();
+      check_tangent(box);
+    }
+    // A uniform one has neither resultant nor moment.
+    Box<dim>            box(method, false), free(method, false);
+    PressureAround<dim> gas(box, fe, 0);
+    const LA::Vector    x     = box.displacements(0.1, 0.4);
+    LA::Vector          force = box.residual(x);
+    force -= free.residual(x);
+    EXPECT_GT(force.l2_norm(), 100.);
+    EXPECT_LT(imbalance(box, force, x), 1e-13);
+    // Areas and normals that have gone along are those of the end of the step.
+    box.system->accept(x);
+    box.begin_step(1);
+    LA::Vector after = box.residual(box.space.vector());
+    free.system->accept(x);
+    free.begin_step(1);
+    after -= free.residual(box.space.vector());
+    if (!fe && method != Method::material_point && method != Method::gimp)
+      return;
+    Tensor<1, dim> sum;
+    double         area = 0;
+    for (const auto &place : gas.load->places())
+      {
+        sum += place.weight * place.normal;
+        area += place.weight;
+      }
+    EXPECT_LT(sum.norm(), 1e-13 * area);
+    if (!fe)
+      return;
+    force -= after;
+    EXPECT_LT(force.l2_norm(), 1e-12 * after.l2_norm());
+  }
+
+  TEST(Pressure, TangentIsTheDerivativeOfForcesInBalance)
+  {
+    for (const auto method : {Method::material_point,
+                              Method::linear_elements,
+                              Method::quadratic_elements,
+                              Method::gimp,
+                              Method::cpdi1,
+                              Method::cpdi2})
+      {
+        SCOPED_TRACE(static_cast<int>(method));
+        check_pressure<2>(method);
+        check_pressure<3>(method);
       }
   }
 

@@ -81,7 +81,7 @@ CHOICES = {
     "Bodies/*/Shape": ["box", "disc", "ring", "mesh", "expression", "union"],
     "Bodies/*/Rotation angle": ["10", "90", "1e6"],
     "Loads/*/Type": ["body force", "gravity", "side traction", "point force",
-                     "surface traction", "force on points"],
+                     "surface traction", "pressure", "force on points"],
     "Mesh/Type": ["box", "generator", "file"],
 }
 

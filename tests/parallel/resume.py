@@ -16,7 +16,7 @@ import signal
 import subprocess
 import time
 
-KILLS = int(os.environ.get("MORAINE_KILLS", "7"))
+KILLS = int(os.environ.get("MORAINE_KILLS", "8"))
 moments = random.Random(2026)
 
 # On several ranks a direct solver (MUMPS) does not repeat itself bit by bit.
@@ -34,6 +34,9 @@ SCENES = {
         "prm/phuong-2023/column-viscous-gimp.prm",
         {"Time/Integrator": "Bathe", "Loads/pulse/Curve": 0.1,
          "Time/End time": 0.2, "Time/Steps": 80}, 1),
+    "pressure that follows": (
+        "prm/large-deformation/pressurised-tube.prm",
+        {"Mesh/Cells": "10, 10", "Time/Steps": 40}, 1),
     "contact that slides": (
         "prm/dynamics/sliding-block.prm", {}, 1),
     "3D on 3 ranks": (

@@ -107,9 +107,15 @@ namespace moraine
     void
     keep() noexcept override;
 
-  private:
+  protected:
+    /** By which its places push the nodes. Collective. */
+    PlaceFunctions<dim>
+    functions_of_forces(const StepContext<dim> &context) const;
+
     CarriedLoad<dim> &load;
-    const bool        acts;
+
+  private:
+    const bool acts;
   };
 } // namespace moraine
 

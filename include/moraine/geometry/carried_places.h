@@ -11,6 +11,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace moraine
@@ -23,16 +24,18 @@ namespace moraine
     std::vector<unsigned int> places; ///< numbers, ascending
     std::vector<unsigned int> cells;  ///< by active_cell_index()
     std::vector<double>       N;      ///< nodes_per_cell() for each of cells
+    std::vector<dealii::Tensor<1, dim>> grad_N; ///< by present place, as N
 
     /** Add the functions of a cell at the place number @p k.
-     * @return where to write @p n values. */
-    double *
+     * @return where to write @p n values, and as many gradients. */
+    std::pair<double *, dealii::Tensor<1, dim> *>
     add(const unsigned int k, const unsigned int cell, const unsigned int n)
     {
       places.push_back(k);
       cells.push_back(cell);
       N.resize(N.size() + n);
-      return &N[N.size() - n];
+      grad_N.resize(N.size());
+      return {&N[N.size() - n], &grad_N[N.size() - n]};
     }
   };
 
@@ -76,9 +79,10 @@ namespace moraine
                const double          inward = 0.);
 
     /** Let places with cells, which are where they were in the mesh as it was
-     * built, be where its nodes carried them so far. Collective. */
+     * built, be where its nodes carried them so far; @p turn as in
+     * prepare_move(). Collective. */
     void
-    catch_up(const GridSpace<dim> &space);
+    catch_up(const GridSpace<dim> &space, const bool turn = false);
 
     /** Leave out places by their numbers, ascending. */
     void

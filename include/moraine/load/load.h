@@ -25,6 +25,11 @@ namespace moraine
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
                                          const double)>;
 
+  /** A number prescribed at places and times. */
+  template <int dim>
+  using ScalarFunction =
+    std::function<double(const dealii::Point<dim> &, const double)>;
+
   /**
    * A force per volume in some of the bodies: b(x, t), or gravity
    * @f$\rho\, g(x, t)@f$, with x where the material is, or where it was at the
@@ -40,9 +45,18 @@ namespace moraine
     bool                at_start = false; ///< x of value is that of the start
   };
 
+  /** What a pressure p(x, t) does: its force is @f$-p\,n\,da@f$ with n out of
+   * the body. */
+  template <int dim>
+  struct Pressure
+  {
+    ScalarFunction<dim> value;
+    bool                follows; ///< areas and normals go with the material
+  };
+
   /**
-   * Forces carried by the material: tractions on a surface or on what is at a
-   * side of the mesh as they begin to act, or single forces.
+   * Forces carried by the material: tractions or a pressure on a surface or on
+   * what is at a side of the mesh as they begin to act, or single forces.
    */
   template <int dim>
   class CarriedLoad : public StatePart
@@ -57,6 +71,13 @@ namespace moraine
                 const VectorFunction<dim> &value,
                 std::vector<Place>         places,
                 const double               share_outside = 0.);
+
+    /** @p kind: pressure or side pressure. */
+    CarriedLoad(const std::string   &name,
+                const std::string   &kind,
+                const Pressure<dim> &pressure,
+                std::vector<Place>   places,
+                const double         share_outside = 0.);
 
     /**
      * Find the cells of the places, which the first time are where they were in
@@ -121,10 +142,26 @@ namespace moraine
       return drawn;
     }
 
+    /** Force per area of a place, or the force of a single one. */
     dealii::Tensor<1, dim>
-    value(const dealii::Point<dim> &x, const double t) const
+    value(const Place &place, const double t) const
     {
-      return function(x, t);
+      return pressure.value ? -pressure.value(place.x, t) * place.normal :
+                              function(place.x, t);
+    }
+
+    /** Whether it is a pressure whose areas and normals follow the material. */
+    bool
+    follows() const
+    {
+      return pressure.follows;
+    }
+
+    /** Of a pressure. */
+    double
+    pressure_at(const Place &place, const double t) const
+    {
+      return pressure.value(place.x, t);
     }
 
     const std::string &
@@ -149,6 +186,7 @@ namespace moraine
   private:
     const std::string         load_name, load_kind;
     const VectorFunction<dim> function;
+    const Pressure<dim>       pressure{{}, false}; ///< instead of a function
     const std::vector<Place>  drawn;
     CarriedPlaces<dim>        carried;
     PlaceFunctions<dim>       place_functions;

@@ -71,12 +71,14 @@ namespace moraine
                   double                   *N);
 
   /** How far the nodes of an active cell this rank knows carried the place @p X
-   * of the mesh as it was built, which may be outside of the cell. */
+   * of the mesh as it was built, which may be outside of the cell; @p gradient
+   * by X, unless null. */
   template <int dim>
   dealii::Tensor<1, dim>
   move_of_nodes_at(const GridSpace<dim>     &space,
                    const unsigned int        active_cell_index,
-                   const dealii::Point<dim> &X);
+                   const dealii::Point<dim> &X,
+                   dealii::Tensor<2, dim>   *gradient = nullptr);
 } // namespace moraine
 
 #endif
