@@ -10,6 +10,7 @@
 #include <moraine/assembly/load_terms.h>
 #include <moraine/assembly/water_term.h>
 #include <moraine/assembly/conflict_term.h>
+#include <moraine/basis/rim_of_boxes.h>
 #include <moraine/core/archive.h>
 #include <moraine/core/exceptions.h>
 #include <moraine/core/ranges.h>
@@ -178,6 +179,26 @@ namespace moraine
 
 
 
+    /** Finds the rim of a body as drawn, or that of the boxes of its points if
+     * these are given. */
+    template <int dim>
+    typename ContactBoundary<dim>::Finder
+    finder_of_rim(const ShapesOfBodies<dim> &shapes,
+                  const PointSet<dim>       &points,
+                  const Basis<dim>          &basis)
+    {
+      return [shapes, &points, &basis](const BackgroundMesh<dim> &mesh,
+                                       const unsigned int         body) {
+        return shapes[body] ? places_on<dim>(*shapes[body]->rim(),
+                                             mesh,
+                                             nullptr,
+                                             Spacing::through_mesh) :
+                              rim_of_boxes(points, basis, body);
+      };
+    }
+
+
+
     /** Of bodies as drawn; of those whose points are given, whole cells. */
     template <int dim>
     Covers<dim>
@@ -317,7 +338,8 @@ namespace moraine
                        covers_of_bodies(bodies, *mesh, *points));
     absorbing_boundaries =
       make_absorbing_boundaries(scene, *mesh, body_names, shapes_of(bodies));
-    contact_boundaries = make_contact_boundaries(scene, shapes_of(bodies));
+    contact_boundaries = make_contact_boundaries(
+      scene, finder_of_rim(shapes_of(bodies), *points, *basis));
     if (scene.has_water())
       loads.water = std::make_unique<WaterInBodies<dim>>(WaterInBodies<dim>{
         {},

@@ -13,45 +13,31 @@ namespace moraine
 
   template <int dim>
   std::vector<ContactBoundary<dim>>
-  make_contact_boundaries(const Scene<dim>                     &scene,
-                          const std::vector<ShapePointer<dim>> &bodies)
+  make_contact_boundaries(const Scene<dim>                            &scene,
+                          const typename ContactBoundary<dim>::Finder &find_rim)
   {
     const NamedShapes<dim>            shapes = body_shapes(scene);
     std::vector<ContactBoundary<dim>> boundaries;
     for (const auto &[name, parameters] : scene.boundaries)
-      {
-        if (parameters.constraint != "contact")
-          continue;
-        const std::string section = "Boundaries/" + name;
-        for (const auto &body : bodies)
-          if (!body)
-            reject(section,
-                   "Constraint",
-                   parameters.constraint,
-                   "another one; the points of a body are given, so that it "
-                   "has no rim");
-        boundaries.emplace_back(
-          name,
-          make_surface<dim>(parameters.surface, shapes, section),
-          motion_of_surface(name, parameters, scene),
-          [bodies](const BackgroundMesh<dim> &mesh, const unsigned int body) {
-            return places_on<dim>(*bodies[body]->rim(),
-                                  mesh,
-                                  nullptr,
-                                  Spacing::through_mesh);
-          },
-          parameters.contact.law(section),
-          parameters.enforcement.enforcement_of());
-      }
+      if (parameters.constraint == "contact")
+        {
+          const std::string section = "Boundaries/" + name;
+          boundaries.emplace_back(name,
+                                  make_surface<dim>(parameters.surface,
+                                                    shapes,
+                                                    section),
+                                  motion_of_surface(name, parameters, scene),
+                                  find_rim,
+                                  parameters.contact.law(section),
+                                  parameters.enforcement.enforcement_of());
+        }
     return boundaries;
   }
 
 
 
   template std::vector<ContactBoundary<2>>
-  make_contact_boundaries(const Scene<2> &,
-                          const std::vector<ShapePointer<2>> &);
+  make_contact_boundaries(const Scene<2> &, const ContactBoundary<2>::Finder &);
   template std::vector<ContactBoundary<3>>
-  make_contact_boundaries(const Scene<3> &,
-                          const std::vector<ShapePointer<3>> &);
+  make_contact_boundaries(const Scene<3> &, const ContactBoundary<3>::Finder &);
 } // namespace moraine

@@ -26,12 +26,12 @@ namespace moraine
   std::vector<ImplicitBoundary<dim>>
   make_boundaries(const Scene<dim> &scene);
 
-  /** Surfaces that the rims of @p bodies touch; null if nothing is known of
-   * one. */
+  /** Surfaces that the rims of bodies touch, which @p find_rim finds. */
   template <int dim>
   std::vector<ContactBoundary<dim>>
-  make_contact_boundaries(const Scene<dim>                     &scene,
-                          const std::vector<ShapePointer<dim>> &bodies);
+  make_contact_boundaries(
+    const Scene<dim>                            &scene,
+    const typename ContactBoundary<dim>::Finder &find_rim);
 
   /** Boundaries and grid conditions that absorb, in this order. They end where
    * bodies do that are there when they begin to: of all that have @p body_names
