@@ -16,20 +16,20 @@ Grid conditions/front/Side = front | Components = y
 
 
 def at_rest(h):
-    """A quarter of the lower part of a sphere, 3.1 wide."""
-    n = round(3.1 / h + 0.5)
+    """A quarter of the lower part of a sphere, 2.6 wide."""
+    n = round(2.6 / h + 0.5)
     return PLANE + f"""
 Mesh/Lower corner = 0, 0, {-0.37 * h!r}
 Mesh/Upper corner = {h * n!r}, {h * n!r}, {h * n - 0.37 * h!r} | Cell size = {h!r}
 Method/Method = GIMP | Mesh after step = keep
 Materials/steel/Young modulus = {E} | Poisson ratio = {NU}
 Bodies/ball/Shape = sphere | Centre = 0, 0, {R} | Radius = {R}
-Bodies/box/Lower corner = 0, 0, 0 | Upper corner = 3.1, 3.1, 2.945
+Bodies/box/Lower corner = 0, 0, 0 | Upper corner = 2.6, 2.6, 2.47
 Bodies/part/Shape = intersection | Operands = ball, box
 Boundaries/plane/Point = 0, 0, 0 | Normal = 0, 0, -1
 Grid conditions/left/Side = left | Components = x
 Loads/top/Type = surface traction | Body = part | Part = box/top
-Loads/top/Value = 0; 0; {-F / 4 / 3.1 ** 2!r}
+Loads/top/Value = 0; 0; {-F / 4 / 2.6 ** 2!r}
 """
 
 
