@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Moraine authors
 """Error and cost of contact: peak and L2 error of Hertz's pressure under a cylinder, torque
-of a ring that slides on a shaft (prm/studies/contact.prm), for methods, cells and widths of
-the band.
+of a ring that slides on a shaft (prm/studies/contact.prm), for methods, cells and
+enforcements.
 
     contact_study.py PROGRAM [PAGE]
 
@@ -26,9 +26,10 @@ from render import np  # noqa: E402
 E, NU, R, P = 1000, 0.3, 10, 50
 A = math.sqrt(4 * P * R * (1 - NU * NU) / (math.pi * E))
 P0 = 2 * P / (math.pi * A)
-CASES = [("GIMP", 0.1, 0), ("GIMP", 0.1, 1), ("GIMP", 0.1, 2), ("CPDI1", 0.1, 2),
-         ("finite element", 0.1, 2), ("GIMP", 0.3, 2), ("GIMP", 0.03, 2),
-         ("GIMP", 0.01, 2)]
+# Method, width of the band of the augmented Lagrangian or none for Nitsche's method, size.
+CASES = [("GIMP", None, 0), ("GIMP", None, 1), ("GIMP", None, 2), ("CPDI1", None, 2),
+         ("finite element", None, 2), ("GIMP", 0.1, 0), ("GIMP", 0.1, 1), ("GIMP", 0.1, 2),
+         ("GIMP", 0.03, 2)]
 
 
 def cylinder(h):
@@ -64,6 +65,14 @@ def ring(h):
     return re.sub(r"\{\{.*?\}\}", str(h), text)
 
 
+def settings(boundary, band):
+    of = f"Boundaries/{boundary}/"
+    if band is None:
+        return "--set", of + "Enforcement = skew Nitsche"
+    return ("--set", of + "Enforcement = augmented Lagrangian", "--set",
+            of + f"Band width = {band}")
+
+
 def run(program, text, boundary, method, band):
     """Last row of the history, last file of contact, processor seconds, Newton iterations."""
     with tempfile.TemporaryDirectory() as folder:
@@ -71,8 +80,8 @@ def run(program, text, boundary, method, band):
         scene.write_text(text)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         ended = subprocess.run([program, "run", scene, "--output", folder + "/o", "--set",
-                        f"Method/Method = {method}", "--set",
-                        f"Boundaries/{boundary}/Band width = {band}", "--set",
+                        f"Method/Method = {method}",
+                        *settings(boundary, band), "--set",
                         "Output/Points = false", "--set", "Output/Write = end"],
                        capture_output=True, text=True)
         if ended.returncode:
@@ -110,7 +119,8 @@ def main():
         h, of_ring = 0.6 / 2 ** size, 0.25 / 2 ** size
         peak, l2, time = hertz(program, h, method, band)
         moment, time_of_ring = torque(program, of_ring, method, band)
-        lines.append(f"| {method}, {band} | {h} | {100 * peak:+.1f} % | {100 * l2:.0f} % | "
+        how = "Nitsche" if band is None else band
+        lines.append(f"| {method}, {how} | {h} | {100 * peak:+.1f} % | {100 * l2:.0f} % | "
                      f"{time:.1f} | {of_ring} | {100 * moment:+.2f} % | "
                      f"{time_of_ring:.1f} |")
         print(lines[-1], flush=True)

@@ -45,8 +45,8 @@ namespace moraine
         section,
         "Enforcement",
         how,
-        "augmented Lagrangian; skew Nitsche in contact needs small strain, "
-        "statics and 'Volumetric strain = pointwise'");
+        "augmented Lagrangian; in contact a flux is for statics, small strain "
+        "and 'Volumetric strain = pointwise'");
     boundary.contact.law(section);
   }
 

@@ -32,8 +32,11 @@ refused("friction twice", {"Friction": 0.3, "Friction angle": 20})
 refused("friction angle of a cliff", {"Friction angle": 90})
 refused("adhesion that the least tension breaks", {"Adhesion": 1})
 refused("tension that has no end", {"Tensile strength": 1, "Separation": "false"})
-refused("another enforcement", {"Enforcement": "skew Nitsche"})
-refused("keys of others", {"Nitsche factor": 5})
+refused("another enforcement", {"Enforcement": "penalty"})
+refused("flux at finite strain", {"Enforcement": "skew Nitsche",
+                                  "Method/Strain": "finite"})
+refused("keys of others", {"Enforcement": "augmented Lagrangian",
+                           "Nitsche factor": 5})
 refused("keys of others", {"Penetration limit": 0.1})
 refused("surface that is bent on the way", {"Displacement": "0; 0.1*x*t"})
 refused("no surface", {"Points": ""})

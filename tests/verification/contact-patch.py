@@ -75,15 +75,17 @@ def error_of_stress(result, angle, tau, across):
 
 for name, make, tau, across in (("sticks", stick, 1.5, P * 0.3 / 0.7),
                                 ("slides", slide, P * MU, 0)):
-    for angle in 0, 17, 30:
-        result = run(scene_file(f"{name}-{angle}.prm", make(angle)))
+    for angle, how in (0, ""), (17, ""), (30, ""), (17, "augmented Lagrangian"):
+        result = run(scene_file(f"{name}-{angle}.prm", make(angle)),
+                     {"Boundaries/floor/Enforcement": how} if how else {})
+        of = f"{name}, {angle} degrees{how and ', ' + how}"
         row = result.history()[-1]
         exact = turned(angle, -4 * tau, 4 * P).split("; ")
         # Files have 7 digits.
-        bound(f"{name}, {angle} degrees: error of stress over p",
+        bound(f"{of}: error of stress over p",
               error_of_stress(result, angle, tau, across), 1e-6)
-        bound(f"{name}, {angle} degrees: error of the force over p",
+        bound(f"{of}: error of the force over p",
               max(abs(row[f"reaction_{c} of floor"] - float(value))
                   for c, value in zip("xy", exact)) / P, 1e-8)
-        number(f"{name}, {angle} degrees: contact, part that slides",
+        number(f"{of}: contact, part that slides",
                row["slipping area of floor"] / row["contact area of floor"], 3)
