@@ -28,8 +28,8 @@ A = math.sqrt(4 * P * R * (1 - NU * NU) / (math.pi * E))
 P0 = 2 * P / (math.pi * A)
 # Method, width of the band of the augmented Lagrangian or none for Nitsche's method, size.
 CASES = [("GIMP", None, 0), ("GIMP", None, 1), ("GIMP", None, 2), ("CPDI1", None, 2),
-         ("finite element", None, 2), ("GIMP", 0.1, 0), ("GIMP", 0.1, 1), ("GIMP", 0.1, 2),
-         ("GIMP", 0.03, 2)]
+         ("finite element", None, 2), ("GIMP", 0.05, 0), ("GIMP", 0.05, 1),
+         ("GIMP", 0.05, 2), ("GIMP", 0.1, 2), ("GIMP", 0.03, 2)]
 
 
 def cylinder(h):

@@ -333,7 +333,7 @@ namespace moraine
       trial.flux += local.fluxes[a] * context.increments()[local.nodes[a]];
     trial.gap = boundary.gap(unit, trial.du);
     trial.multiplier =
-      boundary.turned(unit.multiplier, unit.normal, trial.gap.normal);
+      turned<dim>(unit.multiplier, unit.normal, trial.gap.normal);
     const Tensor<1, dim> traction =
       trial.multiplier + trial.flux +
       local.c_n * trial.gap.gap * trial.gap.normal - local.c_t * trial.gap.slip;
@@ -415,9 +415,12 @@ namespace moraine
             const Tensor<2, dim> nn = outer_product(n, n);
             stiffness =
               now.response.derivative * (unit.c_n * nn + unit.c_t * (one - nn));
-            if (boundary.is_curved())
-              stiffness -= (t * n) * Tensor<2, dim>(boundary.normal_gradient(
-                                       boundary.units()[unit.number], now.du));
+            const ContactUnit<dim>  &at      = boundary.units()[unit.number];
+            const MovedSurface<dim> &surface = boundary.surface_at_end();
+            if (surface.curved())
+              stiffness -=
+                (t * n) *
+                Tensor<2, dim>(surface.normal_gradient(at.x + now.du, at.h));
           }
         local.add_force(unit.N.data(), weight * unit.area * t);
         if (tangent)
@@ -572,9 +575,9 @@ namespace moraine
       {
         const Trial          now = trial(context, unit);
         const Tensor<1, dim> t =
-          boundary.turned(now.response.traction,
-                          now.gap.normal,
-                          boundary.units()[unit.number].normal);
+          turned<dim>(now.response.traction,
+                      now.gap.normal,
+                      boundary.units()[unit.number].normal);
         for (unsigned int d = 0; d < dim; ++d)
           sums[(dim + 1) * unit.number + d] += unit.area * t[d];
         sums[(dim + 1) * unit.number + dim] += unit.area;

@@ -184,9 +184,7 @@ namespace moraine
     for (unsigned int a = 0; a < n_nodes; ++a)
       H += outer_product(local.nodal_increments[a], grad_N[a]);
     const Tensor<1, dim> f = times_cofactor(is, H, n);
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        local.force[dim * a + i] += N[a] * f[i];
+    local.add_force(N, f);
     if (!tangent)
       return;
     for (unsigned int b = 0; b < n_nodes; ++b)

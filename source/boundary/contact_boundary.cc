@@ -397,43 +397,6 @@ namespace moraine
 
 
   template <int dim>
-  Tensor<1, dim>
-  ContactBoundary<dim>::turned(const Tensor<1, dim> &t,
-                               const Tensor<1, dim> &normal,
-                               const Tensor<1, dim> &end)
-  {
-    // R = 1 + W + W^2/(1 + cos), W = end (x) normal - normal (x) end
-    const auto W = [&](const Tensor<1, dim> &v) {
-      return (normal * v) * end - (end * v) * normal;
-    };
-    const Tensor<1, dim> first = W(t);
-    return t + first + 1. / (1. + normal * end) * W(first);
-  }
-
-
-
-  template <int dim>
-  SymmetricTensor<2, dim>
-  ContactBoundary<dim>::normal_gradient(const ContactUnit<dim> &unit,
-                                        const Tensor<1, dim>   &du) const
-  {
-    const double   step = 1e-4 * unit.h;
-    Tensor<2, dim> gradient;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const Tensor<1, dim> ahead = step * Point<dim>::unit_vector(d);
-        gradient[d]                = (at_end.normal(unit.x + du + ahead) -
-                       at_end.normal(unit.x + du - ahead)) /
-                      (2 * step);
-      }
-    constexpr double corner = 4;
-    return gradient.norm() * unit.h < corner ? symmetrize(gradient) :
-                                               SymmetricTensor<2, dim>();
-  }
-
-
-
-  template <int dim>
   double
   ContactBoundary<dim>::depth(const unsigned int    k,
                               const Tensor<1, dim> &du) const

@@ -422,7 +422,7 @@ namespace moraine
             prm.set("Enforcement", if_left_out);
           if (boundary.enforcement.enforcement == "augmented Lagrangian" &&
               !input.has(section, "Band width"))
-            prm.set("Band width", 0.1);
+            prm.set("Band width", 0.05);
           prm.leave_subsection();
         }
     prm.leave_subsection();

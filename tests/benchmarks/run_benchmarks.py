@@ -379,7 +379,7 @@ class Bench:
     # A footing that touches the ground against one that holds it.
     def case_contact(self):
         text = (pathlib.Path(self.source) / "prm/cortis-2017/footing.prm").read_text()
-        contact = "set Constraint = contact\nset Band width = 0.03\n"
+        contact = "set Constraint = contact\n"
         for name, held, touches in (("smooth", "roller", contact),
                                     ("rough", "fixed", contact + "set Friction = 0.5")):
             taken = {"held": [], "touches": []}

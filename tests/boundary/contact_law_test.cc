@@ -95,7 +95,7 @@ namespace
 
 
 
-  TEST(ContactBoundary, TractionsTurnWithTheNormal)
+  TEST(ContactLaw, TractionsTurnWithTheNormal)
   {
     std::mt19937 generator(2);
     for (unsigned int i = 0; i < 100; ++i)
@@ -105,10 +105,10 @@ namespace
         a /= a.norm();
         b /= b.norm();
         const Tensor<1, 3> t    = any_vector<3>(generator);
-        const Tensor<1, 3> turn = ContactBoundary<3>::turned(t, a, b);
+        const Tensor<1, 3> turn = turned<3>(t, a, b);
         EXPECT_NEAR(turn.norm(), t.norm(), 1e-12);
         EXPECT_NEAR(turn * b, t * a, 1e-12);
-        EXPECT_LE((ContactBoundary<3>::turned(turn, b, a) - t).norm(), 1e-12);
+        EXPECT_LE((turned<3>(turn, b, a) - t).norm(), 1e-12);
       }
   }
 } // namespace

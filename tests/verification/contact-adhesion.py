@@ -27,7 +27,6 @@ for method, parts in (("GIMP", (0, 0.05, 0.95)), ("CPDI1", (0.37,)),
         result = run(scene_file("block.prm", BLOCK), {
             **QUIET, "Method/Method": method,
             "Boundaries/base/Enforcement": "augmented Lagrangian",
-            "Boundaries/base/Band width": 0.02,
             "Mesh/Lower corner": f"{-2 - a!r}, {-0.5 - a!r}",
             "Mesh/Upper corner": f"{5 - a!r}, {2 - a!r}"})
         worst = max(worst, *(abs(row["reaction_x of base"] / 20 + 1)
@@ -49,7 +48,7 @@ Bodies/ground/Shape = difference | Operands = box, hole
 Boundaries/bar/Surface = circle | Centre = 0, 0 | Radius = 0.5
 Boundaries/bar/Body side = outside | Constraint = contact
 Boundaries/bar/Translation = 0; 0.005*t | Separation = false
-Boundaries/bar/Enforcement = augmented Lagrangian | Band width = 0.02
+Boundaries/bar/Enforcement = augmented Lagrangian
 Grid conditions/axis/Side = left | Components = x
 Grid conditions/middle/Side = bottom | Components = x
 Grid conditions/right/Side = right | Components = x

@@ -114,7 +114,7 @@ make_clay(const bool cracks)
 //   not touch; along the surface it bears at most mu times the pressure. With
 //   separates = false it also pulls: the roller of step-3, with friction.
 // - *Enforcement*: passes of the augmented Lagrangian, with c_n = factor/h
-//   (lambda + 2 mu); 4/(3 0.1) is the default of scenes.
+//   (lambda + 2 mu); 4/(3 0.05) is the default of scenes.
 ContactBoundary<dim>
 make_wall(const ShapePointer<dim> &ground, const ContactLaw &law)
 {
@@ -128,7 +128,7 @@ make_wall(const ShapePointer<dim> &ground, const ContactLaw &law)
     /* centre = */ Point<dim>());
   EnforcementParameters passes;
   passes.enforcement = "augmented Lagrangian";
-  passes.band_width  = 0.1;
+  passes.band_width  = 0.05;
   return ContactBoundary<dim>(
     "wall",
     wall,

@@ -110,18 +110,6 @@ namespace moraine
     ContactGap<dim>
     gap(const ContactUnit<dim> &unit, const dealii::Tensor<1, dim> &du) const;
 
-    /** The traction @p t on a place with @p normal where the surface has the
-     * normal @p end: turned by the smallest rotation of one to the other. */
-    static dealii::Tensor<1, dim>
-    turned(const dealii::Tensor<1, dim> &t,
-           const dealii::Tensor<1, dim> &normal,
-           const dealii::Tensor<1, dim> &end);
-
-    /** @f$\nabla n@f$ where the mean place of a unit comes to by @p du. */
-    dealii::SymmetricTensor<2, dim>
-    normal_gradient(const ContactUnit<dim>       &unit,
-                    const dealii::Tensor<1, dim> &du) const;
-
     /** Distance from the surface at the end of the step of the place @p k
      * that moves by @p du; 0 if it is in front or beyond its ends. */
     double
@@ -265,10 +253,10 @@ namespace moraine
       return how;
     }
 
-    bool
-    is_curved() const
+    const MovedSurface<dim> &
+    surface_at_end() const
     {
-      return at_end.curved();
+      return at_end;
     }
 
   private:

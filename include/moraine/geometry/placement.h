@@ -159,8 +159,12 @@ namespace moraine
          const dealii::Tensor<1, dim> &from,
          const dealii::Tensor<1, dim> &to)
   {
-    const dealii::Tensor<1, dim> sum = from + to;
-    return v - (sum * v) / (1 + from * to) * sum + 2 * (from * v) * to;
+    // 1 + W + W^2/(1 + cos), W = to (x) from - from (x) to
+    const auto W = [&](const dealii::Tensor<1, dim> &w) {
+      return (from * w) * to - (to * w) * from;
+    };
+    const dealii::Tensor<1, dim> first = W(v);
+    return v + first + 1. / (1. + from * to) * W(first);
   }
 } // namespace moraine
 
