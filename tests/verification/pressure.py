@@ -111,9 +111,8 @@ sphere = scene_file("sphere.prm", "Dimension = 3", FITTED.replace(
     "vertical: 2, horizontal: 3", "vertical: 2, horizontal: 3, flat: 4").replace(
     "Loads/", "Grid conditions/flat/Side = flat | Components = z\nLoads/", 1).replace(
     "Location = 1, 0", "Location = 1, 0, 0").replace("Value = ", f"Value = {p!r} * t #"))
-for title, refinements, inner, over_all in (("8", 2, 0.05, 0.036), ("16", 3, 0.013, 0.0095)):
-    result = run(sphere, {"Mesh/Refinements": refinements, "Time/Steps": 2})
-    compare(f"sphere, elements, {title} across", result, radii, inner, over_all)
+result = run(sphere, {"Mesh/Refinements": 2, "Time/Steps": 2})
+compare("sphere, elements, 8 across", result, radii, 0.05, 0.036)
 
 # A strip held by its middle plane at both ends becomes an arc: p R = T on its inside,
 # with the stretch f/sin f, and -p/2 across it in the mean.
