@@ -34,6 +34,10 @@ namespace moraine
      * else holds the body. */
     constexpr double touches_soon = 0.1;
 
+    /** Of the size of a cell: what is further away than the nearest piece by
+     * this comes to the surface with it, as the side of a block does. */
+    constexpr double as_near = 1e-2;
+
     /** Of the size of a cell: a gap at the start that is none. */
     constexpr double touching = 1e-6;
 
@@ -183,20 +187,16 @@ namespace moraine
     gather_units(space);
     merge_small_units();
     set_means();
-    double least    = touches_soon * space.mesh().cell_size();
-    auto   of_least = all_units.end();
-    for (auto unit = all_units.begin(); unit != all_units.end(); ++unit)
-      {
-        unit->touches_first = false;
-        const double gap    = unit->level + at_start.level(unit->x);
-        if (gap < least)
-          {
-            least    = gap;
-            of_least = unit;
-          }
-      }
-    if (least > 0 && of_least != all_units.end())
-      of_least->touches_first = true;
+    const double h      = space.mesh().cell_size();
+    const auto   gap_of = [this](const ContactUnit<dim> &unit) {
+      return unit.level + at_start.level(unit.x);
+    };
+    double least = touches_soon * h;
+    for (const ContactUnit<dim> &unit : all_units)
+      least = std::min(least, gap_of(unit));
+    for (ContactUnit<dim> &unit : all_units)
+      unit.touches_first = least > 0 && least < touches_soon * h &&
+                           gap_of(unit) <= least + as_near * h;
     keep_gaps();
   }
 

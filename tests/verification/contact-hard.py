@@ -204,3 +204,19 @@ result = run(PUSHED, {"Loads/push/Value": "10*max(0, min(1, 4*(t - 1))); 0",
                       "Method/Return tolerance": 1, "Stages/pushed/Time/Steps": 44,
                       "Stages/pushed/Time/End time": 3.2, **QUIET}, expect=None)
 text("pushed out of the mesh", re.sub(r"\(.*\)", "(...)", result.summary["message"]))
+
+# Drawn a little above the floor, which alone holds it.
+result = run(scene_file("above.prm", """
+Dimension = 2
+Mesh/Lower corner = -0.5, -0.5 | Upper corner = 2.5, 2.5 | Cell size = 0.5
+Materials/soil/Young modulus = 1e4 | Poisson ratio = 0.3
+Bodies/block/Lower corner = 0, 0.02 | Upper corner = 2, 2
+Boundaries/floor/Points = -1 0; 3 0 | Constraint = contact | Friction = 0.4
+Loads/weight/Type = body force | Value = 0.1; -1
+Time/Steps = 2
+"""), QUIET)
+row = result.history()[-1]
+bound("drawn above the floor: force over weight - 1",
+      row["reaction_y of floor"] / 3.96 - 1, 1e-8)
+bound("friction over its weight along the floor - 1",
+      row["reaction_x of floor"] / -0.396 - 1, 1e-8)

@@ -51,7 +51,7 @@ namespace moraine
     dealii::Tensor<1, dim> multiplier; ///< t of the present pass
     bool                   was_open = false;
     bool apart = false; ///< Its places are in front of the surface, and were.
-    /** Nothing touches the surface yet, and this is nearest to it. */
+    /** Nothing touches the surface yet, and a step may bring this to it. */
     bool touches_first = false;
   };
 
