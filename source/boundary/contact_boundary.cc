@@ -34,8 +34,8 @@ namespace moraine
      * else holds the body. */
     constexpr double touches_soon = 0.1;
 
-    /** Of the size of a cell: what is further away than the nearest piece by
-     * this comes to the surface with it, as the side of a block does. */
+    /** Of the size of a cell: pieces that are this much further away than the
+     * nearest one come to the surface with it: the whole side of a block. */
     constexpr double as_near = 1e-2;
 
     /** Of the size of a cell: a gap at the start that is none. */

@@ -41,7 +41,7 @@ namespace moraine
 
 
 
-    /** What counts of a place that no body is at. */
+    /** The share of its area that a place without a body counts with. */
     constexpr double area_without_body = 1e-6;
 
 
@@ -343,7 +343,7 @@ namespace moraine
                           points);
     finder.find();
     body.stop_asking();
-    // Away from all bodies it holds what its cells have of them.
+    // A surface away from all bodies holds the material in its cells.
     if (!Utilities::MPI::logical_or(!points.empty(), space.communicator()))
       finder.find();
     const unsigned int n = functions.n_nodes = space.nodes_per_cell();

@@ -215,7 +215,7 @@ set_tractions_at_rest(const double K0, ContactBoundary<dim> &wall)
 
 // @sect3{The wall gives way}
 //
-// What the wall does to the ground: force, and the height over which they
+// The force of the wall on the ground, and the height over which they
 // touch.
 struct Reading
 {

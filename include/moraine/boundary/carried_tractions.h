@@ -16,7 +16,7 @@
 
 namespace moraine
 {
-  /** What a place of a surface carries from step to step. */
+  /** The state of a place of a surface, kept from step to step. */
   template <int dim>
   struct CarriedPlace
   {
@@ -42,8 +42,8 @@ namespace moraine
     }
   };
 
-  /** What the places of a surface on this rank carry: of the last accepted
-   * step, and of the trial. */
+  /** The state of the places of a surface on this rank: after the last accepted
+   * step, and after the trial. */
   template <int dim>
   class CarriedTractions
   {

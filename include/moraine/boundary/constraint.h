@@ -12,7 +12,7 @@
 
 namespace moraine
 {
-  /** What a surface constrains, @f$M (u - g) = 0@f$. */
+  /** The constraint of a surface, @f$M (u - g) = 0@f$. */
   template <int dim>
   struct Constraint
   {

@@ -84,10 +84,9 @@ namespace moraine
       return w_constrained != 0 || w_free != 0;
     }
 
-    /** What holds slopes: a spring of the shear modulus alone, as with the
-     * other one, of material that keeps its volume, every place would be held.
-     * Of it
-     * @p share acts. */
+    /** The spring that holds slopes. It has the shear modulus alone: with
+     * lambda, material that keeps its volume would be held at every place. @p
+     * share of the spring acts. */
     Enforcement
     of_slopes(const double share) const
     {

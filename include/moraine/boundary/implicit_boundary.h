@@ -70,8 +70,8 @@ namespace moraine
    * through the cells, that adds up; there slopes() are held too, by a penalty,
    * but for rollers on curves and around bends.
    *
-   * Three parts do the work: SurfaceCut finds where, Constraint says what is
-   * held, CarriedTractions goes from step to step.
+   * Its parts: SurfaceCut finds the places, Constraint is the law,
+   * CarriedTractions keeps the state from step to step.
    *
    * A roller on a curved wall asks that the surface points end on the wall,
    * @f$\phi_{n+1}(x + \Delta u) = \phi_n(x)@f$, if the points move at all;
@@ -329,7 +329,7 @@ namespace moraine
       return &cut.functions.gradients[q * cut.functions.n_nodes];
     }
 
-    /** Of these functions, what slope @p k has. */
+    /** The slopes of these functions along the piece of slope @p k. */
     const double *
     slope_of_N(const unsigned int k) const
     {

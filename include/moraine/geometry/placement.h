@@ -151,8 +151,8 @@ namespace moraine
     dealii::Tensor<1, dim> axis;
   };
 
-  /** What the least rotation that turns one unit vector to another makes of
-   * @p v. */
+  /** @p v, rotated by the smallest rotation that turns the unit vector @p from
+   * to @p to. */
   template <int dim>
   dealii::Tensor<1, dim>
   turned(const dealii::Tensor<1, dim> &v,

@@ -45,8 +45,8 @@ namespace moraine
     bool                at_start = false; ///< x of value is that of the start
   };
 
-  /** What a pressure p(x, t) does: its force is @f$-p\,n\,da@f$ with n out of
-   * the body. */
+  /** A pressure p(x, t). Its force is @f$-p\,n\,da@f$, n pointing out of the
+   * body. */
   template <int dim>
   struct Pressure
   {
