@@ -71,7 +71,10 @@ namespace moraine
         return false;
       }
     boundary.find_units(space);
-    find_local_units(context);
+    const CellFluxes<dim> fluxes = find_fluxes(context);
+    if (boundary.enforcement().has_flux())
+      start_from(fluxes, context);
+    find_local_units(context, fluxes);
     find_stiffness(context);
     std::vector<std::vector<unsigned int>> coupled;
     for (const LocalUnit &unit : local_units)
@@ -129,6 +132,7 @@ namespace moraine
     trial.gap = boundary.gap(unit, trial.du);
     trial.multiplier =
       turned<dim>(unit.multiplier, unit.normal, trial.gap.normal);
+    trial.excess = turned<dim>(unit.excess, unit.normal, trial.gap.normal);
     const Tensor<1, dim> traction =
       trial.multiplier + trial.flux +
       local.c_n * trial.gap.gap * trial.gap.normal - local.c_t * trial.gap.slip;
@@ -138,12 +142,32 @@ namespace moraine
                                              no_tension * local.c_n * unit.h);
     if (trial.du.norm_square() > 0.)
       return trial;
-    // The traction at the start of the step; a further pass would change it.
-    if (context.motion && context.t_end == context.t_start)
-      trial.response.traction = trial.multiplier;
-    else if (nothing_moved)
+    if (nothing_moved)
       linearise(traction, local, trial);
+    // A surface that has not moved yet changes no traction.
+    if (context.t_end == context.t_start)
+      trial.response.traction = context.motion ?
+                                  trial.multiplier :
+                                  response_at_start(local, trial).traction;
     return trial;
+  }
+
+
+
+  template <int dim>
+  ContactResponse<dim>
+  ContactTerm<dim>::response_at_start(const LocalUnit &local,
+                                      const Trial     &trial) const
+  {
+    const ContactUnit<dim> &unit     = boundary.units()[local.number];
+    Tensor<1, dim>          traction = trial.multiplier;
+    // Nitsche's method holds by a part of the gap, which is no force to come.
+    if (boundary.enforcement().has_flux())
+      traction += local.c_n * std::min(unit.gap, 0.) * trial.gap.normal;
+    return boundary.law().response(traction,
+                                   trial.gap.normal,
+                                   unit.was_open,
+                                   no_tension * local.c_n * unit.h);
   }
 
 
@@ -166,18 +190,12 @@ namespace moraine
     if (unit.was_open)
       return;
     const Tensor<1, dim> &n     = trial.gap.normal;
-    response                    = boundary.law().response(trial.multiplier,
-                                       n,
-                                       unit.was_open,
-                                       no_tension * local.c_n * unit.h);
-    const Tensor<1, dim> change = traction - trial.multiplier;
-    const Tensor<1, dim> sheared =
-      trial.multiplier - (trial.multiplier * n) * n;
+    response                    = response_at_start(local, trial);
+    const Tensor<1, dim> start  = response.traction;
+    const Tensor<1, dim> change = traction - start;
     if (boundary.law().rubs() && response.status == ContactStatus::slip &&
-        sheared * change < 0.)
-      response = {trial.multiplier,
-                  unit_symmetric_tensor<dim>(),
-                  ContactStatus::stick};
+        (start - (start * n) * n) * change < 0.)
+      response = {start, unit_symmetric_tensor<dim>(), ContactStatus::stick};
     response.traction += response.derivative * change;
   }
 
@@ -213,9 +231,12 @@ namespace moraine
             const ContactUnit<dim>  &at      = boundary.units()[unit.number];
             const MovedSurface<dim> &surface = boundary.surface_at_end();
             if (surface.curved())
-              stiffness -=
-                (t * n) *
-                Tensor<2, dim>(surface.normal_gradient(at.x + now.du, at.h));
+              {
+                const Tensor<2, dim> turn =
+                  surface.normal_gradient(at.x + now.du, at.h);
+                stiffness -= (t * n) * turn;
+                stiffness += outer_product(n, (t - (t * n) * n) * turn);
+              }
           }
         local.add_force(unit.N.data(), weight * unit.area * t);
         if (tangent)
@@ -246,8 +267,8 @@ namespace moraine
     const Tensor<2, dim>  C       = unit.c_n * nn + unit.c_t * (one - nn);
     const Tensor<2, dim>  C_1 = 1. / unit.c_n * nn + 1. / unit.c_t * (one - nn);
     const Tensor<2, dim> &DP  = trial.response.derivative;
-    const Tensor<1, dim>  missing =
-      C_1 * (trial.multiplier + trial.flux - trial.response.traction);
+    const Tensor<1, dim>  missing = C_1 * (trial.multiplier - trial.excess +
+                                          trial.flux - trial.response.traction);
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
         const Tensor<2, dim> f_a   = transpose(unit.fluxes[a]);
@@ -416,7 +437,7 @@ namespace moraine
     const GridSpace<dim>  &space  = state.grid();
     const auto            &motion = boundary.rigid_motion();
     const Placement<dim>   pose   = motion.pose(context.t_end);
-    constexpr unsigned int n      = dim + 5;
+    constexpr unsigned int n      = 2 * dim + 5;
     std::vector<double>    sums(n * boundary.units().size(), 0.);
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
     prepared.contact.emplace();
@@ -427,9 +448,14 @@ namespace moraine
         const auto           &of  = boundary.units()[unit.number];
         const double          slip =
           now.response.status == ContactStatus::slip ? now.gap.slip.norm() : 0.;
-        double *sum = &sums[n * unit.number];
+        double              *sum = &sums[n * unit.number];
+        const Tensor<1, dim> excess =
+          t - now.multiplier + now.excess - now.flux;
         for (unsigned int d = 0; d < dim; ++d)
-          sum[d] += unit.area * t[d];
+          {
+            sum[d] += unit.area * t[d];
+            sum[dim + 5 + d] += unit.area * excess[d];
+          }
         sum[dim + unsigned(now.response.status)] += unit.area;
         sum[dim + 3] += unit.area * slip;
         sum[dim + 4] += slip > 0. ? unit.area * (t * now.gap.slip) : 0.;
@@ -447,7 +473,10 @@ namespace moraine
         const double *status = sum + dim;
         const double  area   = status[0] + status[1] + status[2];
         for (unsigned int d = 0; d < dim; ++d)
-          of_units[u].traction[d] = sum[d] / area;
+          {
+            of_units[u].traction[d] = sum[d] / area;
+            of_units[u].excess[d]   = sum[dim + 5 + d] / area;
+          }
         of_units[u].status = static_cast<ContactStatus>(
           std::max_element(status, status + 3) - status);
         of_units[u].slip = sum[dim + 3] / area;

@@ -72,8 +72,56 @@ namespace moraine
 
 
   template <int dim>
+  CellFluxes<dim>
+  ContactTerm<dim>::find_fluxes(const StepContext<dim> &context) const
+  {
+    if (!boundary.enforcement().has_flux())
+      return {};
+    const auto               &places = boundary.places_of_rim().places();
+    std::vector<unsigned int> cells;
+    for (const ContactUnit<dim> &unit : boundary.units())
+      for (const unsigned int k : unit.places)
+        if (places[k].active_cell_index != GridSpace<dim>::no_cell)
+          cells.push_back(places[k].active_cell_index);
+    return fluxes_in_cells(context, cells);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::start_from(const CellFluxes<dim>  &fluxes,
+                               const StepContext<dim> &context)
+  {
+    const auto         &places = boundary.places_of_rim().places();
+    const auto         &units  = boundary.units();
+    std::vector<double> sums(dim * units.size(), 0.);
+    for (unsigned int u = 0; u < units.size(); ++u)
+      for (const unsigned int k : units[u].places)
+        if (places[k].active_cell_index != GridSpace<dim>::no_cell)
+          {
+            const CellFlux<dim> &flux = fluxes.at(places[k].active_cell_index);
+            const ContactPlace<dim> &carried = boundary.at_place(k);
+            const Tensor<1, dim>     traction =
+              flux.volume > 0 ? flux.stress * units[u].normal / flux.volume :
+                                    carried.traction - carried.excess;
+            for (unsigned int d = 0; d < dim; ++d)
+              sums[dim * u + d] +=
+                places[k].weight / units[u].area * traction[d];
+          }
+    Utilities::MPI::sum(sums, context.state.grid().communicator(), sums);
+    std::vector<Tensor<1, dim>> tractions(units.size());
+    for (unsigned int u = 0; u < units.size(); ++u)
+      std::copy_n(&sums[dim * u], dim, tractions[u].begin_raw());
+    boundary.set_fluxes(tractions);
+  }
+
+
+
+  template <int dim>
   std::vector<ContactEntry<dim>>
-  ContactTerm<dim>::entries_of_this_rank(const StepContext<dim> &context) const
+  ContactTerm<dim>::entries_of_this_rank(const StepContext<dim> &context,
+                                         const CellFluxes<dim>  &fluxes) const
   {
     const GridSpace<dim> &space  = context.state.grid();
     const Basis<dim>     &basis  = context.state.point_basis();
@@ -92,34 +140,52 @@ namespace moraine
       context.state.mesh_after_step() == MeshAfterStep::reset ?
         basis.functions_at(near) :
         basis.functions_of_cells(near);
-    const unsigned int          n        = space.nodes_per_cell();
-    const bool                  has_flux = boundary.enforcement().has_flux();
-    std::vector<double>         values(n);
-    std::vector<Tensor<1, dim>> gradients(n);
+    const unsigned int n = space.nodes_per_cell();
     std::map<std::pair<unsigned int, types::global_dof_index>,
              ContactEntry<dim>>
-      sums;
+               sums;
+    const auto sum_of = [&](const unsigned int k,
+                            const unsigned int node) -> ContactEntry<dim> & {
+      const auto         dof = space.node_dof(node);
+      ContactEntry<dim> &sum = sums[{unit_of[k], dof}];
+      sum.unit               = unit_of[k];
+      sum.dof                = dof;
+      return sum;
+    };
+    const auto has_points = [&](const unsigned int cell) {
+      const auto flux = fluxes.find(cell);
+      return flux == fluxes.end() || flux->second.volume > 0;
+    };
     for (unsigned int i = 0; i < functions.places.size(); ++i)
       {
         const unsigned int  k     = functions.places[i];
         const unsigned int *nodes = space.cell_nodes(functions.cells[i]);
-        if (has_flux)
-          evaluate_shapes(space,
-                          functions.cells[i],
-                          near[k].in_mesh,
-                          values.data(),
-                          gradients.data());
+        const bool          own   = !has_points(near[k].active_cell_index);
         for (unsigned int a = 0; a < n; ++a)
-          if (has_flux || functions.N[n * i + a] != 0.)
+          if (functions.N[n * i + a] != 0. || own)
             {
-              const auto         dof = space.node_dof(nodes[a]);
-              ContactEntry<dim> &sum = sums[{unit_of[k], dof}];
-              sum.unit               = unit_of[k];
-              sum.dof                = dof;
+              ContactEntry<dim> &sum = sum_of(k, nodes[a]);
               sum.N += near[k].weight * functions.N[n * i + a];
-              sum.grad_N += near[k].weight * gradients[a];
+              if (!own)
+                continue;
+              const Tensor<1, dim> g =
+                near[k].weight * functions.grad_N[n * i + a];
+              sum.gradients.own += g;
+              sum.gradients.mean += g;
             }
       }
+    for (unsigned int k = 0; k < near.size() && !fluxes.empty(); ++k)
+      if (near[k].active_cell_index != GridSpace<dim>::no_cell)
+        {
+          const CellFlux<dim> &flux = fluxes.at(near[k].active_cell_index);
+          for (const auto &[node, gradients] : flux.gradients)
+            {
+              ContactEntry<dim> &sum = sum_of(k, node);
+              sum.gradients.own += near[k].weight / flux.volume * gradients.own;
+              sum.gradients.mean +=
+                near[k].weight / flux.volume * gradients.mean;
+            }
+        }
     std::vector<ContactEntry<dim>> entries;
     for (const auto &[where, sum] : sums)
       entries.push_back(sum);
@@ -130,7 +196,8 @@ namespace moraine
 
   template <int dim>
   void
-  ContactTerm<dim>::find_local_units(const StepContext<dim> &context)
+  ContactTerm<dim>::find_local_units(const StepContext<dim> &context,
+                                     const CellFluxes<dim>  &fluxes)
   {
     const GridSpace<dim> &space        = context.state.grid();
     const MPI_Comm        communicator = space.communicator();
@@ -139,7 +206,8 @@ namespace moraine
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const auto         of_ranks =
-      Utilities::MPI::all_gather(communicator, entries_of_this_rank(context));
+      Utilities::MPI::all_gather(communicator,
+                                 entries_of_this_rank(context, fluxes));
     const auto                nodes = nodes_of_units(space, of_ranks);
     std::vector<unsigned int> claims(units.size(), 1 + rank);
     for (unsigned int u = 0; u < units.size(); ++u)
@@ -161,7 +229,8 @@ namespace moraine
           {
             ContactEntry<dim> &sum = of[entry.unit][nodes.at(entry.dof)];
             sum.N += entry.N;
-            sum.grad_N += entry.grad_N;
+            sum.gradients.own += entry.gradients.own;
+            sum.gradients.mean += entry.gradients.mean;
           }
     local_units.clear();
     tangents.clear();
@@ -177,7 +246,8 @@ namespace moraine
             unit.nodes.push_back(node);
             unit.N.push_back(sum.N / unit.area);
             if (boundary.enforcement().has_flux())
-              unit.grad_N.push_back(sum.grad_N / unit.area);
+              unit.gradients.push_back({sum.gradients.own / unit.area,
+                                        sum.gradients.mean / unit.area});
           }
         local_units.push_back(unit);
       }
@@ -196,8 +266,7 @@ namespace moraine
         {
           const LameConstants &C =
             context.cell_materials.elastic_stiffness(units[u].cell);
-          // Cells with one change of volume cannot follow it at all places.
-          moduli[2 * u]     = context.state.averages_volume() ? 0. : C.lambda;
+          moduli[2 * u]     = C.lambda;
           moduli[2 * u + 1] = C.mu;
         }
     Utilities::MPI::max(moduli, context.state.grid().communicator(), moduli);
@@ -207,12 +276,14 @@ namespace moraine
                      mu     = moduli[2 * unit.number + 1];
         const double c3 =
           boundary.enforcement().stiffness_factor / units[unit.number].h;
-        unit.c_n                = c3 * (lambda + 2 * mu);
+        // Cells with one change of volume cannot follow it at all places.
+        unit.c_n =
+          c3 * ((context.state.averages_volume() ? 0. : lambda) + 2 * mu);
         unit.c_t                = c3 * mu;
         const Tensor<1, dim> &n = units[unit.number].normal;
-        for (const Tensor<1, dim> &g : unit.grad_N)
+        for (const auto &[g, mean] : unit.gradients)
           unit.fluxes.push_back(
-            lambda * outer_product(n, g) +
+            outer_product(n, lambda * mean + 2. * mu / dim * (mean - g)) +
             mu * ((g * n) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
                   outer_product(g, n)));
       }
@@ -220,11 +291,16 @@ namespace moraine
 
 
 
-#define INSTANTIATE(dim)                                                      \
-  template bool ContactTerm<dim>::owns(const ContactUnit<dim> &) const;       \
-  template bool ContactTerm<dim>::is_in_its_cell(const GridSpace<dim> &,      \
-                                                 const LocalUnit &) const;    \
-  template void ContactTerm<dim>::find_local_units(const StepContext<dim> &); \
+#define INSTANTIATE(dim)                                                     \
+  template bool ContactTerm<dim>::owns(const ContactUnit<dim> &) const;      \
+  template bool ContactTerm<dim>::is_in_its_cell(const GridSpace<dim> &,     \
+                                                 const LocalUnit &) const;   \
+  template CellFluxes<dim> ContactTerm<dim>::find_fluxes(                    \
+    const StepContext<dim> &) const;                                         \
+  template void ContactTerm<dim>::start_from(const CellFluxes<dim> &,        \
+                                             const StepContext<dim> &);      \
+  template void ContactTerm<dim>::find_local_units(const StepContext<dim> &, \
+                                                   const CellFluxes<dim> &); \
   template void ContactTerm<dim>::find_stiffness(const StepContext<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

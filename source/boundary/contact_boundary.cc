@@ -115,8 +115,8 @@ namespace moraine
           nearest.normal * rim.places()[k].normal > cosine_of_contact;
         carried[k].status = touches ? 1 : 0;
       }
-    began = acts && !acted;
-    acted = acts;
+    began    = acts && !acted;
+    acts_now = acts;
     all_units.clear();
   }
 
@@ -170,11 +170,12 @@ namespace moraine
         if (began || unit.was_open ||
             unit.traction_at_start == Tensor<1, dim>())
           continue;
-        const double gap = unit.level + at_start.level(unit.x);
         const double kept =
-          std::min(std::abs(gap) - taken_out * unit.h, most_kept * unit.h);
-        if (kept > 0.)
-          unit.level -= std::copysign(kept, gap);
+          std::min(std::abs(unit.gap) - taken_out * unit.h, most_kept * unit.h);
+        if (kept <= 0.)
+          continue;
+        unit.level -= std::copysign(kept, unit.gap);
+        unit.gap -= std::copysign(kept, unit.gap);
       }
   }
 
@@ -187,16 +188,13 @@ namespace moraine
     gather_units(space);
     merge_small_units();
     set_means();
-    const double h      = space.mesh().cell_size();
-    const auto   gap_of = [this](const ContactUnit<dim> &unit) {
-      return unit.level + at_start.level(unit.x);
-    };
-    double least = touches_soon * h;
+    const double h     = space.mesh().cell_size();
+    double       least = touches_soon * h;
     for (const ContactUnit<dim> &unit : all_units)
-      least = std::min(least, gap_of(unit));
+      least = std::min(least, unit.gap);
     for (ContactUnit<dim> &unit : all_units)
       unit.touches_first = least > 0 && least < touches_soon * h &&
-                           gap_of(unit) <= least + as_near * h;
+                           unit.gap <= least + as_near * h;
     keep_gaps();
   }
 
@@ -282,10 +280,10 @@ namespace moraine
     for (ContactUnit<dim> &unit : all_units)
       {
         std::sort(unit.places.begin(), unit.places.end());
-        unit.area = unit.level = 0;
-        unit.x                 = Point<dim>();
-        unit.normal = unit.traction_at_start = Tensor<1, dim>();
-        double open                          = 0;
+        unit.area = unit.gap = 0;
+        unit.x               = Point<dim>();
+        unit.normal = unit.traction_at_start = unit.excess = Tensor<1, dim>();
+        double open                                        = 0;
         for (const unsigned int k : unit.places)
           unit.area += rim.places()[k].weight;
         for (const unsigned int k : unit.places)
@@ -293,13 +291,14 @@ namespace moraine
             const double            share = rim.places()[k].weight / unit.area;
             const NearestPoint<dim> nearest = at_start.nearest(position(k));
             unit.x += share * Tensor<1, dim>(position(k));
-            unit.level += share * nearest.level;
+            unit.gap += share * nearest.level;
             unit.normal += share * nearest.normal;
             unit.traction_at_start += share * carried[k].traction;
+            unit.excess += share * carried[k].excess;
             open += carried[k].status == 0 ? share : 0.;
           }
         unit.normal /= unit.normal.norm();
-        unit.level -= at_start.level(unit.x);
+        unit.level      = unit.gap - at_start.level(unit.x);
         unit.was_open   = open > 0.5;
         unit.multiplier = unit.traction_at_start;
       }
@@ -412,6 +411,21 @@ namespace moraine
 
   template <int dim>
   void
+  ContactBoundary<dim>::set_fluxes(const std::vector<Tensor<1, dim>> &fluxes)
+  {
+    AssertDimension(fluxes.size(), all_units.size());
+    for (unsigned int u = 0; u < all_units.size(); ++u)
+      {
+        ContactUnit<dim> &unit = all_units[u];
+        unit.excess -= (unit.excess * unit.normal) * unit.normal;
+        unit.traction_at_start = unit.multiplier = fluxes[u] + unit.excess;
+      }
+  }
+
+
+
+  template <int dim>
+  void
   ContactBoundary<dim>::set_multipliers(
     const std::vector<Tensor<1, dim>> &multipliers)
   {
@@ -436,13 +450,14 @@ namespace moraine
     // Away from the surface a place carries no traction.
     for (ContactPlace<dim> &place : prepared)
       {
-        place.traction = Tensor<1, dim>();
-        place.status   = 0;
+        place.traction = place.excess = Tensor<1, dim>();
+        place.status                  = 0;
       }
     for (unsigned int u = 0; u < all_units.size(); ++u)
       for (const unsigned int k : all_units[u].places)
         {
           prepared[k].traction = of_units[u].traction;
+          prepared[k].excess   = of_units[u].excess;
           prepared[k].status   = unsigned(of_units[u].status);
           prepared[k].slip += of_units[u].slip;
           prepared[k].work += of_units[u].work;
@@ -490,6 +505,10 @@ namespace moraine
                   components_of(carried, &Of::traction),
                   dim,
                   "stress");
+    archive.write(group() + "/excess",
+                  components_of(carried, &Of::excess),
+                  dim,
+                  "stress");
     archive.write(group() + "/displacement",
                   components_of(carried, &Of::displacement),
                   dim,
@@ -529,6 +548,7 @@ namespace moraine
                      member);
     };
     read("traction", &Of::traction, dim);
+    read("excess", &Of::excess, dim);
     read("displacement", &Of::displacement, dim);
     read("slip", &Of::slip, 1);
     read("work", &Of::work, 1);

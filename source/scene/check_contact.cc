@@ -38,9 +38,7 @@ namespace moraine
              "'contact'");
     // The flux is that of displacements of a step, which have their own change
     // of volume at each place.
-    if (touches && has_flux &&
-        (scene.method.strain_measure() != StrainMeasure::small ||
-         scene.method.averages_volume() || scene.is_dynamic()))
+    if (touches && has_flux && scene.is_dynamic())
       reject(
         section,
         "Enforcement",

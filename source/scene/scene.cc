@@ -227,10 +227,8 @@ namespace moraine
     if (method.volumetric_strain == "auto")
       choose_volumetric_strain(given);
     choose_gauss_points(given, any_yields);
-    const bool has_flux = !is_dynamic() && !any_yields && !water_differs &&
-                          !method.averages_volume() &&
-                          linear_solver.solver != "amg-cg" &&
-                          method.strain_measure() == StrainMeasure::small;
+    const bool has_flux =
+      !is_dynamic() && !water_differs && linear_solver.solver != "amg-cg";
     choose_enforcement_of_contact(has_flux ? "skew Nitsche" :
                                              "augmented Lagrangian",
                                   input);

@@ -4,6 +4,7 @@
 #ifndef moraine_assembly_contact_term_h
 #define moraine_assembly_contact_term_h
 
+#include <moraine/assembly/contact_flux.h>
 #include <moraine/assembly/term.h>
 #include <moraine/boundary/contact_boundary.h>
 
@@ -11,21 +12,22 @@
 
 namespace moraine
 {
-  /** Function and gradient of a node, integrated over a unit of contact, or the
-   * part of it on one rank. */
+  /** Function of a node and gradients of CellFlux, integrated over a unit of
+   * contact, or the part of it on one rank. */
   template <int dim>
   struct ContactEntry
   {
     unsigned int                    unit;
     dealii::types::global_dof_index dof; ///< first of a node
-    double                          N      = 0;
-    dealii::Tensor<1, dim>          grad_N = {}; ///< if there is a flux
+    double                          N = 0;
+    /** If there is a flux. */
+    typename CellFlux<dim>::Gradients gradients = {};
 
     template <class BoostArchive>
     void
     serialize(BoostArchive &archive, const unsigned int)
     {
-      archive &unit &dof &N &grad_N;
+      archive &unit &dof &N &gradients.own &gradients.mean;
     }
   };
 
@@ -42,12 +44,15 @@ namespace moraine
    * Lagrangian). Its tangent @f$|\Gamma_u|\, \bar N_a\, DP\, C \bar N_b@f$ is
    * unsymmetric in slip.
    *
-   * Nitsche's method (s = -1, skew) has no passes: t is the traction of the
-   * last step, the trial traction has the mean flux of the step's
-   * displacements,
+   * Nitsche's method (s = -1, skew) has no passes. Its t is the traction of the
+   * stress in the cells of the unit at the start of the step,
+   * @f$t = \bar\sigma n - c_t\, s_e@f$ with the slip @f$s_e@f$ since the
+   * places stuck; the trial traction has the flux of the step's displacements,
    * @f$f = \sum_b f_b u_b@f$, and to the forces comes
-   * @f$|\Gamma_u|\, s\, f_a^T C^{-1} (t + f - \tau)@f$ (Chouly, Hild and Renard
-   * 2015; there at places, here of means).
+   * @f$|\Gamma_u|\, s\, f_a^T C^{-1} (\bar\sigma n + f - \tau)@f$ (Chouly, Hild
+   * and Renard 2015; there at places, here of means). The flux is elastic:
+   * where material yields, the gap is off by the difference over c_n until the
+   * next step.
    */
   template <int dim>
   class ContactTerm : public ConstraintTerm<dim>
@@ -159,8 +164,8 @@ namespace moraine
       std::vector<double>       N; ///< means
       double                    c_n, c_t;
       /** Flux of the unit displacements of nodes: @f$f_b@f$; or none. */
-      std::vector<dealii::Tensor<2, dim>> fluxes;
-      std::vector<dealii::Tensor<1, dim>> grad_N; ///< means; or none
+      std::vector<dealii::Tensor<2, dim>>            fluxes;
+      std::vector<typename CellFlux<dim>::Gradients> gradients; ///< means
     };
 
     /** A unit in the trial state. */
@@ -169,6 +174,7 @@ namespace moraine
       dealii::Tensor<1, dim> du;
       ContactGap<dim>        gap;
       dealii::Tensor<1, dim> multiplier; ///< t, turned with the normal
+      dealii::Tensor<1, dim> excess;     ///< in it, of shear
       dealii::Tensor<1, dim> flux;       ///< f
       ContactResponse<dim>   response;
     };
@@ -182,11 +188,22 @@ namespace moraine
     is_in_its_cell(const GridSpace<dim> &space, const LocalUnit &unit) const;
 
     std::vector<ContactEntry<dim>>
-    entries_of_this_rank(const StepContext<dim> &context) const;
+    entries_of_this_rank(const StepContext<dim> &context,
+                         const CellFluxes<dim>  &fluxes) const;
+
+    /** Of the cells of units of this rank, if there is a flux. */
+    CellFluxes<dim>
+    find_fluxes(const StepContext<dim> &context) const;
+
+    /** Let the step begin with the tractions of @p fluxes; without points in a
+     * cell, with the traction that is carried there. Collective. */
+    void
+    start_from(const CellFluxes<dim> &fluxes, const StepContext<dim> &context);
 
     /** Find the functions of units. Collective. */
     void
-    find_local_units(const StepContext<dim> &context);
+    find_local_units(const StepContext<dim> &context,
+                     const CellFluxes<dim>  &fluxes);
 
     void
     find_stiffness(const StepContext<dim> &context);
@@ -200,6 +217,10 @@ namespace moraine
              const Trial      &trial,
              const bool        tangent,
              LocalSystem<dim> &local) const;
+
+    /** The response at the start of the step. */
+    ContactResponse<dim>
+    response_at_start(const LocalUnit &local, const Trial &trial) const;
 
     /**
      * The response where nothing has moved yet, linearised about the start of

@@ -93,6 +93,13 @@ namespace moraine
               batches[batch].n_nodes};
     }
 
+    /** The first point of a batch; all its points are in one cell. */
+    unsigned int
+    first_point_of(const unsigned int batch) const
+    {
+      return order[batches[batch].first_point];
+    }
+
     /** Fill @p block with the stencils of batch @p batch. */
     virtual void
     evaluate(const unsigned int batch, StencilBlock<dim> &block) const = 0;

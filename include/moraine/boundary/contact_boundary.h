@@ -22,6 +22,9 @@ namespace moraine
   struct ContactPlace
   {
     dealii::Tensor<1, dim> traction; ///< on the body [stress]
+    /** Of Nitsche's method: what the shear traction has over that of the stress
+     * beside it, @f$-c_t@f$ times the slip since the place stuck [stress]. */
+    dealii::Tensor<1, dim> excess;
     /** Since the contact began, where places stay in the mesh. */
     dealii::Tensor<1, dim> displacement;
     double                 slip   = 0; ///< path along the surface [length]
@@ -45,9 +48,12 @@ namespace moraine
     double                    area = 0; ///< of the rim
     unsigned int              cell = 0; ///< of the first place
     double                    h    = 0; ///< size of that cell
-    /** Mean gap at the start less the level of the surface at @p x. */
+    double                    gap  = 0; ///< mean, at the start of the step
+    /** Mean gap at the start minus the level of the surface at @p x; not zero
+     * on curved surfaces. */
     double                 level = 0;
     dealii::Tensor<1, dim> traction_at_start;
+    dealii::Tensor<1, dim> excess;     ///< mean, at the start
     dealii::Tensor<1, dim> multiplier; ///< t of the present pass
     bool                   was_open = false;
     bool apart = false; ///< Its places are in front of the surface, and were.
@@ -118,7 +124,7 @@ namespace moraine
     /** Result of a step for a unit; all its places take it over. */
     struct OfUnit
     {
-      dealii::Tensor<1, dim> traction;
+      dealii::Tensor<1, dim> traction, excess;
       ContactStatus          status = ContactStatus::open;
       double                 slip   = 0; ///< of the step
       double                 work   = 0; ///< of friction in it, per area
@@ -198,6 +204,7 @@ namespace moraine
     {
       std::swap(carried, prepared);
       rim.move();
+      acted = acts_now;
     }
 
     void
@@ -242,6 +249,11 @@ namespace moraine
     {
       return all_units;
     }
+
+    /** Let steps begin with these tractions of the stress beside units, and the
+     * excess of the shear traction. */
+    void
+    set_fluxes(const std::vector<dealii::Tensor<1, dim>> &fluxes);
 
     /** Take the multipliers of the next pass. */
     void
@@ -301,9 +313,10 @@ namespace moraine
     CarriedPlaces<dim>             rim{{}};
     std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
     std::vector<ContactUnit<dim>>  all_units;
-    std::vector<bool>              has_rim;       ///< bodies with places
-    bool                           acted = false; ///< in the last step
-    bool                           began = false; ///< to act in this step
+    std::vector<bool>              has_rim;          ///< bodies with places
+    bool                           acted    = false; ///< in the last step
+    bool                           acts_now = false; ///< in this one
+    bool                           began    = false; ///< to act in it
   };
 } // namespace moraine
 
