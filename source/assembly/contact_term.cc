@@ -132,7 +132,6 @@ namespace moraine
     trial.gap = boundary.gap(unit, trial.du);
     trial.multiplier =
       turned<dim>(unit.multiplier, unit.normal, trial.gap.normal);
-    trial.excess = turned<dim>(unit.excess, unit.normal, trial.gap.normal);
     const Tensor<1, dim> traction =
       trial.multiplier + trial.flux +
       local.c_n * trial.gap.gap * trial.gap.normal - local.c_t * trial.gap.slip;
@@ -240,9 +239,12 @@ namespace moraine
           }
         local.add_force(unit.N.data(), weight * unit.area * t);
         if (tangent)
-          local.add_stiffness(unit.N.data(), weight * unit.area * stiffness);
-        if (!unit.fluxes.empty())
-          add_flux(unit, now, tangent, local);
+          {
+            local.add_stiffness(unit.N.data(), weight * unit.area * stiffness);
+            add_stiffness_of_flux(unit,
+                                  weight * now.response.derivative,
+                                  local);
+          }
         system.add(local, tangent);
       }
     if (tangent && nothing_moved)
@@ -254,37 +256,17 @@ namespace moraine
 
   template <int dim>
   void
-  ContactTerm<dim>::add_flux(const LocalUnit  &unit,
-                             const Trial      &trial,
-                             const bool        tangent,
-                             LocalSystem<dim> &local) const
+  ContactTerm<dim>::add_stiffness_of_flux(const LocalUnit      &unit,
+                                          const Tensor<2, dim> &derivative,
+                                          LocalSystem<dim>     &local)
   {
-    const double          s       = boundary.enforcement().adjoint_sign;
-    const unsigned int    n_nodes = unit.nodes.size();
-    const Tensor<1, dim> &n       = trial.gap.normal;
-    const Tensor<2, dim>  one     = unit_symmetric_tensor<dim>();
-    const Tensor<2, dim>  nn      = outer_product(n, n);
-    const Tensor<2, dim>  C       = unit.c_n * nn + unit.c_t * (one - nn);
-    const Tensor<2, dim>  C_1 = 1. / unit.c_n * nn + 1. / unit.c_t * (one - nn);
-    const Tensor<2, dim> &DP  = trial.response.derivative;
-    const Tensor<1, dim>  missing = C_1 * (trial.multiplier - trial.excess +
-                                          trial.flux - trial.response.traction);
-    for (unsigned int a = 0; a < n_nodes; ++a)
+    for (unsigned int b = 0; b < unit.fluxes.size(); ++b)
       {
-        const Tensor<2, dim> f_a   = transpose(unit.fluxes[a]);
-        const Tensor<1, dim> force = s * unit.area * (f_a * missing);
-        for (unsigned int i = 0; i < dim; ++i)
-          local.force[dim * a + i] += force[i];
-        for (unsigned int b = 0; tangent && b < n_nodes; ++b)
-          {
-            const Tensor<2, dim> &f_b = unit.fluxes[b];
-            const Tensor<2, dim>  K =
-              -unit.area * (unit.N[a] * DP * f_b +
-                            s * f_a * C_1 * (f_b + DP * (unit.N[b] * C - f_b)));
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                local.matrix(dim * a + i, dim * b + j) += K[i][j];
-          }
+        const Tensor<2, dim> K = -unit.area * derivative * unit.fluxes[b];
+        for (unsigned int a = 0; a < unit.fluxes.size(); ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              local.matrix(dim * a + i, dim * b + j) += unit.N[a] * K[i][j];
       }
   }
 
@@ -450,7 +432,8 @@ namespace moraine
           now.response.status == ContactStatus::slip ? now.gap.slip.norm() : 0.;
         double              *sum = &sums[n * unit.number];
         const Tensor<1, dim> excess =
-          t - now.multiplier + now.excess - now.flux;
+          t - now.multiplier - now.flux +
+          turned<dim>(of.excess, of.normal, now.gap.normal);
         for (unsigned int d = 0; d < dim; ++d)
           {
             sum[d] += unit.area * t[d];

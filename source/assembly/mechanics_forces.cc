@@ -279,8 +279,8 @@ namespace moraine
 
 
   template <int dim>
-  double
-  MechanicsSystem<dim>::unbalanced_share()
+  typename MechanicsSystem<dim>::Imbalance
+  MechanicsSystem<dim>::imbalance_at_start()
   {
     find_forces_at_start();
     LA::Vector of_kind = state.grid().vector();
@@ -292,7 +292,9 @@ namespace moraine
       }
     LA::Vector unbalanced_forces = sum_of_kinds();
     constraints.condense(unbalanced_forces);
-    return largest > 0 ? unbalanced_forces.l2_norm() / largest : 0.;
+    const double share =
+      largest > 0 ? unbalanced_forces.l2_norm() / largest : 0.;
+    return {std::move(unbalanced_forces), share};
   }
 
 
@@ -392,11 +394,12 @@ namespace moraine
                                              const LA::Vector &);         \
   template LA::Vector MechanicsSystem<dim>::constraint_forces(                \
     const std::string &, const LA::Vector &);                                 \
-  template void       MechanicsSystem<dim>::find_dead_forces();               \
-  template void       MechanicsSystem<dim>::set_target_of_motion();           \
-  template void       MechanicsSystem<dim>::count_work(const unsigned int,    \
-                                                 const double);         \
-  template double     MechanicsSystem<dim>::unbalanced_share();               \
+  template void MechanicsSystem<dim>::find_dead_forces();                     \
+  template void MechanicsSystem<dim>::set_target_of_motion();                 \
+  template void MechanicsSystem<dim>::count_work(const unsigned int,          \
+                                                 const double);               \
+  template typename MechanicsSystem<dim>::Imbalance                           \
+                      MechanicsSystem<dim>::imbalance_at_start();             \
   template void       MechanicsSystem<dim>::find_forces_at_start();           \
   template void       MechanicsSystem<dim>::weigh_forces_at_start();          \
   template LA::Vector MechanicsSystem<dim>::forces_and_mass();                \

@@ -22,11 +22,12 @@ namespace moraine
       "yields or with 'Integrator = energy-momentum': augmented Lagrangian "
       "with a band of 0.01, because Nitsche's flux is elastic, linear in the "
       "increment of a step and that of its end; else in dynamics symmetric "
-      "Nitsche, because the skew flux feeds vibrations. Of contact: skew "
-      "Nitsche in statics at small strain where materials are elastic and "
-      "strains have no means over cells, else augmented Lagrangian.",
-      Patterns::Selection("skew Nitsche|symmetric Nitsche|augmented Lagrangian|"
-                          "weighted|penalty"));
+      "Nitsche, because the skew flux feeds vibrations. Of contact: incomplete "
+      "Nitsche (without the adjoint flux) in statics, but augmented Lagrangian "
+      "with 'Solver = amg-cg' or a water table; augmented Lagrangian in "
+      "dynamics.",
+      Patterns::Selection("skew Nitsche|symmetric Nitsche|incomplete Nitsche|"
+                          "augmented Lagrangian|weighted|penalty"));
     prm.add_parameter("Band width",
                       band_width,
                       "Width of the band over the cell size, delta/h: of "
@@ -89,6 +90,8 @@ namespace moraine
       how = {1., 1., 1., nitsche_factor, true, false, enforcement};
     else if (enforcement == "skew Nitsche")
       how = {1., 1., -1., nitsche_factor, true, false, enforcement};
+    else if (enforcement == "incomplete Nitsche")
+      how = {1., 1., 0., nitsche_factor, true, false, enforcement};
     if (held_in_a_cell != "auto")
       how.held = held_in_a_cell == "mean" ? Enforcement::Held::mean :
                                             Enforcement::Held::places;

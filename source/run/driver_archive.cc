@@ -163,6 +163,8 @@ namespace moraine
         support = term.get();
         model.system->add(std::move(term));
       }
+    if (fading.acts_at(time_control.time()))
+      add_fading_forces();
     sums                = read_counts(archive);
     last_reports        = read_reports<dim>(archive);
     const auto &motions = archive.numbers("run/motion_of_last_step", 2);

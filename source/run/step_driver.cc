@@ -81,6 +81,7 @@ namespace moraine
     , communicator(model.space->communicator())
     , newton(scene.newton)
     , time_control(times_of(scene.stages), asked_times(scene))
+    , fading(*model.space)
     , diagnostics(diagnostics)
   {
     if (model.mesh_motion.moves())
@@ -103,8 +104,10 @@ namespace moraine
       lasting.add(load);
     lasting.add(*model.probes);
     lasting.add(time_control);
+    lasting.add(fading);
     if (scene.stages.back().second.time.follows_path())
-      lasting.add(last_increment.emplace(*model.space));
+      lasting.add(
+        last_increment.emplace(*model.space, "path/increment", "length"));
     for (RunObserver<dim> *observer : observers)
       if (StatePart *record = observer->record())
         lasting.add_record(*record);
@@ -247,6 +250,7 @@ namespace moraine
                      change_of_bodies(parameters, before)));
     if (parameters.reset_displacements)
       ask(When::strains_end);
+    has_fading_forces = false;
     diagnostics.stage_begins(parameters.bodies != before.bodies,
                              parameters.time.integrator.dynamic() &&
                                !before.time.integrator.dynamic());
@@ -426,7 +430,7 @@ namespace moraine
     if (time_control.between_parts())
       {
         first_part.emplace(
-          FirstPart{step.t_start, LastIncrement<dim>(*model.space)});
+          FirstPart{step.t_start, NodeValuesRecord<dim>(*model.space, "", "")});
         first_part->increment.keep(step.increments);
         return;
       }

@@ -30,6 +30,9 @@ namespace moraine
     /** Held nodes carry next to nothing; a mechanism hangs on empty parts. */
     constexpr double largest_empty_share = 1e-3;
 
+    /** Of all forces: a jump that is out of balance as a step begins. */
+    constexpr double least_jump = 0.01;
+
 
 
     /** Whether the largest unbalanced force is where material that may yield
@@ -81,6 +84,8 @@ namespace moraine
       (in_vain || n_rejections == rejections_before_support) &&
       ((!yields_in_full_cell(model, report) && hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
+    if (!in_vain)
+      split_jump(report);
     const bool repeats = time_control.reject(reason, wanted_cut(model));
     if (supported)
       {
@@ -105,6 +110,39 @@ namespace moraine
     if (report.ran_out_of_linear_iterations)
       throw ComputationError(message);
     throw NoEquilibrium(message);
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::split_jump(const NewtonReport &report)
+  {
+    const double t = time_control.time();
+    if (report.status == NewtonStatus::linear_solver_failed ||
+        scene.stages[stage].second.time.integrator.dynamic() ||
+        time_control.follows_path() || fading.acts_at(t))
+      return;
+    const auto jump = model.system->imbalance_at_start();
+    if (!(jump.share > least_jump))
+      return;
+    std::vector<Tensor<1, dim>> of_nodes;
+    model.space->node_values(jump.forces, of_nodes);
+    fading.begin(of_nodes, t, time_control.trial_time());
+    add_fading_forces();
+    tell("the forces that begin to act at t = " + text_of(t, 6) +
+         " come in parts until t = " + text_of(time_control.trial_time(), 6));
+  }
+
+
+
+  template <int dim>
+  void
+  StepDriver<dim>::add_fading_forces()
+  {
+    if (!has_fading_forces)
+      model.system->add(std::make_unique<FadingForcesTerm<dim>>(fading));
+    has_fading_forces = true;
   }
 
 
@@ -196,6 +234,7 @@ namespace moraine
   template void StepDriver<dim>::reject(const NewtonReport &,                  \
                                         const std::string &,                   \
                                         unsigned int &);                       \
+  template void StepDriver<dim>::add_fading_forces();                          \
   template bool StepDriver<dim>::shorter_is_no_cure(const NewtonReport &)      \
     const;                                                                     \
   template std::string StepDriver<dim>::reason_to_reject(const NewtonReport &, \

@@ -20,7 +20,7 @@ namespace moraine
     const std::string  section  = "Boundaries/" + name;
     const bool         touches  = boundary.constraint == "contact";
     const std::string &how      = boundary.enforcement.enforcement;
-    const bool         has_flux = how == "skew Nitsche";
+    const bool         has_flux = how == "incomplete Nitsche";
     for (const auto &entry : given)
       if (entry.section == section &&
           (touches ?
@@ -34,17 +34,12 @@ namespace moraine
       reject(section,
              "Enforcement",
              how,
-             "augmented Lagrangian, skew Nitsche; key 'Constraint' is "
+             "augmented Lagrangian, incomplete Nitsche; key 'Constraint' is "
              "'contact'");
-    // The flux is that of displacements of a step, which have their own change
-    // of volume at each place.
+    if (!touches && has_flux)
+      reject(section, "Enforcement", how, "others; this one is for contact");
     if (touches && has_flux && scene.is_dynamic())
-      reject(
-        section,
-        "Enforcement",
-        how,
-        "augmented Lagrangian; in contact a flux is for statics, small strain "
-        "and 'Volumetric strain = pointwise'");
+      reject(section, "Enforcement", how, "augmented Lagrangian in dynamics");
     boundary.contact.law(section);
   }
 

@@ -229,7 +229,7 @@ namespace moraine
     choose_gauss_points(given, any_yields);
     const bool has_flux =
       !is_dynamic() && !water_differs && linear_solver.solver != "amg-cg";
-    choose_enforcement_of_contact(has_flux ? "skew Nitsche" :
+    choose_enforcement_of_contact(has_flux ? "incomplete Nitsche" :
                                              "augmented Lagrangian",
                                   input);
     if (newton.limit_points == "auto")

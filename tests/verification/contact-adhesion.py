@@ -26,7 +26,6 @@ for method, parts in (("GIMP", (0, 0.05, 0.95)), ("CPDI1", (0.37,)),
         a = 0.25 * part
         result = run(scene_file("block.prm", BLOCK), {
             **QUIET, "Method/Method": method,
-            "Boundaries/base/Enforcement": "augmented Lagrangian",
             "Mesh/Lower corner": f"{-2 - a!r}, {-0.5 - a!r}",
             "Mesh/Upper corner": f"{5 - a!r}, {2 - a!r}"})
         worst = max(worst, *(abs(row["reaction_x of base"] / 20 + 1)
@@ -48,7 +47,6 @@ Bodies/ground/Shape = difference | Operands = box, hole
 Boundaries/bar/Surface = circle | Centre = 0, 0 | Radius = 0.5
 Boundaries/bar/Body side = outside | Constraint = contact
 Boundaries/bar/Translation = 0; 0.005*t | Separation = false
-Boundaries/bar/Enforcement = augmented Lagrangian
 Grid conditions/axis/Side = left | Components = x
 Grid conditions/middle/Side = bottom | Components = x
 Grid conditions/right/Side = right | Components = x

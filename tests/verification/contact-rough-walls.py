@@ -13,7 +13,6 @@ Dimension = 2
 Mesh/Lower corner = -2, 0 | Upper corner = 24, 12 | Cell size = 1
 Method/Method = GIMP | Mesh after step = keep
 Boundaries/wall/Points = 0 12; 0 -1 | Constraint = contact
-Boundaries/wall/Enforcement = augmented Lagrangian
 Bodies/fill/Lower corner = 0, 0 | Upper corner = 24, 10
 Bodies/fill/Initial stress = geostatic
 Grid conditions/toe/Side = bottom | Components = y

@@ -16,7 +16,6 @@ Materials/clay/Young modulus = 5000 | Poisson ratio = 0.49
 Bodies/ground/Lower corner = -3.5, -2 | Upper corner = 3.5, 0
 Boundaries/strip/Points = {B / 2} 0; {-B / 2} 0 | Constraint = contact
 Boundaries/strip/Adhesion = 1 | Separation = false
-Boundaries/strip/Enforcement = augmented Lagrangian
 Grid conditions/left/Side = left | Components = x
 Grid conditions/right/Side = right | Components = x
 Grid conditions/base/Side = bottom

@@ -44,15 +44,15 @@ namespace moraine
    * Lagrangian). Its tangent @f$|\Gamma_u|\, \bar N_a\, DP\, C \bar N_b@f$ is
    * unsymmetric in slip.
    *
-   * Nitsche's method (s = -1, skew) has no passes. Its t is the traction of the
-   * stress in the cells of the unit at the start of the step,
-   * @f$t = \bar\sigma n - c_t\, s_e@f$ with the slip @f$s_e@f$ since the
-   * places stuck; the trial traction has the flux of the step's displacements,
-   * @f$f = \sum_b f_b u_b@f$, and to the forces comes
-   * @f$|\Gamma_u|\, s\, f_a^T C^{-1} (\bar\sigma n + f - \tau)@f$ (Chouly, Hild
-   * and Renard 2015; there at places, here of means). The flux is elastic:
-   * where material yields, the gap is off by the difference over c_n until the
-   * next step.
+   * Nitsche's method has no passes: its t is the traction of the stress of the
+   * points in the cells of the unit at the start of the step, with the shear
+   * that has slipped elastically, @f$t = \bar\sigma n - c_t\, s_e@f$, and the
+   * trial traction has the flux of the displacements of the step,
+   * @f$f = \sum_b f_b u_b@f$. The adjoint of the flux is left out (the
+   * incomplete form of Chouly, Hild and Renard 2015; there at places, here of
+   * means): where material yields, f is not what the stress changes by, and the
+   * adjoint would make forces of the difference; without it the gap is off by
+   * the difference over c_n, until the next step.
    */
   template <int dim>
   class ContactTerm : public ConstraintTerm<dim>
@@ -174,7 +174,6 @@ namespace moraine
       dealii::Tensor<1, dim> du;
       ContactGap<dim>        gap;
       dealii::Tensor<1, dim> multiplier; ///< t, turned with the normal
-      dealii::Tensor<1, dim> excess;     ///< in it, of shear
       dealii::Tensor<1, dim> flux;       ///< f
       ContactResponse<dim>   response;
     };
@@ -211,12 +210,12 @@ namespace moraine
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
 
-    /** Add what Nitsche's method has besides the traction of a unit. */
-    void
-    add_flux(const LocalUnit  &unit,
-             const Trial      &trial,
-             const bool        tangent,
-             LocalSystem<dim> &local) const;
+    /** Add what the flux of a unit adds to the matrix; @p derivative is that of
+     * the traction by the trial traction. */
+    static void
+    add_stiffness_of_flux(const LocalUnit              &unit,
+                          const dealii::Tensor<2, dim> &derivative,
+                          LocalSystem<dim>             &local);
 
     /** The response at the start of the step. */
     ContactResponse<dim>

@@ -78,14 +78,24 @@ namespace moraine
     double
     hold(const std::string &name, const LA::Vector &forces);
 
-    /**
-     * The forces that nothing balances at the start of the step that has
-     * begun, over the largest of those of stresses, of loads and of boundaries:
-     * norms of all nodal forces. Strong conditions take what they hold.
-     * Collective.
-     */
+    struct Imbalance
+    {
+      LA::Vector forces; ///< without those that strong conditions take
+      /** Over the largest of those of stresses, of loads and of boundaries:
+       * norms of all nodal forces. */
+      double share;
+    };
+
+    /** The forces that nothing balances at the start of the step that has
+     * begun. Collective. */
+    Imbalance
+    imbalance_at_start();
+
     double
-    unbalanced_share();
+    unbalanced_share()
+    {
+      return imbalance_at_start().share;
+    }
 
     /**
      * The forces at the start of the step that has begun, with the velocities

@@ -4,11 +4,12 @@
 #ifndef moraine_run_step_driver_h
 #define moraine_run_step_driver_h
 
+#include <moraine/assembly/fading_forces.h>
 #include <moraine/assembly/fictitious_stiffness.h>
 #include <moraine/core/simulation_state.h>
 #include <moraine/diagnostics/diagnostics.h>
 #include <moraine/run/run_observer.h>
-#include <moraine/state/last_increment.h>
+#include <moraine/state/node_values.h>
 
 #include <functional>
 #include <optional>
@@ -238,6 +239,15 @@ namespace moraine
            const std::string  &reason,
            unsigned int       &n_rejections);
 
+    /** A static step found no equilibrium: let forces that are out of balance
+     * at its start, if any are, come in parts; see FadingForces. Collective. */
+    void
+    split_jump(const NewtonReport &report);
+
+    /** Add what FadingForces has. */
+    void
+    add_fading_forces();
+
     /** Let observers know of the step that @p step, all of it or its second
      * part, ends; of a first part they do not. Collective. */
     void
@@ -252,8 +262,8 @@ namespace moraine
     /** The first of two parts of a step. */
     struct FirstPart
     {
-      double             t_start;
-      LastIncrement<dim> increment;
+      double                t_start;
+      NodeValuesRecord<dim> increment;
     };
 
     const Scene<dim>                     &scene;
@@ -263,8 +273,10 @@ namespace moraine
     const MPI_Comm                        communicator;
     Newton                                newton;
     TimeControl                           time_control;
-    std::optional<LastIncrement<dim>>     last_increment; ///< along a path
+    std::optional<NodeValuesRecord<dim>>  last_increment; ///< along a path
     std::optional<FirstPart>              first_part;     ///< if accepted
+    FadingForces<dim>                     fading;
+    bool                                  has_fading_forces = false; ///< a term
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Moraine authors
 
-#ifndef moraine_state_last_increment_h
-#define moraine_state_last_increment_h
+#ifndef moraine_state_node_values_h
+#define moraine_state_node_values_h
 
 #include <moraine/core/simulation_state.h>
 #include <moraine/mesh/grid_space.h>
 
+#include <string>
 #include <vector>
 
 namespace moraine
 {
-  /** The increment of the nodes in the last accepted step, for the one that
-   * begins with it. By then nodes may have other numbers, or be others. */
+  /** Vectors at nodes, kept for later steps. By then nodes may have other
+   * numbers, or be others. */
   template <int dim>
-  class LastIncrement : public StatePart
+  class NodeValuesRecord : public StatePart
   {
   public:
-    explicit LastIncrement(const GridSpace<dim> &space);
+    /** @p group of archives, which is this one's alone; @p unit of values. */
+    NodeValuesRecord(const GridSpace<dim> &space,
+                     const std::string    &group,
+                     const std::string    &unit);
 
-    /** Take over the @p increments of an accepted step. */
+    /** Keep these @p values, of the nodes as they are now; or none. */
     void
-    keep(const std::vector<dealii::Tensor<1, dim>> &increments);
+    keep(const std::vector<dealii::Tensor<1, dim>> &values);
 
     /** For the nodes as they are now, zero where these are new; none if none
      * were kept. Collective. */
@@ -32,11 +36,10 @@ namespace moraine
     LA::Vector
     values() const
     {
-      const std::vector<dealii::Tensor<1, dim>> increments = of_nodes();
-      return increments.empty() ? space.vector() : space.vector_of(increments);
+      const std::vector<dealii::Tensor<1, dim>> of = of_nodes();
+      return of.empty() ? space.vector() : space.vector_of(of);
     }
 
-    /** Group "path/increment". */
     void
     write(Archive &archive) const override
     {
@@ -49,6 +52,7 @@ namespace moraine
 
   private:
     const GridSpace<dim> &space;
+    const std::string     group, unit;
     /** By cells and their nodes. */
     Archive stored;
   };
