@@ -68,7 +68,7 @@ def ring(h):
 def settings(boundary, band):
     of = f"Boundaries/{boundary}/"
     if band is None:
-        return "--set", of + "Enforcement = skew Nitsche"
+        return "--set", of + "Enforcement = incomplete Nitsche"
     return ("--set", of + "Enforcement = augmented Lagrangian", "--set",
             of + f"Band width = {band}")
 

@@ -51,7 +51,7 @@ namespace moraine
                                   const double            of_force) const
   {
     const auto                       &points   = boundary.points();
-    const double                      of_start = share_of_start(context);
+    const double                      of_start = this->share_of_start(context);
     std::vector<Tensor<1, dim>>       tractions;
     std::vector<ConstraintState<dim>> states;
     evaluate(context, tractions, states);

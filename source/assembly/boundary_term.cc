@@ -309,7 +309,7 @@ namespace moraine
     std::vector<Tensor<1, dim>> fluxes;
     const auto                 &points   = boundary.points();
     Enforcement                 how      = boundary.enforcement();
-    const double                of_start = share_of_start(context);
+    const double                of_start = this->share_of_start(context);
     for (unsigned int q = 0; q < points.size();)
       {
         piece.reinit(boundary, context, q, context.share_of_push());

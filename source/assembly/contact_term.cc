@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Moraine authors
 
 #include <moraine/assembly/contact_term.h>
+#include <moraine/core/words.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -19,14 +20,15 @@ namespace moraine
      * passes may leave. */
     constexpr double largest_gap_left = 1e-6;
 
-    /** Of the size of a cell: a place of the rim that ends deeper behind the
-     * surface was not seen to come. */
+    /** Of the size of a cell: a step in which a place of the rim ends deeper
+     * behind the surface is rejected. */
     constexpr double deepest_place = 0.5;
 
     /** Of c_n h: a tension that is round-off. */
     constexpr double no_tension = 1e-12;
 
-    /** Whole corrections to the same statuses, between two passes. */
+    /** How often full corrections may return to the same statuses before the
+     * line search decides. */
     constexpr int most_returns = 2;
   } // namespace
 
@@ -50,10 +52,16 @@ namespace moraine
     if (!acts)
       return {};
     const std::string &name = boundary.name();
+    const ContactLaw  &law  = boundary.law();
+    std::string        text = name + ", contact, ";
+    if (law.friction > 0)
+      text += "friction " + text_of(law.friction, 3) + ", ";
+    if (law.adhesion > 0)
+      text += "adhesion " + text_of(law.adhesion, 3) + ", ";
     return {{"contact with " + name,
              "boundary",
-             name + ", contact, " + std::to_string(boundary.units().size()) +
-               " pieces of rims near it"}};
+             text + boundary.enforcement().name + ", " +
+               std::to_string(boundary.units().size()) + " pieces of rims"}};
   }
 
 
@@ -63,8 +71,12 @@ namespace moraine
   ContactTerm<dim>::begin_step(const StepContext<dim> &context)
   {
     const GridSpace<dim> &space = context.state.grid();
-    boundary.find_cells(
-      space, context.search_tolerance, context.t_start, acts, bodies_present);
+    boundary.find_cells(space,
+                        context.search_tolerance,
+                        context.t_start,
+                        acts,
+                        context.state.strain_measure() == StrainMeasure::finite,
+                        bodies_present);
     if (!acts)
       {
         local_units.clear();
@@ -208,7 +220,7 @@ namespace moraine
   {
     LocalSystem<dim>     local;
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
-    const double         weight = 1. + share_of_start(context);
+    const double         weight = 1. + this->share_of_start(context);
     if (tangent)
       tangents.emplace_back();
     for (const LocalUnit &unit : local_units)
@@ -309,7 +321,7 @@ namespace moraine
   {
     if (local_units.empty())
       return false;
-    // A linearised force is no measure of that after the correction.
+    // The first tangent uses linearised forces: there is nothing to compare.
     if (tangents.empty())
       return true;
     std::vector<OfTangent> now;
@@ -319,7 +331,7 @@ namespace moraine
       return std::equal(
         now.begin(), now.end(), before.begin(), before.end(), acts_alike);
     };
-    // Forces that come and go lead nowhere, if the rest does not change.
+    // Statuses that alternate must not bypass the line search for ever.
     return !is_as_now(tangents.back()) &&
            std::count_if(tangents.begin(), tangents.end(), is_as_now) <
              most_returns;
@@ -445,7 +457,7 @@ namespace moraine
         prepared.reaction += unit.area * t;
         prepared.force_magnitude += unit.area * t.norm();
         prepared.moment += motion.moment(of.x + now.du, unit.area * t, pose);
-        prepared.work_of_motion += unit.area * (t * (now.du - now.gap.slip));
+        prepared.work_of_motion += unit.area * (t * now.gap.of_surface);
       }
     sum_over_ranks(prepared, space.communicator());
     Utilities::MPI::sum(sums, space.communicator(), sums);

@@ -18,7 +18,7 @@ namespace moraine
 
   namespace
   {
-    /** Of the unknowns of units, the nodes of this rank that have them. */
+    /** Nodes of this rank by their first unknown, of those in units. */
     template <int dim>
     std::map<types::global_dof_index, unsigned int>
     nodes_of_units(const GridSpace<dim>                              &space,

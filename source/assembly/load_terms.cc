@@ -24,22 +24,11 @@ namespace moraine
 
 
 
-    /** Share a force on a point among its nodes. */
-    template <int dim>
-    void
-    share(const Tensor<1, dim> &f, const double *N, LocalSystem<dim> &local)
-    {
-      const unsigned int n_nodes = local.nodal_increments.size();
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
-          local.force[dim * a + i] += N[a] * f[i];
-    }
-
     /**
-     * How places move that take their areas along: with the mesh, whose
-     * displacement is continuous, so that a closed surface stays closed, even
-     * if @p force has the interpolants of domains. Where a place lies in none
-     * of the cells of its domain, it goes with the domain. Collective.
+     * Functions that move the places of a follower pressure: those of the mesh,
+     * because its continuous displacement keeps a closed surface closed, even
+     * if @p force has the interpolants of domains. A place in none of the cells
+     * of its domain goes with the domain. Collective.
      */
     template <int dim>
     PlaceFunctions<dim>
@@ -113,14 +102,14 @@ namespace moraine
         const unsigned int point = block.points[p];
         const unsigned int body  = points.body(point);
         if (force.acts_on[body])
-          share((force.times_density ? state.material(body).density() *
-                                         state.initial_volume(point) :
-                                       points.volume(point)) *
-                  force.value(force.at_start ? state.original_position(point) :
-                                               points.position(point),
-                              context.t_end),
-                block.N(p),
-                local);
+          local.add_force(
+            block.N(p),
+            (force.times_density ?
+               state.material(body).density() * state.initial_volume(point) :
+               points.volume(point)) *
+              force.value(force.at_start ? state.original_position(point) :
+                                           points.position(point),
+                          context.t_end));
       }
   }
 
@@ -164,11 +153,10 @@ namespace moraine
   {
     for (unsigned int p = 0; p < block.n_points; ++p)
       if (force.acts_on(block.points[p]))
-        share(force.value(context.state.material_points().position(
-                            block.points[p]),
-                          context.t_end),
-              block.N(p),
-              local);
+        local.add_force(block.N(p),
+                        force.value(context.state.material_points().position(
+                                      block.points[p]),
+                                    context.t_end));
   }
 
 
@@ -246,9 +234,8 @@ namespace moraine
                      space.cell_nodes(functions.cells[i]),
                      n,
                      false);
-        share(place.weight * load.value(place, context.t_end),
-              &functions.N[n * i],
-              local);
+        local.add_force(&functions.N[n * i],
+                        place.weight * load.value(place, context.t_end));
         system.add(local, false);
       }
   }

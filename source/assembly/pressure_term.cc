@@ -4,7 +4,6 @@
 #include <moraine/assembly/pressure_term.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace moraine
 {
@@ -96,13 +95,6 @@ namespace moraine
       return nodes;
     }
   } // namespace
-
-
-
-  template <int dim>
-  PressureTerm<dim>::PressureTerm(CarriedLoad<dim> &load)
-    : CarriedLoadTerm<dim>(load)
-  {}
 
 
 

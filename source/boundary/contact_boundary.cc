@@ -41,9 +41,8 @@ namespace moraine
     /** Of the size of a cell: a gap at the start that is none. */
     constexpr double touching = 1e-6;
 
-    /** Of the size of a cell: so far inside the body are the cells of places. A
-     * rim along faces of cells would change between two cells by round-off, and
-     * with the units tractions in it. */
+    /** Of the size of a cell: a place uses the cell this far inside the body.
+     * Without it, places on faces of cells change cells by round-off. */
     constexpr double inside = 1e-5;
 
     /** Of the size of a cell, that a unit has at least if it has neighbours. */
@@ -53,10 +52,9 @@ namespace moraine
      * where they move through the mesh. */
     constexpr double longest_place = 0.25;
 
-    /** Of the size of a cell: what a step takes out of the mean gap of a unit
-     * in contact, which is there as its places are others than before; more
-     * would be a blow that shorter steps do not soften. And the largest gap
-     * that it leaves. */
+    /** Of the size of a cell: the part of the gap of a closed unit that one
+     * step closes, and the largest gap that is deferred. Closing all at once
+     * would be a jump of force that no shorter step reduces. */
     constexpr double taken_out = 2e-3, most_kept = 0.1;
   } // namespace
 
@@ -86,12 +84,14 @@ namespace moraine
                                    const double             search_tolerance,
                                    const double             t,
                                    const bool               acts,
+                                   const bool               turns,
                                    const std::vector<bool> &present)
   {
     const double h = space.mesh().cell_size();
     at_start.see_over(h);
     at_end.see_over(h);
     at_start.set_pose(motion.pose(t));
+    at_end.set_pose(motion.pose(t));
     has_rim.resize(present.size(), false);
     std::vector<unsigned int> gone;
     for (unsigned int k = 0; k < carried.size(); ++k)
@@ -105,15 +105,12 @@ namespace moraine
     const unsigned int n_before = carried.size();
     for (unsigned int b = 0; b < present.size(); ++b)
       if (present[b] && !has_rim[b])
-        add_rim(space, search_tolerance, b);
+        add_rim(space, search_tolerance, turns, b);
     has_rim = present;
     for (unsigned int k = acted ? n_before : 0; acts && k < carried.size(); ++k)
       {
-        const NearestPoint<dim> nearest = at_start.nearest(position(k));
-        const bool              touches =
-          nearest.in_extent && nearest.level <= touching * h &&
-          nearest.normal * rim.places()[k].normal > cosine_of_contact;
-        carried[k].status = touches ? 1 : 0;
+        const auto distance = distance_at_start(k);
+        carried[k].status   = distance && *distance <= touching * h ? 1 : 0;
       }
     began    = acts && !acted;
     acts_now = acts;
@@ -126,12 +123,13 @@ namespace moraine
   void
   ContactBoundary<dim>::add_rim(const GridSpace<dim> &space,
                                 const double          search_tolerance,
+                                const bool            turns,
                                 const unsigned int    body)
   {
     const double       h = space.mesh().cell_size();
     CarriedPlaces<dim> of_body(find_places(space.mesh(), body));
     of_body.remove(of_body.find_cells(space, search_tolerance, inside * h));
-    of_body.catch_up(space);
+    of_body.catch_up(space, turns);
     rim.add(of_body);
     ContactPlace<dim> at_first;
     at_first.body = body;
@@ -204,10 +202,10 @@ namespace moraine
   void
   ContactBoundary<dim>::gather_units(const GridSpace<dim> &space)
   {
-    const double                h = space.mesh().cell_size();
-    std::vector<unsigned int>   near;
-    std::vector<Tensor<1, dim>> normals;
-    std::vector<bool>           apart;
+    const double              h = space.mesh().cell_size();
+    std::vector<unsigned int> near;
+    std::vector<bool>         apart;
+    on_surface.resize(carried.size());
     for (unsigned int k = 0; k < rim.places().size(); ++k)
       {
         const NearestPoint<dim> nearest = at_start.nearest(position(k));
@@ -216,7 +214,7 @@ namespace moraine
             nearest.normal * rim.places()[k].normal > cosine_of_contact)
           {
             near.push_back(k);
-            normals.push_back(nearest.normal);
+            on_surface[k] = nearest;
             apart.push_back(carried[k].status == 0 && nearest.level > 0);
           }
       }
@@ -250,20 +248,18 @@ namespace moraine
           }
         if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
           first = all_units.size();
-        auto unit =
-          std::find_if(all_units.begin() + first,
-                       all_units.end(),
-                       [&](const auto &of) {
-                         return of.apart == apart[i] &&
-                                of.normal * normals[i] > cosine_of_one_unit;
-                       });
+        auto unit = std::find_if(
+          all_units.begin() + first, all_units.end(), [&](const auto &of) {
+            return of.apart == apart[i] &&
+                   of.normal * on_surface[near[i]].normal > cosine_of_one_unit;
+          });
         if (unit == all_units.end())
           {
             all_units.emplace_back();
             unit         = all_units.end() - 1;
             unit->cell   = cells[i] - 1;
             unit->h      = h;
-            unit->normal = normals[i];
+            unit->normal = on_surface[near[i]].normal;
             unit->apart  = apart[i];
           }
         unit->places.push_back(near[i]);
@@ -288,16 +284,23 @@ namespace moraine
           unit.area += rim.places()[k].weight;
         for (const unsigned int k : unit.places)
           {
-            const double            share = rim.places()[k].weight / unit.area;
-            const NearestPoint<dim> nearest = at_start.nearest(position(k));
+            const double share = rim.places()[k].weight / unit.area;
             unit.x += share * Tensor<1, dim>(position(k));
-            unit.gap += share * nearest.level;
-            unit.normal += share * nearest.normal;
-            unit.traction_at_start += share * carried[k].traction;
-            unit.excess += share * carried[k].excess;
+            unit.gap += share * on_surface[k].level;
+            unit.normal += share * on_surface[k].normal;
             open += carried[k].status == 0 ? share : 0.;
           }
         unit.normal /= unit.normal.norm();
+        for (const unsigned int k : unit.places)
+          {
+            const double share   = rim.places()[k].weight / unit.area;
+            const auto   in_unit = [&](const Tensor<1, dim> &traction) {
+              return share *
+                     turned<dim>(traction, on_surface[k].normal, unit.normal);
+            };
+            unit.traction_at_start += in_unit(carried[k].traction);
+            unit.excess += in_unit(carried[k].excess);
+          }
         unit.level      = unit.gap - at_start.level(unit.x);
         unit.was_open   = open > 0.5;
         unit.multiplier = unit.traction_at_start;
@@ -381,16 +384,28 @@ namespace moraine
   ContactBoundary<dim>::gap(const ContactUnit<dim> &unit,
                             const Tensor<1, dim>   &du) const
   {
-    const Point<dim>        x_end   = unit.x + du;
-    const NearestPoint<dim> nearest = at_end.nearest(x_end);
-    const Tensor<1, dim>    of_surface =
-      at_end.pose().map(at_start.pose().inverse(unit.x)) - unit.x;
-    ContactGap<dim> state;
+    const NearestPoint<dim> nearest = at_end.nearest(unit.x + du);
+    ContactGap<dim>         state;
     state.gap    = nearest.level + unit.level;
     state.normal = nearest.normal;
-    state.slip   = du - of_surface;
+    state.of_surface =
+      at_end.pose().map(at_start.pose().inverse(unit.x)) - unit.x;
+    state.slip = du - state.of_surface;
     state.slip -= (state.slip * state.normal) * state.normal;
     return state;
+  }
+
+
+
+  template <int dim>
+  std::optional<double>
+  ContactBoundary<dim>::distance_at_start(const unsigned int k) const
+  {
+    const NearestPoint<dim> nearest = at_start.nearest(position(k));
+    if (!nearest.in_extent ||
+        nearest.normal * rim.places()[k].normal <= cosine_of_contact)
+      return {};
+    return nearest.level;
   }
 
 
@@ -454,14 +469,23 @@ namespace moraine
         place.status                  = 0;
       }
     for (unsigned int u = 0; u < all_units.size(); ++u)
-      for (const unsigned int k : all_units[u].places)
-        {
-          prepared[k].traction = of_units[u].traction;
-          prepared[k].excess   = of_units[u].excess;
-          prepared[k].status   = unsigned(of_units[u].status);
-          prepared[k].slip += of_units[u].slip;
-          prepared[k].work += of_units[u].work;
-        }
+      {
+        const ContactUnit<dim> &unit = all_units[u];
+        Tensor<1, dim>          du;
+        for (const unsigned int k : unit.places)
+          du += rim.places()[k].weight / unit.area * moves[k].u;
+        const Tensor<1, dim> normal = at_end.normal(unit.x + du);
+        for (const unsigned int k : unit.places)
+          {
+            const Tensor<1, dim> here = at_end.normal(position(k) + moves[k].u);
+            prepared[k].traction =
+              turned<dim>(of_units[u].traction, normal, here);
+            prepared[k].excess = turned<dim>(of_units[u].excess, normal, here);
+            prepared[k].status = unsigned(of_units[u].status);
+            prepared[k].slip += of_units[u].slip;
+            prepared[k].work += of_units[u].work;
+          }
+      }
     if (moves_places)
       rim.prepare_move(moves, through_mesh, turns);
     else

@@ -100,26 +100,6 @@ namespace moraine
 
 
 
-  std::vector<std::string>
-  EnforcementParameters::keys_in_vain() const
-  {
-    const EnforcementParameters usual;
-    const bool                  is_weighted = enforcement == "weighted";
-    const bool                  is_penalty  = enforcement == "penalty";
-    const bool has_band = is_weighted || enforcement == "augmented Lagrangian";
-    const bool has_nitsche_factor = !is_weighted && !is_penalty;
-    std::vector<std::string> keys;
-    if (band_width != usual.band_width && !has_band)
-      keys.emplace_back("Band width");
-    if (nitsche_factor != usual.nitsche_factor && !has_nitsche_factor)
-      keys.emplace_back("Nitsche factor");
-    if (penalty_factor != usual.penalty_factor && !is_penalty)
-      keys.emplace_back("Penalty factor");
-    return keys;
-  }
-
-
-
   bool
   Enforcement::holds_means(const unsigned int degree,
                            const bool         curved_roller,

@@ -36,7 +36,8 @@ namespace moraine
        warning,
        "stage, step",
        "Two bodies share nodes although they do not touch, or have come "
-       "together. There is no contact: they stick, and pull when they part.",
+       "together. There is no contact between bodies: they stick, and pull when "
+       "they part.",
        "The value is their distance or overlap; bodies act on each other from "
        "a distance of two cells on.",
        "Use cells smaller than half of the gap. With a mesh that follows the "

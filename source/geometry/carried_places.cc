@@ -239,40 +239,38 @@ namespace moraine
 
   template <int dim>
   void
+  CarriedPlaces<dim>::sum_over_ranks(std::vector<Increment> &increments,
+                                     const MPI_Comm         &communicator)
+  {
+    constexpr unsigned int n = dim + dim * dim;
+    static_assert(sizeof(Increment) == n * sizeof(double));
+    const ArrayView<double> values(
+      reinterpret_cast<double *>(increments.data()), n * increments.size());
+    Utilities::MPI::sum(ArrayView<const double>(values), communicator, values);
+  }
+
+
+
+  template <int dim>
+  void
   CarriedPlaces<dim>::catch_up(const GridSpace<dim> &space, const bool turn)
   {
     // A rank may have no nodes.
     if (!Utilities::MPI::logical_or(space.nodes_moved(), space.communicator()))
       return;
-    constexpr unsigned int n = dim + dim * dim;
-    std::vector<double>    moves(n * now.size(), 0.);
+    std::vector<Increment> moves(now.size());
     for (unsigned int k = 0; k < now.size(); ++k)
       if (now[k].active_cell_index != GridSpace<dim>::no_cell)
-        {
-          Tensor<2, dim>       gradient;
-          const Tensor<1, dim> move = move_of_nodes_at(space,
-                                                       now[k].active_cell_index,
-                                                       now[k].in_mesh,
-                                                       &gradient);
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              moves[n * k + i] = move[i];
-              for (unsigned int j = 0; j < dim; ++j)
-                moves[n * k + dim + dim * i + j] = gradient[i][j];
-            }
-        }
-    Utilities::MPI::sum(moves, space.communicator(), moves);
+        moves[k].u = move_of_nodes_at(space,
+                                      now[k].active_cell_index,
+                                      now[k].in_mesh,
+                                      &moves[k].gradient);
+    sum_over_ranks(moves, space.communicator());
     for (unsigned int k = 0; k < now.size(); ++k)
       {
-        Tensor<2, dim> gradient;
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            now[k].x[i] += moves[n * k + i];
-            for (unsigned int j = 0; j < dim; ++j)
-              gradient[i][j] = moves[n * k + dim + dim * i + j];
-          }
+        now[k].x += moves[k].u;
         if (turn)
-          turn_by(gradient, now[k]);
+          turn_by(moves[k].gradient, now[k]);
       }
   }
 
@@ -284,11 +282,10 @@ namespace moraine
     const GridSpace<dim>              &space,
     const std::vector<Tensor<1, dim>> &nodal_increments) const
   {
-    const unsigned int          n        = space.nodes_per_cell();
-    constexpr unsigned int      n_values = dim + dim * dim;
+    const unsigned int          n = space.nodes_per_cell();
     std::vector<double>         N(n);
     std::vector<Tensor<1, dim>> grad_N(n);
-    std::vector<double>         values(n_values * now.size(), 0.);
+    std::vector<Increment>      increments(now.size());
     for (unsigned int k = 0; k < now.size(); ++k)
       {
         const unsigned int cell = now[k].active_cell_index;
@@ -296,26 +293,14 @@ namespace moraine
           continue;
         evaluate_shapes(space, cell, now[k].x, N.data(), grad_N.data());
         const unsigned int *nodes = space.cell_nodes(cell);
-        double             *of_k  = &values[n_values * k];
         for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              const double u = nodal_increments[nodes[a]][i];
-              of_k[i] += N[a] * u;
-              for (unsigned int j = 0; j < dim; ++j)
-                of_k[dim + dim * i + j] += u * grad_N[a][j];
-            }
+          {
+            const Tensor<1, dim> &u = nodal_increments[nodes[a]];
+            increments[k].u += N[a] * u;
+            increments[k].gradient += outer_product(u, grad_N[a]);
+          }
       }
-    Utilities::MPI::sum(values, space.communicator(), values);
-    std::vector<Increment> increments(now.size());
-    for (unsigned int k = 0; k < now.size(); ++k)
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          const double *of_k = &values[n_values * k];
-          increments[k].u[i] = of_k[i];
-          for (unsigned int j = 0; j < dim; ++j)
-            increments[k].gradient[i][j] = of_k[dim + dim * i + j];
-        }
+    sum_over_ranks(increments, space.communicator());
     return increments;
   }
 

@@ -412,7 +412,7 @@ namespace moraine
   SymmetricTensor<2, dim>
   MovedSurface<dim>::normal_gradient(const Point<dim> &x, const double h) const
   {
-    // In turns over h: a corner, seen over the step, has far more.
+    // Largest |grad n| h of a smooth surface; across a corner it is far more.
     constexpr double corner = 4;
     const double     step   = 1e-4 * h;
     Tensor<2, dim>   gradient;

@@ -105,35 +105,23 @@ namespace moraine
     const std::vector<Tensor<1, dim>> &nodal_increments,
     const bool                         through_mesh)
   {
-    const unsigned int  n        = space.nodes_per_cell();
-    const unsigned int  n_values = follows() ? dim + dim * dim : dim;
-    std::vector<double> moves(n_values * places().size(), 0.);
+    using Increment          = typename CarriedPlaces<dim>::Increment;
+    const unsigned int     n = space.nodes_per_cell();
+    std::vector<Increment> increments(places().size());
     for (unsigned int i = 0; i < place_functions.places.size(); ++i)
       {
         const unsigned int *nodes = space.cell_nodes(place_functions.cells[i]);
-        double             *of_k = &moves[n_values * place_functions.places[i]];
+        Increment          &of    = increments[place_functions.places[i]];
         for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double u = nodal_increments[nodes[a]][d];
-              of_k[d] += place_functions.N[n * i + a] * u;
-              if (follows())
-                for (unsigned int j = 0; j < dim; ++j)
-                  of_k[dim + dim * d + j] +=
-                    place_functions.grad_N[n * i + a][j] * u;
-            }
+          {
+            const Tensor<1, dim> &u = nodal_increments[nodes[a]];
+            of.u += place_functions.N[n * i + a] * u;
+            if (follows())
+              of.gradient +=
+                outer_product(u, place_functions.grad_N[n * i + a]);
+          }
       }
-    Utilities::MPI::sum(moves, space.communicator(), moves);
-    std::vector<typename CarriedPlaces<dim>::Increment> increments(
-      places().size());
-    for (unsigned int k = 0; k < increments.size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double *of_k = &moves[n_values * k];
-          increments[k].u[d] = of_k[d];
-          for (unsigned int j = 0; follows() && j < dim; ++j)
-            increments[k].gradient[d][j] = of_k[dim + dim * d + j];
-        }
+    CarriedPlaces<dim>::sum_over_ranks(increments, space.communicator());
     carried.prepare_move(increments, through_mesh, follows());
   }
 

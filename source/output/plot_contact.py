@@ -111,13 +111,13 @@ class Rim:
         axes.set_ylabel(render.with_unit("y", unit))
 
     def draw_curves(self, axes, unit, of_stress):
-        axes.plot(self.path, self.pressure, lw=1.6, label="pressure")
+        axes.plot(self.path, self.pressure, lw=1.6, label="normal stress, compression positive")
         axes.plot(self.path, self.shear, lw=1.6, color="C3",
-                  label="shear traction, along the way")
+                  label="shear stress")
         axes.axhline(0, color="#888888", lw=0.8)
         axes.set_xlabel(render.with_unit(
-            "way along the rim, the body on the left", unit))
-        axes.set_ylabel(render.with_unit("traction on the body", of_stress))
+            "distance along the surface, the body on the left", unit))
+        axes.set_ylabel(render.with_unit("stress on the body", of_stress))
         axes.grid(color="#dddddd")
         axes.legend(frameon=False)
 

@@ -23,26 +23,37 @@ namespace moraine
   namespace
   {
     /** That bodies are in front of a surface of contact, which they may touch
-     * later; an overlap of a tenth of a cell is a fit. */
+     * later; an overlap of a tenth of a cell is a fit. What is more than two
+     * cells behind it, while something is in front, is on the other side of a
+     * wall. */
     template <int dim>
     void
     check_overlap(const ContactBoundary<dim> &boundary, const double h)
     {
-      constexpr double largest_fit = 0.1;
-      const auto      &places      = boundary.places_of_rim().places();
-      const auto       deepest     = std::min_element(
-        places.begin(), places.end(), [&](const auto &a, const auto &b) {
-          return boundary.level_at_start(a.x) < boundary.level_at_start(b.x);
-        });
-      if (deepest == places.end() ||
-          boundary.level_at_start(deepest->x) >= -largest_fit * h)
+      const double fit = 0.1 * h, other_side = 2 * h;
+      std::vector<std::pair<double, unsigned int>> behind; // with the place
+      bool                                         any_in_front = false;
+      for (unsigned int k = 0; k < boundary.places_of_rim().places().size();
+           ++k)
+        if (const auto distance = boundary.distance_at_start(k))
+          {
+            if (*distance < -fit)
+              behind.emplace_back(-*distance, k);
+            else
+              any_in_front = true;
+          }
+      std::pair<double, unsigned int> deepest(0., 0);
+      for (const auto &of : behind)
+        if (!any_in_front || of.first < other_side)
+          deepest = std::max(deepest, of);
+      if (deepest.first == 0.)
         return;
       std::ostringstream text;
       text << "section 'Boundaries/" << boundary.name()
-           << "': found a body that is behind the surface by "
-           << -boundary.level_at_start(deepest->x) << " at (" << deepest->x
-           << "), allowed: at most a tenth of a cell; points the other way "
-              "round, or 'Flip', turn it";
+           << "': found a body behind the surface by " << deepest.first
+           << " at (" << boundary.position(deepest.second)
+           << "), allowed: a tenth of a cell; reversed points or 'Flip' turn "
+              "the surface";
       throw InputError(text.str());
     }
 
@@ -64,7 +75,7 @@ namespace moraine
                            "a surface on or in a body, which is behind it: "
                            "points the other way round, or 'Flip', turn it");
       for (const auto &boundary : model.contact_boundaries)
-        if (contains(stage.boundaries, boundary.name()))
+        if (contains(stage.boundaries, boundary.name()) && boundary.begins())
           check_overlap(boundary, model.mesh->cell_size());
       for (const auto &boundary : model.absorbing_boundaries)
         if (boundary.has_cells() && boundary.n_on_material() == 0)

@@ -25,11 +25,13 @@ namespace moraine
       if (entry.section == section &&
           (touches ?
              contains({"Penetration limit", "Held in a cell", "Penalty factor"},
-                      entry.key) ||
-               (entry.key == "Nitsche factor" && !has_flux) :
+                      entry.key) :
              ContactParameters::has(entry.key)))
         reject(entry,
                "nothing; key 'Constraint' is '" + boundary.constraint + "'");
+      else if (entry.section == section && touches &&
+               entry.key == (has_flux ? "Band width" : "Nitsche factor"))
+        reject(entry, "nothing; key 'Enforcement' is '" + how + "'");
     if (touches && !has_flux && how != "augmented Lagrangian")
       reject(section,
              "Enforcement",

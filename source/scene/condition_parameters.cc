@@ -114,8 +114,8 @@ namespace moraine
       "the surface. components: those of key 'Components'. "
       "absorbing: dashpots, and springs if wanted, that swallow "
       "waves, in dynamics; the material carries its places. "
-      "contact: the rims of bodies touch the surface, let go and "
-      "slide with friction; the band is 0.1 if it is left out.",
+      "contact: the rims of bodies touch the surface, separate and "
+      "slide with friction; 'Band width' is 0.05 if it is left out.",
       patterns::selection(
         {"fixed", "roller", "components", "absorbing", "contact"}));
     prm.add_parameter("Components",

@@ -29,19 +29,21 @@ namespace moraine
                       "Of 'contact': angle of friction in degrees, instead of "
                       "the coefficient mu = tan(angle).",
                       Patterns::Double(0, 89));
-    prm.add_parameter("Adhesion",
-                      adhesion,
-                      "Of 'contact': shear strength without pressure (stress), "
-                      "until the body lets go.",
-                      patterns::non_negative());
+    prm.add_parameter(
+      "Adhesion",
+      adhesion,
+      "Of 'contact': shear strength at zero normal stress; lost at "
+      "separation, restored on closure. Needs 'Tensile strength' "
+      "or 'Separation = false'.",
+      patterns::non_negative());
     prm.add_parameter("Tensile strength",
                       tensile_strength,
-                      "Of 'contact': normal tension (stress) at which the body "
-                      "lets go for good: it is 0 from then on.",
+                      "Of 'contact': largest normal tension (stress); lost at "
+                      "separation, restored on closure.",
                       patterns::non_negative());
     prm.add_parameter("Separation",
                       separation,
-                      "Of 'contact': whether the body can let go. false: a "
+                      "Of 'contact': whether the interface can open. false: a "
                       "roller with friction that also carries tension.");
   }
 
@@ -74,12 +76,10 @@ namespace moraine
              Patterns::Tools::to_string(tensile_strength),
              "nothing with 'Separation = false'");
     if (separation && adhesion > 0 && tensile_strength == 0)
-      reject(
-        section,
-        "Adhesion",
-        Patterns::Tools::to_string(adhesion),
-        "0, or a 'Tensile strength', or 'Separation = false': without them "
-        "the bond breaks under the least tension");
+      reject(section,
+             "Adhesion",
+             Patterns::Tools::to_string(adhesion),
+             "0, or with a 'Tensile strength' or 'Separation = false'");
     return {friction > 0 ? friction :
                            std::tan(friction_angle * numbers::PI / 180.),
             adhesion,

@@ -64,17 +64,17 @@ namespace moraine
 
 
 
-    /** A vector function times a curve over time, if there is one. */
-    template <int dim>
-    VectorFunction<dim>
-    times_curve(const VectorFunction<dim> &value,
-                const std::string         &text,
-                const std::string         &place)
+    /** A function of (x, t) times a curve over time, if there is one. */
+    template <class Function>
+    Function
+    times_curve(const Function    &value,
+                const std::string &text,
+                const std::string &place)
     {
       if (text.empty())
         return value;
       const auto curve = std::make_shared<TimeCurve>(text, place);
-      return [value, curve](const Point<dim> &x, const double t) {
+      return [value, curve](const auto &x, const double t) {
         return curve->value(t) * value(x, t);
       };
     }
@@ -93,15 +93,12 @@ namespace moraine
       const auto expression =
         std::make_shared<Expression<dim>>(parameters.value,
                                           place(section, "Value"));
-      if (parameters.curve.empty())
-        return [expression](const Point<dim> &x, const double t) {
+      return times_curve<ScalarFunction<dim>>(
+        [expression](const Point<dim> &x, const double t) {
           return expression->value(x, t);
-        };
-      const auto curve =
-        std::make_shared<TimeCurve>(parameters.curve, place(section, "Curve"));
-      return [expression, curve](const Point<dim> &x, const double t) {
-        return curve->value(t) * expression->value(x, t);
-      };
+        },
+        parameters.curve,
+        place(section, "Curve"));
     }
 
 
@@ -116,10 +113,10 @@ namespace moraine
         throw InputError(place(section, "Value") +
                          ": found nothing, allowed: " + std::to_string(dim) +
                          " expressions separated by ';'");
-      return times_curve<dim>(vector_function<dim>(parameters.value,
-                                                   place(section, "Value")),
-                              parameters.curve,
-                              place(section, "Curve"));
+      return times_curve(vector_function<dim>(parameters.value,
+                                              place(section, "Value")),
+                         parameters.curve,
+                         place(section, "Curve"));
     }
 
 
@@ -132,11 +129,11 @@ namespace moraine
     {
       if (parameters.incident_velocity.empty())
         return {};
-      return times_curve<dim>(vector_function<dim>(parameters.incident_velocity,
-                                                   place(section,
-                                                         "Incident velocity")),
-                              parameters.incident_curve,
-                              place(section, "Incident curve"));
+      return times_curve(vector_function<dim>(parameters.incident_velocity,
+                                              place(section,
+                                                    "Incident velocity")),
+                         parameters.incident_curve,
+                         place(section, "Incident curve"));
     }
 
 

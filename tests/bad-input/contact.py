@@ -33,8 +33,10 @@ refused("friction angle of a cliff", {"Friction angle": 90})
 refused("adhesion that the least tension breaks", {"Adhesion": 1})
 refused("tension that has no end", {"Tensile strength": 1, "Separation": "false"})
 refused("another enforcement", {"Enforcement": "penalty"})
-refused("flux at finite strain", {"Enforcement": "skew Nitsche",
-                                  "Method/Strain": "finite"})
+refused("flux in dynamics", {"Enforcement": "incomplete Nitsche",
+                             "Time/Integrator": "Newmark"})
+refused("flux for contact", {"Enforcement": "incomplete Nitsche",
+                             "Constraint": "roller"})
 refused("keys of others", {"Enforcement": "augmented Lagrangian",
                            "Nitsche factor": 5})
 refused("keys of others", {"Penetration limit": 0.1})

@@ -209,16 +209,6 @@ namespace moraine
                    const dealii::Tensor<1, dim> &force,
                    const dealii::Tensor<1, dim> &prescribed) const;
 
-    /** The weight of forces at the start of the step against its end, if
-     * add() has them. */
-    double
-    share_of_start(const StepContext<dim> &context) const
-    {
-      return acts_over_step(context) && context.step_size() > 0 ?
-               context.motion->integrator().start_forces() :
-               0.;
-    }
-
     /** Let @p how, that of the boundary, be that in a cell. */
     void
     adapt_to_cell(const StepContext<dim> &context,

@@ -118,7 +118,8 @@ namespace moraine
     failure(const StepContext<dim>                    &context,
             const std::vector<dealii::Tensor<1, dim>> &moves) const override;
 
-    /** A force at the start of a step, of another gap, would feed impacts. */
+    /** A force of the start of a step belongs to another gap and would add
+     * energy in impacts. */
     bool
     acts_over_step(const StepContext<dim> &context) const override
     {
@@ -130,7 +131,7 @@ namespace moraine
     work_of_step(const StepContext<dim> &context,
                  const double            of_force) const override
     {
-      return of_force / (1. + share_of_start(context));
+      return of_force / (1. + this->share_of_start(context));
     }
 
     void
@@ -145,16 +146,6 @@ namespace moraine
            std::vector<BoundaryReport<dim>> &reports) const override;
 
   private:
-    /** The weight that forces at the start of the step would have, which its
-     * forces at the end have too. */
-    double
-    share_of_start(const StepContext<dim> &context) const
-    {
-      return acts_over_step(context) && context.step_size() > 0 ?
-               context.motion->integrator().start_forces() :
-               0.;
-    }
-
     /** A unit, or this rank's part of one, with its functions. */
     struct LocalUnit
     {

@@ -28,7 +28,7 @@ namespace moraine
   class PressureTerm : public CarriedLoadTerm<dim>
   {
   public:
-    explicit PressureTerm(CarriedLoad<dim> &load);
+    using CarriedLoadTerm<dim>::CarriedLoadTerm;
 
     bool
     begin_step(const StepContext<dim> &context) override;

@@ -241,6 +241,16 @@ namespace moraine
       return false;
     }
 
+    /** If so, the weight that the integrator gives forces at the start of the
+     * step. */
+    double
+    share_of_start(const StepContext<dim> &context) const
+    {
+      return acts_over_step(context) && context.step_size() > 0 ?
+               context.motion->integrator().start_forces() :
+               0.;
+    }
+
     /** If so, the work of the step on this rank; @p of_force: that of the force
      * that add() added. */
     virtual double

@@ -12,9 +12,9 @@
 namespace moraine
 {
   /**
-   * The rim of a body whose points are given: the parts of the faces of the
-   * boxes of its points before which no other box of it lies within a cell, so
-   * that each line of sight meets one face where boxes leave gaps. The same on
+   * The rim of a body whose points are given: the parts of the faces of its
+   * points' boxes with no other box of it within a cell in front of them. A gap
+   * between boxes adds no rim. The same on
    * all ranks, in the order of ids.
    *
    * @param points all of them

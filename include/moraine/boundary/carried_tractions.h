@@ -84,10 +84,9 @@ namespace moraine
     /**
      * Hand over to new places what the nearest carried place of all ranks has,
      * if one is near and faces the same way: the next side of a corner and
-     * places of another body are no place of it. Of @p means, which stand for
-     * pieces of cells, each gets the mean, by area, of the places that it is
-     * the nearest one to, if there are any: where it takes the place of
-     * several, the force stays the same. Collective.
+     * places of another body are no place of it. Of @p means each gets the
+     * area-weighted mean of the old places nearest to it, so that the total
+     * force is kept. Collective.
      * @return of @p to; nothing if no rank carries anything.
      */
     Places

@@ -11,7 +11,7 @@
 #include <moraine/geometry/shape.h>
 
 #include <functional>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,10 +34,10 @@ namespace moraine
   };
 
   /**
-   * Places of the rim near a surface that are in contact as one: the mean over
-   * the rim in a cell, and in cells next to it if it is shorter than half a
-   * cell. Smaller ones would ask for more than the cells can follow. The same
-   * on all ranks.
+   * The places of the rim in a cell, and in cells next to it if they are less
+   * than half a cell. They share one mean gap and one status: shorter units
+   * over-constrain the cells, and their tractions oscillate. The same on all
+   * ranks.
    */
   template <int dim>
   struct ContactUnit
@@ -56,8 +56,10 @@ namespace moraine
     dealii::Tensor<1, dim> excess;     ///< mean, at the start
     dealii::Tensor<1, dim> multiplier; ///< t of the present pass
     bool                   was_open = false;
-    bool apart = false; ///< Its places are in front of the surface, and were.
-    /** Nothing touches the surface yet, and a step may bring this to it. */
+    /** All places are in front of the surface and were open before. */
+    bool apart = false;
+    /** No unit touches the surface yet; the first tangent lets this one stick,
+     * as nothing else may hold the body. */
     bool touches_first = false;
   };
 
@@ -67,6 +69,7 @@ namespace moraine
   {
     double                 gap; ///< positive: apart
     dealii::Tensor<1, dim> normal;
+    dealii::Tensor<1, dim> of_surface; ///< its motion, @f$\Delta g@f$
     /** @f$(1 - n \otimes n)(\Delta u - \Delta g)@f$ */
     dealii::Tensor<1, dim> slip;
   };
@@ -94,14 +97,16 @@ namespace moraine
                     const Enforcement         &enforcement);
 
     /** Place the surface at the start @p t of a step and find the cells of the
-     * places. Bodies that come bring theirs, @p present by number; those that
-     * go take theirs along. As the surface begins to act, or a body comes,
-     * bodies touch it where they are at it. Collective. */
+     * places. Rims of new bodies are added, those of removed ones deleted;
+     * @p present by number. When the surface or a body becomes active, places
+     * with a gap of at most 1e-6 h start in contact. @p turns says that normals
+     * turn with the material. Collective. */
     void
     find_cells(const GridSpace<dim>    &space,
                const double             search_tolerance,
                const double             t,
                const bool               acts,
+               const bool               turns,
                const std::vector<bool> &present);
 
     /** Find the units of the step. Collective. */
@@ -124,7 +129,7 @@ namespace moraine
     /** Result of a step for a unit; all its places take it over. */
     struct OfUnit
     {
-      dealii::Tensor<1, dim> traction, excess;
+      dealii::Tensor<1, dim> traction, excess; ///< of ContactPlace
       ContactStatus          status = ContactStatus::open;
       double                 slip   = 0; ///< of the step
       double                 work   = 0; ///< of friction in it, per area
@@ -152,14 +157,16 @@ namespace moraine
       return carried[k];
     }
 
-    /** Distance of @p x from the surface at the start of the step; nothing
-     * beyond its ends. */
-    double
-    level_at_start(const dealii::Point<dim> &x) const
+    /** Distance of a place from the surface at the start of the step, negative
+     * behind it; none if it is beyond its ends, or the rim does not face it. */
+    std::optional<double>
+    distance_at_start(const unsigned int k) const;
+
+    /** Whether it did not act in the last step, and does now. */
+    bool
+    begins() const
     {
-      const NearestPoint<dim> nearest = at_start.nearest(x);
-      return nearest.in_extent ? nearest.level :
-                                 std::numeric_limits<double>::max();
+      return began;
     }
 
     /** Distance of a place from the surface at the end of the last step. */
@@ -282,6 +289,7 @@ namespace moraine
     void
     add_rim(const GridSpace<dim> &space,
             const double          search_tolerance,
+            const bool            turns,
             const unsigned int    body);
 
     /** Let each cell's places near the surface be a unit. */
@@ -299,8 +307,8 @@ namespace moraine
     void
     halve_long_places(const double h);
 
-    /** Let units that were in contact be so at the gaps they have, almost:
-     * places that come into a cell and leave it change its mean gap. */
+    /** Shift the zero of the gap of closed units, so that a step closes 0.002 h
+     * of it: the mean gap jumps when places enter or leave a cell. */
     void
     keep_gaps();
 
@@ -313,6 +321,8 @@ namespace moraine
     CarriedPlaces<dim>             rim{{}};
     std::vector<ContactPlace<dim>> carried, prepared; ///< of the places
     std::vector<ContactUnit<dim>>  all_units;
+    /** The nearest point to each place of a unit, at the start of the step. */
+    std::vector<NearestPoint<dim>> on_surface;
     std::vector<bool>              has_rim;          ///< bodies with places
     bool                           acted    = false; ///< in the last step
     bool                           acts_now = false; ///< in this one

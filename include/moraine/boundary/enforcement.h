@@ -26,6 +26,7 @@ namespace moraine
    * | augmented Lagrangian | 0   | 0   | 0  | 4/(3 δ) | yes        |
    * | symmetric Nitsche    | 1   | 1   | 1  | max     | per step   |
    * | skew Nitsche         | 1   | 1   | -1 | γ/h     | per step   |
+   * | incomplete Nitsche   | 1   | 1   | 0  | γ/h     | per step   |
    * | penalty              | 0   | 0   | 0  | β/h     | no         |
    *
    * max is the larger one of γ/h and 4/d, d the depth of the material behind
@@ -132,11 +133,6 @@ namespace moraine
 
     Enforcement
     enforcement_of() const;
-
-    /** The keys that are not as if left out, though the enforcement does not
-     * look at them. */
-    std::vector<std::string>
-    keys_in_vain() const;
   };
 } // namespace moraine
 

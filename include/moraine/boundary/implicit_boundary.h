@@ -66,9 +66,9 @@ namespace moraine
    * What it carries is written by keep() alone; points and their values are
    * derived from that by begin_step() and set_target().
    *
-   * What turns in a cell about a mean is not held by it. Where material comes
-   * through the cells, that adds up; there slopes() are held too, by a penalty,
-   * but for rollers on curves and around bends.
+   * A mean does not resist rotation of the piece about it. Where points cross
+   * cells, such rotations accumulate; slopes() resists them by a penalty,
+   * except for rollers on curves and around bends.
    *
    * Its parts: SurfaceCut finds the places, Constraint is the law,
    * CarriedTractions keeps the state from step to step.

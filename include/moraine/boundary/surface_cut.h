@@ -55,8 +55,8 @@ namespace moraine
     std::vector<CutSlope<dim>> slopes;
     std::vector<double>        slopes_of_N; ///< n_nodes for each slope
 
-    /** Of which pieces take_means() finds slopes. What slides around a bend has
-     * one along the mean of its normals, which is none of the surface. */
+    /** Of which pieces take_means() finds slopes: a roller has none on curved
+     * pieces, whose mean normal is no normal of the surface. */
     enum class Slopes
     {
       none,

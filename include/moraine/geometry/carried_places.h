@@ -24,7 +24,7 @@ namespace moraine
     std::vector<unsigned int> places; ///< numbers, ascending
     std::vector<unsigned int> cells;  ///< by active_cell_index()
     std::vector<double>       N;      ///< nodes_per_cell() for each of cells
-    std::vector<dealii::Tensor<1, dim>> grad_N; ///< by present place, as N
+    std::vector<dealii::Tensor<1, dim>> grad_N; ///< by the present position
 
     /** Add the functions of a cell at the place number @p k.
      * @return where to write @p n values, and as many gradients. */
@@ -65,6 +65,11 @@ namespace moraine
       dealii::Tensor<1, dim> u;
       dealii::Tensor<2, dim> gradient; ///< @f$\partial u_i/\partial x_j@f$
     };
+
+    /** Add up what the ranks know of @p increments. */
+    static void
+    sum_over_ranks(std::vector<Increment> &increments,
+                   const MPI_Comm         &communicator);
 
     explicit CarriedPlaces(std::vector<Place> places);
 

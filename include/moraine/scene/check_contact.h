@@ -13,9 +13,8 @@
 namespace moraine
 {
   /**
-   * Whether the boundary @p name can be a contact, or has keys of one though
-   * it is none.
-   * @throws InputError for what contradicts.
+   * Check the keys of the boundary @p name against its constraint.
+   * @throws InputError for keys that contradict each other.
    */
   template <int dim>
   void

@@ -29,8 +29,8 @@ namespace moraine
   varies(const BoundaryParameters<dim> &parameters);
 
   /**
-   * Of the surface of the boundary @p name, which a displacement that is the
-   * same everywhere moves.
+   * The rigid motion of the boundary @p name: its motion and a uniform
+   * 'Displacement'.
    * @throws InputError for a displacement by which it would not be rigid.
    */
   template <int dim>
