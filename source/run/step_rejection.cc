@@ -118,10 +118,12 @@ namespace moraine
   void
   StepDriver<dim>::split_jump(const NewtonReport &report)
   {
-    const double t = time_control.time();
+    const double          t    = time_control.time();
+    const TimeParameters &time = scene.stages[stage].second.time;
+    // Later, what points that cross cells leave out of balance is no jump.
     if (report.status == NewtonStatus::linear_solver_failed ||
-        scene.stages[stage].second.time.integrator.dynamic() ||
-        time_control.follows_path() || fading.acts_at(t))
+        time.integrator.dynamic() || time.follows_path() ||
+        t != time.start_time || fading.acts_at(t))
       return;
     const auto jump = model.system->imbalance_at_start();
     if (!(jump.share > least_jump))

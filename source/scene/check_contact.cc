@@ -39,9 +39,18 @@ namespace moraine
              "augmented Lagrangian, incomplete Nitsche; key 'Constraint' is "
              "'contact'");
     if (!touches && has_flux)
-      reject(section, "Enforcement", how, "others; this one is for contact");
-    if (touches && has_flux && scene.is_dynamic())
-      reject(section, "Enforcement", how, "augmented Lagrangian in dynamics");
+      reject(section,
+             "Enforcement",
+             how,
+             "skew or symmetric Nitsche; key 'Constraint' is '" +
+               boundary.constraint + "'");
+    if (touches && has_flux &&
+        (scene.is_dynamic() ||
+         scene.method.strain_measure() != StrainMeasure::small))
+      reject(section,
+             "Enforcement",
+             how,
+             "augmented Lagrangian in dynamics and at finite strain");
     boundary.contact.law(section);
   }
 

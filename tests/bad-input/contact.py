@@ -34,7 +34,10 @@ refused("adhesion that the least tension breaks", {"Adhesion": 1})
 refused("tension that has no end", {"Tensile strength": 1, "Separation": "false"})
 refused("another enforcement", {"Enforcement": "penalty"})
 refused("flux in dynamics", {"Enforcement": "incomplete Nitsche",
+                             "Materials/soil/Density": 1,
                              "Time/Integrator": "Newmark"})
+refused("flux at finite strain", {"Enforcement": "incomplete Nitsche",
+                                  "Method/Strain": "finite"})
 refused("flux for contact", {"Enforcement": "incomplete Nitsche",
                              "Constraint": "roller"})
 refused("keys of others", {"Enforcement": "augmented Lagrangian",
