@@ -48,11 +48,7 @@ namespace moraine
                 mean[block.means.places[c * n + a]] +=
                   block.means.share(i, c) * block.means.gradients[c * n + a];
             for (unsigned int a = 0; a < block.n_nodes; ++a)
-              {
-                auto &of_node = flux.gradients[block.nodes[a]];
-                of_node.own += volume * grad_N[a];
-                of_node.mean += volume * mean[a];
-              }
+              flux.gradients[block.nodes[a]].add({grad_N[a], mean[a]}, volume);
           }
       }
     return fluxes;

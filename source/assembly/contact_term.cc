@@ -316,6 +316,19 @@ namespace moraine
 
 
   template <int dim>
+  double
+  ContactTerm<dim>::rounded_length() const
+  {
+    double largest = 0;
+    if (acts)
+      for (const ContactUnit<dim> &unit : boundary.units())
+        largest = std::max(largest, coordinate_magnitude(unit.x));
+    return largest;
+  }
+
+
+
+  template <int dim>
   bool
   ContactTerm<dim>::acts_otherwise(const StepContext<dim> &context) const
   {
@@ -423,64 +436,74 @@ namespace moraine
 
 
   template <int dim>
-  void
-  ContactTerm<dim>::prepare(const StepContext<dim> &context, const LA::Vector &)
+  std::vector<typename ContactBoundary<dim>::OfUnit>
+  ContactTerm<dim>::sum_units(const StepContext<dim> &context)
   {
-    using OfUnit                  = typename ContactBoundary<dim>::OfUnit;
-    const State<dim>      &state  = context.state;
-    const GridSpace<dim>  &space  = state.grid();
-    const auto            &motion = boundary.rigid_motion();
-    const Placement<dim>   pose   = motion.pose(context.t_end);
-    constexpr unsigned int n      = 2 * dim + 5;
+    const auto            &motion       = boundary.rigid_motion();
+    const Placement<dim>   pose         = motion.pose(context.t_end);
+    const MPI_Comm         communicator = context.state.grid().communicator();
+    constexpr unsigned int n            = 2 * dim + 5;
     std::vector<double>    sums(n * boundary.units().size(), 0.);
     prepared = {boundary.name(), {}, 0., 0., 0., 0.};
-    prepared.contact.emplace();
     for (const LocalUnit &unit : local_units)
       {
-        const Trial           now = trial(context, unit);
-        const Tensor<1, dim> &t   = now.response.traction;
-        const auto           &of  = boundary.units()[unit.number];
-        const double          slip =
-          now.response.status == ContactStatus::slip ? now.gap.slip.norm() : 0.;
-        double              *sum = &sums[n * unit.number];
-        const Tensor<1, dim> excess =
+        const Trial           now  = trial(context, unit);
+        const Tensor<1, dim> &t    = now.response.traction;
+        const auto           &of   = boundary.units()[unit.number];
+        const bool            slid = now.response.status == ContactStatus::slip;
+        const Tensor<1, dim>  excess =
           t - now.multiplier - now.flux +
           turned<dim>(of.excess, of.normal, now.gap.normal);
+        double *sum = &sums[n * unit.number];
         for (unsigned int d = 0; d < dim; ++d)
           {
             sum[d] += unit.area * t[d];
-            sum[dim + 5 + d] += unit.area * excess[d];
+            sum[dim + d] += unit.area * excess[d];
           }
-        sum[dim + unsigned(now.response.status)] += unit.area;
-        sum[dim + 3] += unit.area * slip;
-        sum[dim + 4] += slip > 0. ? unit.area * (t * now.gap.slip) : 0.;
+        sum[2 * dim + unsigned(now.response.status)] += unit.area;
+        sum[2 * dim + 3] += slid ? unit.area * now.gap.slip.norm() : 0.;
+        sum[2 * dim + 4] += slid ? unit.area * (t * now.gap.slip) : 0.;
         prepared.reaction += unit.area * t;
         prepared.force_magnitude += unit.area * t.norm();
         prepared.moment += motion.moment(of.x + now.du, unit.area * t, pose);
         prepared.work_of_motion += unit.area * (t * now.gap.of_surface);
       }
-    sum_over_ranks(prepared, space.communicator());
-    Utilities::MPI::sum(sums, space.communicator(), sums);
-    std::vector<OfUnit> of_units(boundary.units().size());
+    sum_over_ranks(prepared, communicator);
+    prepared.violation = Utilities::MPI::max(violation(context), communicator);
+    Utilities::MPI::sum(sums, communicator, sums);
+    prepared.contact.emplace();
+    std::vector<typename ContactBoundary<dim>::OfUnit> of_units(
+      boundary.units().size());
     for (unsigned int u = 0; u < of_units.size(); ++u)
       {
         const double *sum    = &sums[n * u];
-        const double *status = sum + dim;
+        const double *status = sum + 2 * dim;
         const double  area   = status[0] + status[1] + status[2];
         for (unsigned int d = 0; d < dim; ++d)
           {
             of_units[u].traction[d] = sum[d] / area;
-            of_units[u].excess[d]   = sum[dim + 5 + d] / area;
+            of_units[u].excess[d]   = sum[dim + d] / area;
           }
         of_units[u].status = static_cast<ContactStatus>(
           std::max_element(status, status + 3) - status);
-        of_units[u].slip = sum[dim + 3] / area;
-        of_units[u].work = sum[dim + 4] / area;
+        of_units[u].slip = status[3] / area;
+        of_units[u].work = status[4] / area;
         prepared.contact->area += status[1] + status[2];
         prepared.contact->slipping_area += status[2];
       }
-    const auto moves =
-      boundary.places_of_rim().increments(space, context.increments());
+    return of_units;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::prepare(const StepContext<dim> &context, const LA::Vector &)
+  {
+    const State<dim> &state    = context.state;
+    const auto        of_units = sum_units(context);
+    const auto        moves =
+      boundary.places_of_rim().increments(state.grid(), context.increments());
     for (unsigned int k = 0; k < moves.size(); ++k)
       prepared.penetration =
         std::max(prepared.penetration, boundary.depth(k, moves[k].u));
@@ -491,8 +514,6 @@ namespace moraine
                      state.strain_measure() == StrainMeasure::finite);
     prepared.contact->slip             = boundary.largest_slip();
     prepared.contact->work_of_friction = boundary.work_of_friction();
-    prepared.violation =
-      Utilities::MPI::max(violation(context), space.communicator());
   }
 
 

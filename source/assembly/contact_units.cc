@@ -4,7 +4,6 @@
 // The nodes, functions and stiffness of the units of a contact.
 
 #include <moraine/assembly/contact_term.h>
-#include <moraine/mesh/active_search.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -35,6 +34,43 @@ namespace moraine
           nodes.emplace(space.node_dof(node), node);
       return nodes;
     }
+
+
+
+    /** Entries by unit and unknown. */
+    template <int dim>
+    class EntrySums
+    {
+    public:
+      explicit EntrySums(const GridSpace<dim> &space)
+        : space(space)
+      {}
+
+      ContactEntry<dim> &
+      at(const unsigned int unit, const unsigned int node)
+      {
+        const auto         dof = space.node_dof(node);
+        ContactEntry<dim> &sum = sums[{unit, dof}];
+        sum.unit               = unit;
+        sum.dof                = dof;
+        return sum;
+      }
+
+      std::vector<ContactEntry<dim>>
+      list() const
+      {
+        std::vector<ContactEntry<dim>> entries;
+        for (const auto &[where, sum] : sums)
+          entries.push_back(sum);
+        return entries;
+      }
+
+    private:
+      const GridSpace<dim> &space;
+      std::map<std::pair<unsigned int, types::global_dof_index>,
+               ContactEntry<dim>>
+        sums;
+    };
   } // namespace
 
 
@@ -141,55 +177,30 @@ namespace moraine
         basis.functions_at(near) :
         basis.functions_of_cells(near);
     const unsigned int n = space.nodes_per_cell();
-    std::map<std::pair<unsigned int, types::global_dof_index>,
-             ContactEntry<dim>>
-               sums;
-    const auto sum_of = [&](const unsigned int k,
-                            const unsigned int node) -> ContactEntry<dim> & {
-      const auto         dof = space.node_dof(node);
-      ContactEntry<dim> &sum = sums[{unit_of[k], dof}];
-      sum.unit               = unit_of[k];
-      sum.dof                = dof;
-      return sum;
-    };
-    const auto has_points = [&](const unsigned int cell) {
-      const auto flux = fluxes.find(cell);
-      return flux == fluxes.end() || flux->second.volume > 0;
-    };
+    EntrySums<dim>     sums(space);
     for (unsigned int i = 0; i < functions.places.size(); ++i)
       {
         const unsigned int  k     = functions.places[i];
         const unsigned int *nodes = space.cell_nodes(functions.cells[i]);
-        const bool          own   = !has_points(near[k].active_cell_index);
+        const auto          flux  = fluxes.find(near[k].active_cell_index);
+        const bool          without_points =
+          flux != fluxes.end() && flux->second.volume == 0.;
         for (unsigned int a = 0; a < n; ++a)
-          if (functions.N[n * i + a] != 0. || own)
+          if (functions.N[n * i + a] != 0. || without_points)
             {
-              ContactEntry<dim> &sum = sum_of(k, nodes[a]);
+              ContactEntry<dim> &sum = sums.at(unit_of[k], nodes[a]);
               sum.N += near[k].weight * functions.N[n * i + a];
-              if (!own)
-                continue;
-              const Tensor<1, dim> g =
-                near[k].weight * functions.grad_N[n * i + a];
-              sum.gradients.own += g;
-              sum.gradients.mean += g;
+              if (without_points)
+                sum.gradients.add(near[k].weight * functions.grad_N[n * i + a]);
             }
       }
-    for (unsigned int k = 0; k < near.size() && !fluxes.empty(); ++k)
-      if (near[k].active_cell_index != GridSpace<dim>::no_cell)
-        {
-          const CellFlux<dim> &flux = fluxes.at(near[k].active_cell_index);
-          for (const auto &[node, gradients] : flux.gradients)
-            {
-              ContactEntry<dim> &sum = sum_of(k, node);
-              sum.gradients.own += near[k].weight / flux.volume * gradients.own;
-              sum.gradients.mean +=
-                near[k].weight / flux.volume * gradients.mean;
-            }
-        }
-    std::vector<ContactEntry<dim>> entries;
-    for (const auto &[where, sum] : sums)
-      entries.push_back(sum);
-    return entries;
+    for (unsigned int k = 0; k < near.size(); ++k)
+      if (const auto flux = fluxes.find(near[k].active_cell_index);
+          flux != fluxes.end())
+        for (const auto &[node, gradients] : flux->second.gradients)
+          sums.at(unit_of[k], node)
+            .gradients.add(gradients, near[k].weight / flux->second.volume);
+    return sums.list();
   }
 
 
@@ -229,8 +240,7 @@ namespace moraine
           {
             ContactEntry<dim> &sum = of[entry.unit][nodes.at(entry.dof)];
             sum.N += entry.N;
-            sum.gradients.own += entry.gradients.own;
-            sum.gradients.mean += entry.gradients.mean;
+            sum.gradients.add(entry.gradients, 1.);
           }
     local_units.clear();
     tangents.clear();

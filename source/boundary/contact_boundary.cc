@@ -88,6 +88,7 @@ namespace moraine
                                    const std::vector<bool> &present)
   {
     const double h = space.mesh().cell_size();
+    reach          = reach_of_contact * h;
     at_start.see_over(h);
     at_end.see_over(h);
     at_start.set_pose(motion.pose(t));
@@ -190,10 +191,40 @@ namespace moraine
     double       least = touches_soon * h;
     for (const ContactUnit<dim> &unit : all_units)
       least = std::min(least, unit.gap);
+    // At first corners of a body may touch alone, by the rounding of numbers.
     for (ContactUnit<dim> &unit : all_units)
-      unit.touches_first = least > 0 && least < touches_soon * h &&
-                           unit.gap <= least + as_near * h;
+      unit.touches_first = (began || least > 0) && unit.gap > 0 &&
+                           least < touches_soon * h &&
+                           unit.gap <= std::max(least, 0.) + as_near * h;
     keep_gaps();
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  ContactBoundary<dim>::cells_of(const std::vector<unsigned int> &places,
+                                 const GridSpace<dim>            &space) const
+  {
+    // The rank that has the functions of a place knows its cell.
+    std::vector<unsigned int> cells;
+    for (const unsigned int k : places)
+      {
+        const unsigned int cell = rim.places()[k].active_cell_index;
+        cells.push_back(cell == GridSpace<dim>::no_cell ? 0 : cell + 1);
+      }
+    Utilities::MPI::max(cells, space.communicator(), cells);
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      if (cells[i]-- == 0)
+        {
+          std::ostringstream message;
+          message << "contact boundary '" << boundary_name << "': the place ("
+                  << position(places[i])
+                  << ") of a rim near it is no longer on any material, or "
+                     "beyond the mesh";
+          throw ComputationError(message.str());
+        }
+    return cells;
   }
 
 
@@ -209,8 +240,7 @@ namespace moraine
     for (unsigned int k = 0; k < rim.places().size(); ++k)
       {
         const NearestPoint<dim> nearest = at_start.nearest(position(k));
-        if (nearest.in_extent &&
-            std::abs(nearest.level) <= reach_of_contact * h &&
+        if (nearest.in_extent && std::abs(nearest.level) <= reach &&
             nearest.normal * rim.places()[k].normal > cosine_of_contact)
           {
             near.push_back(k);
@@ -218,14 +248,7 @@ namespace moraine
             apart.push_back(carried[k].status == 0 && nearest.level > 0);
           }
       }
-    // The rank that has the functions of a place knows its cell.
-    std::vector<unsigned int> cells;
-    for (const unsigned int k : near)
-      {
-        const unsigned int cell = rim.places()[k].active_cell_index;
-        cells.push_back(cell == GridSpace<dim>::no_cell ? 0 : cell + 1);
-      }
-    Utilities::MPI::max(cells, space.communicator(), cells);
+    const std::vector<unsigned int> cells = cells_of(near, space);
     all_units.clear();
     std::vector<unsigned int> order(near.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -237,16 +260,7 @@ namespace moraine
     unsigned int first = 0;
     for (const unsigned int i : order)
       {
-        if (cells[i] == 0)
-          {
-            std::ostringstream message;
-            message << "contact boundary '" << boundary_name << "': the place ("
-                    << position(near[i])
-                    << ") of a rim near it is no longer on any material, or "
-                       "beyond the mesh";
-            throw ComputationError(message.str());
-          }
-        if (first == all_units.size() || all_units[first].cell != cells[i] - 1)
+        if (first == all_units.size() || all_units[first].cell != cells[i])
           first = all_units.size();
         auto unit = std::find_if(
           all_units.begin() + first, all_units.end(), [&](const auto &of) {
@@ -257,7 +271,7 @@ namespace moraine
           {
             all_units.emplace_back();
             unit         = all_units.end() - 1;
-            unit->cell   = cells[i] - 1;
+            unit->cell   = cells[i];
             unit->h      = h;
             unit->normal = on_surface[near[i]].normal;
             unit->apart  = apart[i];
@@ -416,10 +430,12 @@ namespace moraine
                               const Tensor<1, dim> &du) const
   {
     const NearestPoint<dim> nearest = at_end.nearest(position(k) + du);
-    return nearest.in_extent &&
-               nearest.normal * rim.places()[k].normal > cosine_of_contact ?
-             std::max(0., -nearest.level) :
-             0.;
+    if (!nearest.in_extent || nearest.level >= 0 ||
+        nearest.normal * rim.places()[k].normal <= cosine_of_contact)
+      return 0.;
+    // What began far behind the surface is on the other side of a wall.
+    const std::optional<double> before = distance_at_start(k);
+    return before.value_or(nearest.level) < -reach ? 0. : -nearest.level;
   }
 
 

@@ -15,11 +15,20 @@ bound("silo: floor and walls less weight, over it",
       (rows[-1]["reaction_y of floor"] + rows[-1]["reaction_y of wall"]) / (H * GAMMA / 2)
       - 1, 1e-8)
 
-rows = run("prm/geotechnics/pile-pulled.prm", QUIET).history()
+result = run("prm/geotechnics/pile-pulled.prm", QUIET)
+rows = result.history()
 # tan(25 degrees) K0 gamma L^2/2 = 37.3, less as the sand gives: h/4 has 35.37 and 35.44
 # (augmented Lagrangian).
 number("pile: one side of the shaft, 35.4 kN/m", rows[-1]["reaction_y of pile"], 4)
 bound("pile: error", rows[-1]["reaction_y of pile"] / 35.4 - 1, 0.02)
+# Beside the tip, a corner, stress is singular.
+cells = {}
+for (_, y, _), (pressure, _, _) in result.contact("position", "traction"):
+    if y > 3:
+        cells.setdefault(int(y / 0.25), []).append(pressure)
+means = [sum(cells[k]) / len(cells[k]) for k in sorted(cells, reverse=True)]
+text("pile: pressure grows with depth from cell to cell",
+     all(below > above - 1e-6 for above, below in zip(means, means[1:])))
 
 rows = run("prm/geotechnics/pipe.prm", QUIET).history()
 PIPE = 4.97 * 10 * 0.55 ** 0.23 / 2

@@ -22,6 +22,21 @@ namespace moraine
     {
       dealii::Tensor<1, dim> own;  ///< of the points
       dealii::Tensor<1, dim> mean; ///< by which the volume changes
+
+      void
+      add(const Gradients &other, const double factor)
+      {
+        own += factor * other.own;
+        mean += factor * other.mean;
+      }
+
+      /** One gradient for both. */
+      void
+      add(const dealii::Tensor<1, dim> &both)
+      {
+        own += both;
+        mean += both;
+      }
     };
 
     double                            volume = 0;

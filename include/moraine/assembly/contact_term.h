@@ -101,6 +101,10 @@ namespace moraine
     double
     violation(const StepContext<dim> &context) const override;
 
+    /** A gap is the distance of places. */
+    double
+    rounded_length() const override;
+
     bool
     acts_otherwise(const StepContext<dim> &context) const override;
 
@@ -200,6 +204,11 @@ namespace moraine
 
     Trial
     trial(const StepContext<dim> &context, const LocalUnit &unit) const;
+
+    /** The end of the step of all units, and what the report says of forces.
+     * Collective. */
+    std::vector<typename ContactBoundary<dim>::OfUnit>
+    sum_units(const StepContext<dim> &context);
 
     /** Add what the flux of a unit adds to the matrix; @p derivative is that of
      * the traction by the trial traction. */

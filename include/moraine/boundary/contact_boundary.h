@@ -58,8 +58,8 @@ namespace moraine
     bool                   was_open = false;
     /** All places are in front of the surface and were open before. */
     bool apart = false;
-    /** No unit touches the surface yet; the first tangent lets this one stick,
-     * as nothing else may hold the body. */
+    /** No unit touches the surface yet, or it begins to act: the first tangent
+     * lets this one stick, as nothing else may hold the body. */
     bool touches_first = false;
   };
 
@@ -121,8 +121,9 @@ namespace moraine
     ContactGap<dim>
     gap(const ContactUnit<dim> &unit, const dealii::Tensor<1, dim> &du) const;
 
-    /** Distance from the surface at the end of the step of the place @p k
-     * that moves by @p du; 0 if it is in front or beyond its ends. */
+    /** Depth behind the surface at the end of the step of the place @p k that
+     * moves by @p du; 0 if it is in front, beyond the ends, or on the other
+     * side of the wall. */
     double
     depth(const unsigned int k, const dealii::Tensor<1, dim> &du) const;
 
@@ -292,6 +293,12 @@ namespace moraine
             const bool            turns,
             const unsigned int    body);
 
+    /** The active cells of @p places. @throws ComputationError for a place
+     * without one. Collective. */
+    std::vector<unsigned int>
+    cells_of(const std::vector<unsigned int> &places,
+             const GridSpace<dim>            &space) const;
+
     /** Let each cell's places near the surface be a unit. */
     void
     gather_units(const GridSpace<dim> &space);
@@ -324,6 +331,7 @@ namespace moraine
     /** The nearest point to each place of a unit, at the start of the step. */
     std::vector<NearestPoint<dim>> on_surface;
     std::vector<bool>              has_rim;          ///< bodies with places
+    double                         reach    = 0;     ///< of units [length]
     bool                           acted    = false; ///< in the last step
     bool                           acts_now = false; ///< in this one
     bool                           began    = false; ///< to act in it
