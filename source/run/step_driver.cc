@@ -250,7 +250,7 @@ namespace moraine
                      change_of_bodies(parameters, before)));
     if (parameters.reset_displacements)
       ask(When::strains_end);
-    has_fading_forces = false;
+    fading.has_term = false;
     diagnostics.stage_begins(parameters.bodies != before.bodies,
                              parameters.time.integrator.dynamic() &&
                                !before.time.integrator.dynamic());

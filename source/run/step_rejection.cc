@@ -142,9 +142,9 @@ namespace moraine
   void
   StepDriver<dim>::add_fading_forces()
   {
-    if (!has_fading_forces)
+    if (!fading.has_term)
       model.system->add(std::make_unique<FadingForcesTerm<dim>>(fading));
-    has_fading_forces = true;
+    fading.has_term = true;
   }
 
 

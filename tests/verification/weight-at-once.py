@@ -19,8 +19,8 @@ Output/Points = false | Mesh = false | Checkpoint every = 1 step
 Time/Steps = 1
 """
 WEIGHT = 1.8 * 9.81 * 18
-for name, keys, most in (("small strain", {"Method/Mesh after step": "keep"}, 0.01),
-                         ("finite strain", {"Method/Strain": "finite"}, 0.03)):
+for name, keys in (("small strain", {"Method/Mesh after step": "keep"}),
+                   ("finite strain", {"Method/Strain": "finite"})):
     scene = scene_file("bin.prm", BIN)
     grows = run(scene, {**QUIET, **keys, "Method/Method": "GIMP",
                         "Loads/weight/Curve": "t"}).history()[-1]
@@ -29,10 +29,9 @@ for name, keys, most in (("small strain", {"Method/Mesh after step": "keep"}, 0.
     text(f"{name}: comes in parts", len(rows) > 2)
     sides = [rows[-1][f"reaction_y of {side}"] for side in ("left", "right", "floor")]
     bound(f"{name}: walls and floor over the weight - 1", sum(sides) / WEIGHT - 1, 1e-7)
-    for side in ("left", "floor"):
-        of = f"reaction_y of {side}"
-        bound(f"{name}: {side}, over that of a weight that grows - 1",
-              rows[-1][of] / grows[of] - 1, most)
+    of = "reaction_y of floor"
+    bound(f"{name}: floor, over that of a weight that grows - 1",
+          rows[-1][of] / grows[of] - 1, 0.01 if name == "small strain" else 0.03)
     history = (once.folder / "history.csv").read_bytes()
     half = len(rows) - 1
     run(once.folder, command="resume", extra=["--from", half])

@@ -67,6 +67,8 @@ namespace moraine
     void
     read(const Archive &archive) override;
 
+    bool has_term = false; ///< among those of the system
+
   private:
     NodeValuesRecord<dim>               forces;
     std::vector<dealii::Tensor<1, dim>> of_nodes; ///< in this step

@@ -276,7 +276,6 @@ namespace moraine
     std::optional<NodeValuesRecord<dim>>  last_increment; ///< along a path
     std::optional<FirstPart>              first_part;     ///< if accepted
     FadingForces<dim>                     fading;
-    bool                                  has_fading_forces = false; ///< a term
     SimulationState                       lasting;
     RunCounts                             sums;
     std::vector<BoundaryReport<dim>>      last_reports;
