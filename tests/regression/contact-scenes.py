@@ -23,12 +23,13 @@ number("pile: one side of the shaft, 35.4 kN/m", rows[-1]["reaction_y of pile"],
 bound("pile: error", rows[-1]["reaction_y of pile"] / 35.4 - 1, 0.02)
 # Beside the tip, a corner, stress is singular.
 cells = {}
-for (_, y, _), (pressure, _, _) in result.contact("position", "traction"):
-    if y > 3:
+for (x, y, _), (pressure, _, _) in result.contact("position", "traction"):
+    if x < 0.3 and y > 3:
         cells.setdefault(int(y / 0.25), []).append(pressure)
 means = [sum(cells[k]) / len(cells[k]) for k in sorted(cells, reverse=True)]
-text("pile: pressure grows with depth from cell to cell",
-     all(below > above - 1e-6 for above, below in zip(means, means[1:])))
+text("pile: pressure grows with depth from cell to cell, but for 5 %",
+     means[-1] > 20 and all(below >= 0.95 * above
+                            for above, below in zip(means, means[1:])))
 
 rows = run("prm/geotechnics/pipe.prm", QUIET).history()
 PIPE = 4.97 * 10 * 0.55 ** 0.23 / 2
