@@ -159,8 +159,8 @@ namespace moraine
          const dealii::Tensor<1, dim> &from,
          const dealii::Tensor<1, dim> &to)
   {
-    if (from * to <= 0.)
-      return v; // another side of a corner
+    if (1. + from * to < 1e-6)
+      return v; // the other side of a blade: there is no one axis
     // 1 + W + W^2/(1 + cos), W = to (x) from - from (x) to
     const auto W = [&](const dealii::Tensor<1, dim> &w) {
       return (from * w) * to - (to * w) * from;
