@@ -116,7 +116,7 @@ class Rim:
                   label="shear stress")
         axes.axhline(0, color="#888888", lw=0.8)
         axes.set_xlabel(render.with_unit(
-            "distance along the surface, the body on the left", unit))
+            "distance along the surface", unit))
         axes.set_ylabel(render.with_unit("stress on the body", of_stress))
         axes.grid(color="#dddddd")
         axes.legend(frameon=False)
