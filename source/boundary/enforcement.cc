@@ -23,8 +23,8 @@ namespace moraine
       "with a band of 0.01, because Nitsche's flux is elastic, linear in the "
       "increment of a step and that of its end; else in dynamics symmetric "
       "Nitsche, because the skew flux feeds vibrations. Of contact: incomplete "
-      "Nitsche (without the adjoint flux) in statics at small strain, else, with "
-      "'Solver = amg-cg' and beside free water augmented Lagrangian.",
+      "Nitsche (without the adjoint flux) in statics at small strain, else and "
+      "beside free water augmented Lagrangian.",
       Patterns::Selection("skew Nitsche|symmetric Nitsche|incomplete Nitsche|"
                           "augmented Lagrangian|weighted|penalty"));
     prm.add_parameter("Band width",

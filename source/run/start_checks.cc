@@ -52,8 +52,7 @@ namespace moraine
       text << "section 'Boundaries/" << boundary.name()
            << "': found a body behind the surface by " << deepest.first
            << " at (" << boundary.position(deepest.second)
-           << "), allowed: a tenth of a cell; reversed points or 'Flip' turn "
-              "the surface";
+           << "), allowed: a tenth of a cell; 'Flip' turns the surface";
       throw InputError(text.str());
     }
 

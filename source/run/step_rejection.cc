@@ -84,9 +84,10 @@ namespace moraine
       (in_vain || n_rejections == rejections_before_support) &&
       ((!yields_in_full_cell(model, report) && hold_empty_parts()) ||
        (!in_vain && !report.converged() && take_back_support()));
-    if (!in_vain)
+    const double cut = wanted_cut(model);
+    if (!in_vain && cut == 1)
       split_jump(report);
-    const bool repeats = time_control.reject(reason, wanted_cut(model));
+    const bool repeats = time_control.reject(reason, cut);
     if (supported)
       {
         time_control.take_back_cuts();

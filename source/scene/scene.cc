@@ -228,7 +228,6 @@ namespace moraine
       choose_volumetric_strain(given);
     choose_gauss_points(given, any_yields);
     const bool has_flux = !is_dynamic() && !water_differs &&
-                          linear_solver.solver != "amg-cg" &&
                           method.strain_measure() == StrainMeasure::small;
     choose_enforcement_of_contact(has_flux ? "incomplete Nitsche" :
                                              "augmented Lagrangian",

@@ -60,13 +60,12 @@ namespace moraine
       reject(section,
              "Displacement",
              parameters.displacement,
-             "expressions in t, as the surface moves as a rigid body");
+             "expressions in t: the surface is rigid");
     if (varies(parameters) && scene.method.after_step() != MeshAfterStep::keep)
       reject(section,
              "Displacement",
              parameters.displacement,
-             "expressions in t, as the surface moves as a rigid body; in x, "
-             "y, z with 'Mesh after step = keep'");
+             "expressions in t; in x, y, z with 'Mesh after step = keep'");
     std::function<Tensor<1, dim>(const double)> of_surface;
     if (!varies(parameters) && !parameters.displacement.empty())
       of_surface = [given, first = first_time_of(name, scene)](const double t) {
