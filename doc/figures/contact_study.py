@@ -113,7 +113,7 @@ def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     page = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else \
         ROOT / "doc" / "topics" / "contact.md"
-    lines = ["| method, band | h | p₀ | p, L2 | time [s] | h of the ring | torque | time [s] |",
+    lines = ["| method, band | h | p₀ | L2 error of pressure | time [s] | h of the ring | torque | time [s] |",
              "|---|---|---|---|---|---|---|---|"]
     for method, band, size in CASES:
         h, of_ring = 0.6 / 2 ** size, 0.25 / 2 ** size
