@@ -121,7 +121,8 @@ namespace moraine
   {
     const double          t    = time_control.time();
     const TimeParameters &time = scene.stages[stage].second.time;
-    // Later, what points that cross cells leave out of balance is no jump.
+    // In later steps, points that cross cells leave forces out of balance; that
+    // is no sudden load.
     if (report.status == NewtonStatus::linear_solver_failed ||
         time.integrator.dynamic() || time.follows_path() ||
         t != time.start_time || fading.acts_at(t))

@@ -293,6 +293,11 @@ namespace moraine
             const bool            turns,
             const unsigned int    body);
 
+    /** Whether the rim at place @p k faces the surface at @p nearest, within
+     * the ends of it. */
+    bool
+    faces(const unsigned int k, const NearestPoint<dim> &nearest) const;
+
     /** The active cells of @p places. @throws ComputationError for a place
      * without one. Collective. */
     std::vector<unsigned int>
