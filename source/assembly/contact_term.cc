@@ -116,7 +116,7 @@ namespace moraine
   {
     boundary.set_target(context.t_end, /* anew = */ true);
     nothing_moved = true;
-    tangents.clear();
+    touched.clear();
   }
 
 
@@ -222,7 +222,7 @@ namespace moraine
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
     const double         weight = 1. + this->share_of_start(context);
     if (tangent)
-      tangents.emplace_back();
+      touched.emplace_back();
     for (const LocalUnit &unit : local_units)
       {
         const Trial           now = trial(context, unit);
@@ -235,7 +235,8 @@ namespace moraine
         Tensor<2, dim> stiffness;
         if (tangent)
           {
-            tangents.back().push_back(of_tangent(now));
+            touched.back().push_back(now.response.status !=
+                                     ContactStatus::open);
             const Tensor<2, dim> nn = outer_product(n, n);
             stiffness =
               now.response.derivative * (unit.c_n * nn + unit.c_t * (one - nn));
@@ -260,7 +261,7 @@ namespace moraine
         system.add(local, tangent);
       }
     if (tangent && nothing_moved)
-      tangents.clear();
+      touched.clear();
     nothing_moved = nothing_moved && !tangent;
   }
 
@@ -335,19 +336,15 @@ namespace moraine
     if (local_units.empty())
       return false;
     // The first tangent uses linearised forces: there is nothing to compare.
-    if (tangents.empty())
+    if (touched.empty())
       return true;
-    std::vector<OfTangent> now;
+    std::vector<bool> now;
     for (const LocalUnit &unit : local_units)
-      now.push_back(of_tangent(trial(context, unit)));
-    const auto is_as_now = [&](const auto &before) {
-      return std::equal(
-        now.begin(), now.end(), before.begin(), before.end(), acts_alike);
-    };
+      now.push_back(trial(context, unit).response.status !=
+                    ContactStatus::open);
     // Statuses that alternate must not bypass the line search for ever.
-    return !is_as_now(tangents.back()) &&
-           std::count_if(tangents.begin(), tangents.end(), is_as_now) <
-             most_returns;
+    return now != touched.back() &&
+           std::count(touched.begin(), touched.end(), now) < most_returns;
   }
 
 
@@ -411,7 +408,7 @@ namespace moraine
       for (unsigned int d = 0; d < dim; ++d)
         multipliers[u][d] = sums[(dim + 1) * u + d] / sums[(dim + 1) * u + dim];
     boundary.set_multipliers(multipliers);
-    tangents.clear();
+    touched.clear();
   }
 
 

@@ -243,7 +243,7 @@ namespace moraine
             sum.gradients.add(entry.gradients, 1.);
           }
     local_units.clear();
-    tangents.clear();
+    touched.clear();
     for (unsigned int u = 0; u < units.size(); ++u)
       {
         if (of[u].empty())

@@ -40,16 +40,18 @@ FULL = 20 * 10 ** 2 / 2
 def at_end(scene, motion, **keys):
     result = run(scene, {"Boundaries/wall/Translation": f"{motion}*t; 0", **QUIET,
                          **keys})
-    return result.history()[-1]
+    return result.history()[-1], result.summary["rejected_steps"]
 
 
 for name, motion, size in (("passive", 0.01, 1), ("active", -0.01, 0.5)):
-    row = at_end(CLAY, motion, **{"Mesh/Cell size": size})
+    row, rejected = at_end(CLAY, motion, **{"Mesh/Cell size": size})
     exact = FULL + (1 if motion > 0 else -1) * 20 * 10 * (1 + pi / 2)
     found = row["reaction_x of wall"]
     number(f"clay, {name}: force, exact {exact:.5g}", found, 4)
     bound("error", found / exact - 1, 0.03)
     bound("shear force over 200 - 1", abs(row["reaction_y of wall"]) / 200 - 1, 1e-4)
+    # Pieces that start or cease to slip must not bypass the line search.
+    text("rejected steps", rejected)
 
 PHI, DELTA = radians(30), radians(15)
 
@@ -62,7 +64,7 @@ def coulomb(sign):
 
 for name, motion, low, high in (
         ("passive", 0.1, 4.288, coulomb(1)), ("active", -0.01, coulomb(-1), 0.2944)):
-    row = at_end(SAND, motion)
+    row, _ = at_end(SAND, motion)
     found = row["reaction_x of wall"] / FULL
     number(f"sand, {name}: coefficient, {low:.4g} to {high:.4g}", found, 3)
     at_least("over the lower one", found / low, 0.97)

@@ -236,36 +236,13 @@ namespace moraine
               const LocalUnit              &local,
               Trial                        &trial) const;
 
-    /** The state of a unit of which Newton's matrix was made. */
-    struct OfTangent
-    {
-      ContactStatus          status;
-      dealii::Tensor<1, dim> shear;
-    };
-
-    OfTangent
-    of_tangent(const Trial &trial) const
-    {
-      const dealii::Tensor<1, dim> &t = trial.response.traction;
-      const dealii::Tensor<1, dim> &n = trial.gap.normal;
-      return {trial.response.status,
-              boundary.law().rubs() ? t - (t * n) * n :
-                                      dealii::Tensor<1, dim>()};
-    }
-
-    static bool
-    acts_alike(const OfTangent &a, const OfTangent &b)
-    {
-      return a.status == b.status &&
-             (a.status != ContactStatus::slip || a.shear * b.shear >= 0.);
-    }
-
     ContactBoundary<dim>   &boundary;
     const std::vector<bool> bodies_present;
     const bool              acts;
     std::vector<LocalUnit>  local_units;
-    /** Of local units, since the last pass; not the linearised one. */
-    mutable std::vector<std::vector<OfTangent>> tangents;
+    /** Whether local units touched, of each tangent since the last pass but the
+     * linearised one. */
+    mutable std::vector<std::vector<bool>> touched;
     /** Whether no tangent was added since the trial began. */
     mutable bool                           nothing_moved = true;
     std::vector<std::vector<unsigned int>> coupled_before;

@@ -190,8 +190,8 @@ namespace moraine
     virtual double
     violation(const StepContext<dim> &context) const = 0;
 
-    /** Whether places of this rank have another status than when the last
-     * tangent was added. */
+    /** Whether places of this rank touch that did not when the last tangent was
+     * added, or the other way round. */
     virtual bool
     acts_otherwise(const StepContext<dim> &) const
     {

@@ -48,9 +48,9 @@ namespace moraine
     virtual void
     assemble(const LA::Vector &x, const bool tangent) = 0;
 
-    /** Whether other forces act than when the last tangent was assembled, as
-     * places have come into contact: the residual at the end of Newton's step
-     * may be larger, though the step is a good one. Collective. */
+    /** Whether places have come into contact or left it since the last tangent
+     * was assembled: the residual at the end of Newton's step may be larger,
+     * though the step is a good one. Collective. */
     virtual bool
     acts_otherwise() const
     {
