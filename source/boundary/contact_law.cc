@@ -6,6 +6,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace moraine
 {
@@ -19,8 +20,11 @@ namespace moraine
                        const double          round_off) const
   {
     ContactResponse<dim> result;
-    const double         tau_n = trial * normal;
-    if (separates && tau_n > (was_open ? 0. : tensile_strength) + round_off)
+    const double         tau_n    = trial * normal;
+    const double         strength = was_open  ? 0. :
+                                    separates ? tensile_strength :
+                                                std::numeric_limits<double>::infinity();
+    if (tau_n > strength + round_off)
       {
         result.status = ContactStatus::open;
         return result;

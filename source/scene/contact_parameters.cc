@@ -43,8 +43,9 @@ namespace moraine
                       patterns::non_negative());
     prm.add_parameter("Separation",
                       separation,
-                      "Of 'contact': whether the interface can open. false: a "
-                      "roller with friction that also carries tension.");
+                      "Of 'contact': whether the interface can open. false: "
+                      "where it touches it becomes a roller with friction that "
+                      "also carries tension.");
   }
 
 

@@ -91,6 +91,8 @@ namespace
     const auto found = law.response(trial, n, false, 0.);
     EXPECT_EQ(found.traction[0], 10);
     EXPECT_EQ(found.traction[1], 0); // tension leaves nothing of the adhesion
+    // An open gap stays open until it closes.
+    EXPECT_EQ(law.response(trial, n, true, 0.).status, ContactStatus::open);
   }
 
 

@@ -42,7 +42,7 @@ namespace moraine
     double friction         = 0;    ///< @f$\mu@f$
     double adhesion         = 0;    ///< c [stress]
     double tensile_strength = 0;    ///< @f$p_t@f$ [stress]
-    bool   separates        = true; ///< else tension has no limit
+    bool   separates        = true; ///< else a closed gap stays closed
 
     /** Whether there is a shear traction. */
     bool
