@@ -63,3 +63,23 @@ for name, alpha, method in (("smooth", 0, "GIMP"), ("rough", 1, "GIMP"),
     found = 4 * row["reaction_y of bar"] / 10
     number(f"T-bar, {name}, {method}: force over su D, exact {exact:.5g}", found, 3)
     bound("error", found / exact - 1, 0.04)
+
+# A block with a step, pulled up: only the half that touches is held.
+STEP = """
+Dimension = 2
+Mesh/Lower corner = -1, -0.5 | Upper corner = 3, 2 | Cell size = 0.25
+Method/Method = GIMP
+Materials/rock/Young modulus = 1e5 | Poisson ratio = 0.3
+Bodies/block/Shape = polygon
+Bodies/block/Vertices = 0 0; 1 0; 1 0.07; 2 0.07; 2 1; 0 1
+Boundaries/base/Points = -9 0; 9 0 | Constraint = contact
+Boundaries/base/Adhesion = 10 | Separation = false
+Boundaries/top/Points = 9 1; -9 1 | Constraint = fixed | Displacement = 0; 1e-4*t
+Time/Steps = 2
+"""
+rows = run(scene_file("step.prm", STEP), QUIET).history()
+bound("block with a step: contact area - 1", rows[-1]["contact area of base"] - 1,
+      0.13)
+bound("force of two steps over that of one, - 2",
+      rows[1]["reaction_y of base"] / rows[0]["reaction_y of base"] - 2, 1e-3)
+at_least("tension", -rows[-1]["reaction_y of base"] / 1e5, 5e-5)
