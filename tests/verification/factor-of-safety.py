@@ -13,7 +13,7 @@ SCENE = "prm/geotechnics/factor-of-safety.prm"
 HEIGHT, WEIGHT, STRENGTH = 8, 2 * 9.81, 32
 
 
-def stability_of_circle(ground, a, b, depth, n=400):
+def stability_of_circle(ground, a, b, depth):
     """F gamma / c of the circle with centre a, b that reaches down to depth
     below the foot: its resisting moment over that of the weight, c = gamma = 1.
     ground: crest and foot of the slope between level ground."""
@@ -25,13 +25,14 @@ def stability_of_circle(ground, a, b, depth, n=400):
     end = a + math.sqrt(max(0, radius**2 - (b - foot)**2))
     if not (left < start < x0 and x1 < end < right):
         return math.inf
-    dx = (end - start) / n
-    moment = 0
-    for i in range(n):
-        x = start + (i + 0.5) * dx
-        level = top + (foot - top) * min(max((x - x0) / (x1 - x0), 0), 1)
-        moment += (a - x) * dx * (
-            level - b + math.sqrt(radius**2 - (x - a)**2))
+    # The integral of (a - x) (ground(x) - b + sqrt(radius^2 - (x - a)^2)): the
+    # root in closed form, the rest by Simpson's rule, exact on straight ground.
+    arc = [math.sqrt(radius**2 - (x - a)**2)**3 / 3 for x in (start, end)]
+    moment = arc[1] - arc[0]
+    for (u, v), (p, q) in (((start, x0), (top, top)), ((x0, x1), (top, foot)),
+                           ((x1, end), (foot, foot))):
+        middle = (a - (u + v) / 2) * ((p + q) / 2 - b)
+        moment += (v - u) / 6 * ((a - u) * (p - b) + 4 * middle + (a - v) * (q - b))
     angle = math.asin((end - a) / radius) + math.asin((a - start) / radius)
     return radius**2 * angle / moment if moment > 0 else math.inf
 
@@ -41,7 +42,7 @@ def worst_circle(ground, depth):
     (x0, top), (x1, foot) = ground[1:3]
     height = top - foot
     best = min((stability_of_circle(ground, (x0 + x1) / 2 + i * height / 8,
-                                    top + 0.05 * height * 1.25**j, depth, 50),
+                                    top + 0.05 * height * 1.25**j, depth),
                 (x0 + x1) / 2 + i * height / 8,
                 top + 0.05 * height * 1.25**j)
                for i in range(-8, 9) for j in range(40))
@@ -127,7 +128,7 @@ for name, settings in (
         ("few steps along the path", {"Time/Arc length": 0.05, "Time/Steps": 6,
                                       "Mesh/Cell size": 2,
                                       "Strength reduction/Upper factor": 10})):
-    result = study(settings, expect=1, on_ranks=2)
+    result = study(settings, expect=1, on_ranks=2 if name == "upper stands" else 1)
     text(name, result.cases[0]["status"])
     text("  said", next(line for line in result.output.splitlines()
                         if "no factor of safety" in line).strip()[:110])
