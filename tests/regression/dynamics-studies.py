@@ -30,7 +30,7 @@ for name, error in (("stands", column), ("flies", flight)):
 
 static = study("prm/studies/double-mapping-static.prm", {"Mesh/Cells": "1, 32"})
 dynamic = study("prm/studies/double-mapping-dynamic.prm",
-                {"Mesh/Cells": "1, 41", "Time/Steps": 1600})
+                {"Mesh/Cells": "1, 41", "Time/Steps": 800})
 moving = study("prm/studies/double-mapping-flight.prm",
                {"Mesh/Cells": "1, 60", "Time/Steps": 800})
 for name, error, least in (("at rest", static, 2.5), ("under a pulse", dynamic, 3),
