@@ -32,7 +32,8 @@ namespace moraine
                                             "points.pvd",
                                             "mesh.pvd",
                                             "boundaries.pvd",
-                                            "domains.pvd"};
+                                            "domains.pvd",
+                                            "contact.pvd"};
     /** What a run has that fails before. */
     constexpr const char *other_names[] = {"summary.json",
                                            "log.txt",
@@ -46,7 +47,8 @@ namespace moraine
     constexpr const char *series_names[]     = {"points",
                                                 "mesh",
                                                 "boundaries",
-                                                "domains"};
+                                                "domains",
+                                                "contact"};
     constexpr const char *checkpoint_names[] = {"last", "a.h5", "b.h5"};
 
     /** Whether a file name is of the kind OutputDirectory::vtu_name() gives. */

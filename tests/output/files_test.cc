@@ -138,8 +138,13 @@ namespace moraine
     for (const char *name : {"/mine.txt", "/points/mine.vtu", "/mesh/1.vtu"})
       touch(path + name);
     EXPECT_EQ(refusal(path), "not refused");
-    for (const char *name :
-         {"/history.csv", "/points/00000.vtu", "/mesh/00003.vtu", "/mesh.pvd"})
+    const auto written = {"/history.csv",
+                          "/points/00000.vtu",
+                          "/mesh/00003.vtu",
+                          "/mesh.pvd",
+                          "/contact/00002.vtu"};
+    std::filesystem::create_directories(path + "/contact");
+    for (const char *name : written)
       touch(path + name);
 
     EXPECT_EQ(refusal(path),
@@ -150,8 +155,7 @@ namespace moraine
     MPI_Barrier(MPI_COMM_WORLD);
 
     const OutputDirectory directory(path, true, MPI_COMM_WORLD);
-    for (const char *name :
-         {"/history.csv", "/points/00000.vtu", "/mesh/00003.vtu", "/mesh.pvd"})
+    for (const char *name : written)
       EXPECT_FALSE(std::filesystem::exists(path + name)) << name;
     for (const char *name : {"/mine.txt", "/points/mine.vtu", "/mesh/1.vtu"})
       EXPECT_EQ(content(path + name), "old") << name;
