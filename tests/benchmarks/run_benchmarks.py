@@ -6,8 +6,9 @@
 measured and what is allowed, and exit with 1 if a threshold is missed.
 
 Ratios compare runs on the same machine a moment apart; times are medians. Of
-one process they are processor seconds, of several ranks wall seconds, so the
-cases "ranks", "plastic3d" and "peers" need an idle machine.
+one process they are processor seconds, of several ranks and of whole programs
+wall seconds, so the cases "ranks", "contact", "plastic3d" and "peers" need an
+idle machine.
 """
 
 import argparse
