@@ -20,11 +20,10 @@ namespace moraine
                        const double          round_off) const
   {
     ContactResponse<dim> result;
-    const double         tau_n    = trial * normal;
-    const double         strength = was_open  ? 0. :
-                                    separates ? tensile_strength :
-                                                std::numeric_limits<double>::infinity();
-    if (tau_n > strength + round_off)
+    const double         tau_n = trial * normal;
+    const double         p_t =
+      separates ? tensile_strength : std::numeric_limits<double>::infinity();
+    if (tau_n > (was_open ? 0. : p_t) + round_off)
       {
         result.status = ContactStatus::open;
         return result;

@@ -41,8 +41,8 @@ namespace moraine
   {
     double friction         = 0;    ///< @f$\mu@f$
     double adhesion         = 0;    ///< c [stress]
-    double tensile_strength = 0;    ///< @f$p_t@f$ [stress]
-    bool   separates        = true; ///< else a closed gap stays closed
+    double tensile_strength = 0;    ///< @f$p_t@f$ [stress], if it separates
+    bool   separates        = true; ///< else @f$p_t = \infty@f$
 
     /** Whether there is a shear traction. */
     bool
